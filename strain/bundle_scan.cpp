@@ -49,6 +49,8 @@ MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, c
   for (int lane = 0; lane < lanes; ++lane) {
     const double angle = angles[lane < static_cast<int>(angles.size()) ? lane : 0];
     mixed.slip[lane] = 0;
+    mixed.least_slip[lane] = -glued;
+    mixed.most_slip[lane] = glued;
     mixed.shape[0][lane] = static_cast<float>(std::sin(angle));
     mixed.shape[1][lane] = static_cast<float>(std::cos(angle));
     mixed.shape[2][lane] = static_cast<float>(std::sin(2 * angle));
@@ -131,15 +133,22 @@ void BundleScan::scan_waves(std::size_t count, Wanted wanted) {
 void BundleScan::scan_mixed(std::size_t count, Wanted wanted) {
   const int fibres = settings_.fibre_count, kinds = ingredients(fibres);
   const auto scan = wanted == Wanted::turns ? kernels().scan_strains : kernels().rank_strains;
-  strains_.resize(fibres * block_samples * lanes);
-  for (Group& group : groups_) {
-    const float* of_layer = waves_.data() + group.layer * kinds * waves_per_layer * block_samples;
-    kernels().mix(group.mixed, of_layer, block_samples, count, fibres, strains_.data());
+  const std::size_t of_group = fibres * block_samples * lanes;
+  strains_.resize(2 * of_group);
+  for (std::size_t g = 0; g < groups_.size();) {
+    const std::size_t together = g + 1 < groups_.size() && groups_[g + 1].mirrors ? 2 : 1;
+    const std::span<Group> here(groups_.data() + g, together);
+    const float* of_layer = waves_.data() + here[0].layer * kinds * waves_per_layer * block_samples;
+    kernels().mix(here[0].mixed, together == 2 ? &here[1].mixed : nullptr, of_layer, block_samples, count,
+                  fibres, strains_.data(), strains_.data() + of_group);
     runs_.clear();
-    for (int f = 0; f < fibres; ++f)
-      add_run(group, f, count, wanted).strain = strains_.data() + f * count * lanes;
+    for (std::size_t k = 0; k < together; ++k)
+      for (int f = 0; f < fibres; ++f)
+        add_run(here[k], f, count, wanted).strain = strains_.data() + k * of_group + f * count * lanes;
     scan(runs_.data(), runs_.size(), count);
-    for (int f = 0; wanted == Wanted::turns && f < fibres; ++f) group.scans[f].done(lists_of(group, f));
+    for (Group& group : here)
+      for (int f = 0; wanted == Wanted::turns && f < fibres; ++f) group.scans[f].done(lists_of(group, f));
+    g += together;
   }
 }
 
@@ -148,10 +157,12 @@ void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wa
   const std::size_t layers = nesting.node_count / waves_per_layer;
   const int kinds = mixed ? ingredients(settings_.fibre_count) : settings_.fibre_count;
   waves_.resize(layers * kinds * waves_per_layer * block_samples);
+  BundlePointers of = nesting;
+  of.with_shear = settings_.with_shear;
   for (std::size_t first = 0; first < samples; first += block_samples) {
     const std::size_t count = std::min(block_samples, samples - first);
     const auto fill = mixed ? kernels().ingredient_waves : kernels().layer_waves;
-    fill(nesting, columns, first, count, waves_.data(), block_samples);
+    fill(of, columns, first, count, waves_.data(), block_samples);
     if (mixed)
       scan_mixed(count, wanted);
     else
@@ -159,17 +170,28 @@ void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wa
   }
 }
 
-void BundleScan::settle(const BundlePointers& nesting, const DeformationColumns& columns,
-                        std::size_t samples) {
+/// Goes back from the end of the motion only until the slip there does not depend on what was before.
+void BundleScan::settle(const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
+                        const DeformationColumns& columns, std::size_t samples) {
   constexpr std::size_t of_layer = (deviation + 1) * waves_per_layer * block_samples;
   waves_.resize(nesting.node_count / waves_per_layer * of_layer);
-  std::vector<MixedRun> settling;
-  for (Group& group : groups_) settling.push_back({&group.mixed, waves_.data() + group.layer * of_layer});
-  for (std::size_t first = 0; first < samples; first += block_samples) {
-    const std::size_t count = std::min(block_samples, samples - first);
+  std::vector<MixedRun> open;
+  for (Group& group : groups_)
+    if (plan[layers_[group.layer]].friction)
+      open.push_back({&group.mixed, waves_.data() + group.layer * of_layer});
+  const std::vector<MixedRun> all = open;
+  for (std::size_t end = samples; end > 0 && !open.empty();) {
+    const std::size_t first = (end - 1) / block_samples * block_samples, count = end - first;
     kernels().deviation_waves(nesting, columns, first, count, waves_.data(), block_samples);
-    kernels().settle(settling.data(), settling.size(), block_samples, count);
+    kernels().settle(open.data(), open.size(), block_samples, count);
+    std::erase_if(open, [](const MixedRun& run) {
+      return std::ranges::equal(run.state->least_slip, run.state->most_slip);
+    });
+    end = first;
   }
+  for (const MixedRun& run : all)  // the motion begins without slip
+    for (int lane = 0; lane < lanes; ++lane)
+      run.state->slip[lane] = std::clamp(0.0f, run.state->least_slip[lane], run.state->most_slip[lane]);
 }
 
 void BundleScan::run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan,
@@ -178,7 +200,7 @@ void BundleScan::run_all(const Bundle& bundle, const std::vector<LayerSlip>& pla
   start(bundle, plan, nesting, mixed);
   const bool settles = std::any_of(bundle.wire_layers.begin(), bundle.wire_layers.end(),
                                    [&](int layer) { return plan[layer].friction; });
-  if (settles) settle(nesting, columns, samples);
+  if (settles) settle(plan, nesting, columns, samples);
   run_blocks(nesting, mixed, wanted, columns, samples);
 }
 

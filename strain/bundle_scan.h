@@ -69,7 +69,8 @@ class BundleScan {
   void run_blocks(const BundlePointers& nesting, bool mixed, Wanted wanted, const DeformationColumns& columns,
                   std::size_t samples);
   /// Sliders to where one repeat of the motion leaves them.
-  void settle(const BundlePointers& nesting, const DeformationColumns& columns, std::size_t samples);
+  void settle(const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
+              const DeformationColumns& columns, std::size_t samples);
   /// The next `count` samples of all groups, from the waves of the block.
   void scan_waves(std::size_t count, Wanted wanted);
   void scan_mixed(std::size_t count, Wanted wanted);

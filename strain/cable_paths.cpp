@@ -202,7 +202,7 @@ void CablePaths::add_held(const SpanBlock& block) {
       const double sine = std::sin(layer.lay_angle);
       const double coiled = layer.helix_radius > 0 ? sine * sine / layer.helix_radius : 0;
       for (std::size_t t = 0; t < count; ++t) {
-        const std::size_t at = segment * all_ + next_ + t;
+        const std::size_t at = along_at(segment, next_ + t);
         const double ratio = in_segment[k * stride + t] / rates_->rest(segment, k);
         cable.along[at] = cable.radial_share * (ratio / (1 + cable.slack) - 1);
         cable.pressing[at] =
@@ -330,7 +330,7 @@ void CablePaths::see_held_gains() {
       double strain = cable.strain[t];
       if (cable.rubs) {
         strain = 0;
-        for (std::size_t i = 0; i < lengths_.size(); ++i) strain += cable.along[i * all_ + t] * lengths_[i] / length;
+        for (std::size_t i = 0; i < lengths_.size(); ++i) strain += cable.along[along_at(i, t)] * lengths_[i] / length;
       }
       see_gain(cable, t, (1 + strain / cable.radial_share) * (1 + cable.slack) - 1, 0);
     }
@@ -389,8 +389,8 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
       gain += state.gain[e] / (end - first);
       press += (state.press[e] + state.press[e + 1]) / 2 / (end - first);
     }
-    cable.along[i * all_ + sample] = (1 + gain) / free_length - 1;
-    cable.pressing[i * all_ + sample] = static_cast<float>(press);
+    cable.along[along_at(i, sample)] = (1 + gain) / free_length - 1;
+    cable.pressing[along_at(i, sample)] = static_cast<float>(press);
   }
 }
 
@@ -434,15 +434,15 @@ void CablePaths::slide(Cable& cable) {
         line.next(unslid, limits);
       } else {
         double mean = 0;
-        for (std::size_t i = 0; i < segments; ++i) mean += cable.along[i * all_ + t] * lengths_[i] / length;
+        for (std::size_t i = 0; i < segments; ++i) mean += cable.along[along_at(i, t)] * lengths_[i] / length;
         for (std::size_t i = 0; i < segments; ++i) {
-          held[i] = cable.elastic * (cable.along[i * all_ + t] - mean);
-          unslid[i] = cable.along[i * all_ + t] + by_twist - held[i];
+          held[i] = cable.elastic * (cable.along[along_at(i, t)] - mean);
+          unslid[i] = cable.along[along_at(i, t)] + by_twist - held[i];
         }
         for (int attempt = 0; attempt < most_attempts; ++attempt) {  // limits hang on the tension itself
           double changed = 0;
           for (std::size_t i = 1; i < segments; ++i) {
-            const double pressing = (cable.pressing[(i - 1) * all_ + t] + cable.pressing[i * all_ + t]) / 2;
+            const double pressing = (cable.pressing[along_at(i - 1, t)] + cable.pressing[along_at(i, t)]) / 2;
             const double tension = std::max(0.0, (line.force()[i - 1] + line.force()[i]) / 2);
             const double load = cable.line_load + (cable.loose ? pressing : tension * pressing);
             const double limit =
@@ -452,13 +452,14 @@ void CablePaths::slide(Cable& cable) {
           }
           if (attempt > 0 && changed < settled * cable.axial_stiffness) break;
           line.attempt(unslid, limits);
+          if (cable.loose) break;  // its limits do not depend on its tension
         }
         line.keep();
       }
       if (!last) continue;
       if (!cable.rubs) cable.strain[t] = line.strain(0) - by_twist;
       for (std::size_t i = 0; cable.rubs && i < segments; ++i)
-        cable.along[i * all_ + t] = line.strain(i) - by_twist + held[i];
+        cable.along[along_at(i, t)] = line.strain(i) - by_twist + held[i];
     }
   }
   cable.grip_slip = {line.travel_at_base() - before[0], line.travel_at_tool() - before[1]};
@@ -477,10 +478,10 @@ void CablePaths::ask_for_forces() {
       largest[t] = at_base[t] = at_tool[t] = cable.rubs ? 0 : cable.strain[t] + by_twist;
       if (!cable.rubs) continue;
       for (std::size_t i = 0; i <= last; ++i)
-        if (const double strain = cable.along[i * all_ + t] + by_twist; std::abs(strain) > std::abs(largest[t]))
+        if (const double strain = cable.along[along_at(i, t)] + by_twist; std::abs(strain) > std::abs(largest[t]))
           largest[t] = strain;
-      at_base[t] = cable.along[t] + by_twist;
-      at_tool[t] = cable.along[last * all_ + t] + by_twist;
+      at_base[t] = cable.along[along_at(0, t)] + by_twist;
+      at_tool[t] = cable.along[along_at(last, t)] + by_twist;
     }
   }
   hose_moment_.assign(next_, 0.0);
@@ -502,7 +503,7 @@ const SegmentMotion& CablePaths::Keeper::of(const CablePaths& paths, std::size_t
   motion_.samples = count;
   motion_.hose = hose;
   if (!paths.any()) return motion_;
-  const std::size_t cables = paths.construction_.cables().size(), all = paths.all_;
+  const std::size_t cables = paths.construction_.cables().size();
   const std::size_t stride = padded(count) + padding;
   motion_.strain.assign(cables, nullptr);
   motion_.loose.assign(cables, {});
@@ -514,7 +515,7 @@ const SegmentMotion& CablePaths::Keeper::of(const CablePaths& paths, std::size_t
     if (cable.rubs) {
       std::vector<double>& own = rows_[3 * k];
       own.assign(stride, 0.0);
-      std::copy_n(cable.along.begin() + static_cast<std::ptrdiff_t>(segment * all + first), count, own.begin());
+      for (std::size_t t = 0; t < count; ++t) own[t] = cable.along[paths.along_at(segment, first + t)];
     }
     const double* const strain = cable.rubs ? rows_[3 * k].data() : cable.strain.data() + first;
     motion_.strain[index] = strain;

@@ -119,12 +119,16 @@ class CablePaths {
     double room = 0;                                              ///< see room()
     std::array<double, 2> path_gain{without_limit, -without_limit};  ///< see path_gain()
     std::vector<double> strain{};   ///< (sample) of all segments; before finish(): unslid
-    std::vector<double> along{};    ///< (segment, sample) the same, each segment its own: with friction
-    std::vector<float> pressing{};  ///< (segment, sample) curvature [1/m], or press of a loose one [N/m]
+    std::vector<double> along{};    ///< (sample, segment) the same, each segment its own: with friction
+    std::vector<float> pressing{};  ///< (sample, segment) curvature [1/m], or press of a loose one [N/m]
   };
 
   /// Loose cables lie in at least so many segments: a hose of fewer is cut as if it had them.
   std::size_t node_segments() const { return std::max<std::size_t>(lengths_.size(), 8); }
+  /// Of `along` and `pressing`: all segments of a sample are written and slide together.
+  std::size_t along_at(std::size_t segment, std::size_t sample) const {
+    return sample * lengths_.size() + segment;
+  }
   void add_hose(const SpanBlock& block);
   void add_held(const SpanBlock& block);
   static void add_loose(std::span<CablePaths* const> all, const SpanBlock& block);

@@ -58,6 +58,10 @@ std::vector<LayerSlip> bound_plan(const Construction& construction, const std::v
   return plan;
 }
 
+bool slips_only(const pipeline::Strain& settings, pipeline::Slip slip) {
+  return std::ranges::all_of(settings.slip, [&](pipeline::Slip own) { return own == slip; });
+}
+
 /// Something like the damage of Smith, Watson and Topper where the metal yields: sum of (range times stress
 /// of the tensile peak)^2.5 between neighbours, stress growing as the fifth root of strain (copper's n' is
 /// 0.19). It finds wires that many middling cycles damage, which StrainMeasures::cycle_sum misses.
@@ -100,9 +104,11 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       with_planes_(judges_planes(settings.equivalent)),
       means_(construction, plan_slip(construction, settings.slip, total(lengths_)), lengths_, arcs_, samples),
       stick_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::stick, total(lengths_)),
-              lengths_, arcs_, samples}},
+              lengths_, arcs_, samples},
+             slips_only(settings, pipeline::Slip::stick)},
       free_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::free, total(lengths_)),
-             lengths_, arcs_, samples}},
+             lengths_, arcs_, samples},
+            slips_only(settings, pipeline::Slip::free)},
       cables_(construction, free_.means.plan(),
               {rubs(settings.slip.front()), !slides(settings.slip.front()), place.free_tool_end,
                static_cast<std::size_t>(settings.cable_elements), place.known_ends},
@@ -245,7 +251,8 @@ bool Evaluation::rubs_inside() const {
 
 void Evaluation::add_held(const ClampMeans& means) {
   for (Worker& worker : workers_)
-    worker.held.push_back(std::make_unique<HeldStrains>(construction_, means, worker.deviations));
+    worker.held.push_back(
+        std::make_unique<HeldStrains>(construction_, means, worker.deviations, order_for(fibres_)));
 }
 
 bool Evaluation::holds_down_to(int part, const ClampMeans& means) const {
@@ -685,7 +692,7 @@ std::vector<Evaluation::Site> Evaluation::sites_of_bound(const std::vector<Worst
   for (std::size_t k = 0; k < worst.size(); ++k) {
     for (int by = 0; by < Worst::measures; ++by)
       if (worst[k].value[by] >= 0) sites.insert(worst[k].site[by]);
-    for (std::size_t sum = 0; sum < Worst::sums.size(); ++sum) {
+    for (std::size_t sum = 0; !bound.own && sum < Worst::sums.size(); ++sum) {
       const auto& list = worst[k].by_sum[sum];
       float& most = bound.most[k][sum];
       if (!list.empty()) most = std::max(most, list.front().first);

@@ -175,6 +175,9 @@ class Evaluation {
   /// One way of sliding and what it needs.
   struct Bound {
     ClampMeans means;
+    /// Every level of the job itself slips so: the job's own sites are the bound, and the list is read by nobody who
+    /// wants the worst wire.
+    bool own;
     std::vector<std::array<float, Worst::sums.size()>>
         most{};  ///< (layer) the largest sums in the segments so far
   };

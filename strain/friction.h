@@ -69,11 +69,13 @@ struct PartDeviations {
 /// segment would be hundreds of histories.
 class HeldStrains {
  public:
-  /// shared: by those that differ in how hard friction is, and in nothing else; they begin together.
+  /// shared: by those that differ in how hard friction is, and in nothing else; they begin together. order: of the
+  /// series that the wires need of the part in which they lie (order_for()).
   HeldStrains(const Construction& construction, const ClampMeans& means,
-              std::shared_ptr<PartDeviations> shared = std::make_shared<PartDeviations>())
+              std::shared_ptr<PartDeviations> shared = std::make_shared<PartDeviations>(), int order = 1)
       : construction_(construction),
         means_(means),
+        order_(order),
         kept_(construction.levels()),
         deviations_(std::move(shared)) {}
 
@@ -96,7 +98,8 @@ class HeldStrains {
   };
 
   bool any_turned() const;
-  int powers(int level) const { return construction_.levels() - level; }  ///< of its series, level from 0
+  /// Of the series of a part of this level, from 0: each level below takes one order.
+  int powers(int level) const { return construction_.levels() - 1 - level + order_; }
   const Rows& rows_of(int part, int level);
   void fill(Rows& rows, int part);
   BundleNesting nesting_of(int part);
@@ -104,6 +107,7 @@ class HeldStrains {
 
   const Construction& construction_;
   const ClampMeans& means_;
+  int order_;
   double arc_ = 0;
   const SegmentMotion* motion_ = nullptr;
   std::size_t samples_ = 0, stride_ = 0;

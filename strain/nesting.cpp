@@ -65,8 +65,7 @@ BundleNesting nesting_to(const Construction& construction, const std::vector<Lay
   BundleNesting nesting;
   nesting.fibres = fibres;
   nesting.dresspack_at_rest = uniform_rod<double>(0, 0, construction.rest_curvature(), 0, order);
-  for (const Fibre& fibre : fibres)
-    if (!fibre.on_axis && std::abs(fibre.phi_sine) > 1e-12) nesting.order = 1;
+  nesting.order = order_for(fibres);
   const bool any_turned = std::any_of(plan.begin(), plan.end(), [](const LayerSlip& slip) {
     return slip.sliding == Sliding::along_ancestor;
   });
@@ -124,6 +123,11 @@ void add_wire_layer(const Construction& construction, const std::vector<LayerSli
       node.slide = sliding_numbers(plan[layer], nesting, node.place);
     nesting.nodes.push_back(node);
   }
+}
+
+int order_for(const std::vector<Fibre>& fibres) {
+  return std::any_of(fibres.begin(), fibres.end(),
+                     [](const Fibre& fibre) { return !fibre.on_axis && std::abs(fibre.phi_sine) > 1e-12; });
 }
 
 double fibre_angle(int fibre, int count) { return count == 0 ? 0 : pi + 2 * pi * fibre / count; }

@@ -7,7 +7,8 @@ void PartStates::fill(const BundleNesting& nesting, const DeformationColumns& co
   stride_ = padded(samples);
   single_.resize(part_rows * stride_);
   const NestingLevel& last = nesting.steps.back();
-  const bool from_dresspack = nesting.steps.size() == 1 && single_suffices(last, nullptr, 0, 0);
+  const bool from_dresspack =
+      nesting.steps.size() == 1 && slopes_in_single(last) && single_suffices(last, nullptr, 0, 0);
   in_double_ = in_double || !from_dresspack;
   if (from_dresspack)  // the same numbers whatever else is wanted
     kernels().part_rows_of_dresspack(pointers(nesting), columns, 0, samples, single_.data(), stride_);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace dresslife::strain {
 namespace {
@@ -12,6 +13,11 @@ namespace {
 // force stays in it but a millionth.
 constexpr double soft_end = 1e6;
 constexpr double at_limit = 1 - 1e-5;  // of a grip: reached, but for the soft end and rounding
+// A node whose slide is less than this share of the length may keep its sign: strains change by as little. Above the
+// rounding of a sum of some hundred elements.
+constexpr double no_slide = 1e-13;
+// Six rounds cost as much as exact programming. Where some node sticks they are in vain, mostly at the next sample, too.
+constexpr int most_sign_rounds = 6, sign_rounds_after_failure = 1;
 
 }  // namespace
 
@@ -25,8 +31,41 @@ SlidingLine::SlidingLine(std::vector<double> lengths, double axial_stiffness, do
       force_(slid_),
       tried_(slid_),
       least_(slid_),
-      soft_weight_(soft_end * std::accumulate(lengths_.begin(), lengths_.end(), 0.0) / axial_stiffness) {
+      sign_(lengths_.size(), 1.0),
+      slide_(slid_),
+      length_(std::accumulate(lengths_.begin(), lengths_.end(), 0.0)),
+      soft_weight_(soft_end * length_ / axial_stiffness) {
   assert(!lengths_.empty() && axial_stiffness > 0 && base_grip >= 0 && tool_grip >= 0);
+}
+
+/// Finds the forces if all nodes slide and no clamp does; else changes them to no avail. Precondition: tried_.
+bool SlidingLine::all_slide(std::span<const double> limits) {
+  const std::size_t n = lengths_.size();
+  const double nothing = no_slide * length_ * stiffness_;
+  const int rounds = std::exchange(all_slid_, false) ? most_sign_rounds : sign_rounds_after_failure;
+  for (int round = 0; round < rounds; ++round) {
+    double offset = 0, sum = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i > 0) offset += sign_[i] * limits[i];
+      force_[i] = offset;
+      sum += lengths_[i] * (stiffness_ * tried_[i] - offset);
+    }
+    const double first = sum / length_;
+    double slide = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      slide_[i] = slide;
+      force_[i] += first;
+      slide += lengths_[i] * (force_[i] - stiffness_ * tried_[i]);
+    }
+    bool right = true;
+    for (std::size_t i = 1; i < n; ++i)
+      if (slide_[i] * sign_[i] < -nothing) {
+        sign_[i] = -sign_[i];
+        right = false;
+      }
+    if (right) return all_slid_ = true;
+  }
+  return false;
 }
 
 /// The sum may end in a force that differs by up to `limit`.
@@ -67,6 +106,8 @@ void SlidingLine::add(double weight, double target) {
 void SlidingLine::attempt(std::span<const double> unslid, std::span<const double> limits) {
   const std::size_t n = lengths_.size();
   assert(unslid.size() == n && limits.size() == n);
+  for (std::size_t i = 0; i < n; ++i) tried_[i] = unslid[i] + slid_[i];
+  if (base_grip_ == without_limit && tool_grip_ == without_limit && all_slide(limits)) return;
   below_.clear();
   above_.clear();
   below_shift_ = above_shift_ = slope_ = at_zero_ = 0;
@@ -77,7 +118,6 @@ void SlidingLine::attempt(std::span<const double> unslid, std::span<const double
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (i > 0) widen(limits[i]);
-    tried_[i] = unslid[i] + slid_[i];
     add(lengths_[i] * weightless, stiffness_ * tried_[i]);
     least_[i] = lowest_at_;
   }

@@ -14,6 +14,10 @@
 // in T, piecewise linear and rising, a limit f moves its two sides apart by 2 f around its zero, and an
 // element adds a line (N. Johnson, J. Comput. Graph. Stat. 22 (2013), for the same sums in statistics).
 // No friction: T is everywhere the same, that of the mean. Limits beyond all forces: glued.
+//
+// Mostly friction is weak and every node slides. Then T_i = T_{i-1} + s_i f_i with s_i = +1 or -1, and T_0 follows from
+// sum l_i (T_i - EA tried_i) = 0. This is the minimum if sum_{j<i} l_j (T_j - EA tried_j), which is E A times the slide
+// of node i, has the sign s_i at every node. The signs of the sample before are tried first.
 #pragma once
 
 #include <span>
@@ -54,6 +58,7 @@ class SlidingLine {
     double at, bend;
   };
 
+  bool all_slide(std::span<const double> limits);
   void widen(double limit);
   void add(double weight, double target);
 
@@ -61,7 +66,9 @@ class SlidingLine {
   double stiffness_, base_grip_, tool_grip_;
   std::vector<double> slid_;  ///< (element) (u_{i+1} - u_i) / l_i
   std::vector<double> force_, tried_, least_;
-  double soft_weight_;
+  std::vector<double> sign_, slide_;  ///< (element) of the node before it: s, and E A times its slide
+  bool all_slid_ = true;              ///< at the last attempt
+  double length_, soft_weight_;
   std::vector<Knot> below_, above_;
   double below_shift_ = 0, above_shift_ = 0, slope_ = 0, at_zero_ = 0, lowest_at_ = 0;
   double let_in_[2]{}, travel_[2]{};

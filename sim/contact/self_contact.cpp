@@ -15,10 +15,7 @@ constexpr double coincident = 1e-6;
 class Search {
  public:
   Search(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts)
-      : rod_(rod), state_(state), reach_(reach), contacts_(contacts) {
-    for (int i = 0; i < rod.segments(); ++i)
-      arm_.push_back((rod.span_of(i).segment_length / 2) * tangent(state.orientation[i]));
-  }
+      : rod_(rod), state_(state), reach_(reach), contacts_(contacts) {}
 
   void run() {
     const auto& spans = rod_.spans();
@@ -45,11 +42,17 @@ class Search {
     }
   }
 
+  /// Half of a segment, from its centre.
+  Vector3 arm(int segment) const {
+    return (rod_.span_of(segment).segment_length / 2) * tangent(state_.orientation[segment]);
+  }
+
   // The nearest points, and, where the pieces lie side by side, each end against the other piece: one point
   // would let them rock.
   void touch(int i, int j) {
-    const Vector3 a0 = state_.position[i] - arm_[i], a1 = state_.position[i] + arm_[i];
-    const Vector3 b0 = state_.position[j] - arm_[j], b1 = state_.position[j] + arm_[j];
+    const Vector3 arm_i = arm(i), arm_j = arm(j);
+    const Vector3 a0 = state_.position[i] - arm_i, a1 = state_.position[i] + arm_i;
+    const Vector3 b0 = state_.position[j] - arm_j, b1 = state_.position[j] + arm_j;
     const size_t first = contacts_.size();
     const NearestPoints nearest = nearest_points(a0, a1, b0, b1);
     keep(i, j, a0 + nearest.a * (a1 - a0), b0 + nearest.b * (b1 - b0), first);
@@ -85,7 +88,6 @@ class Search {
   const double reach_;
   std::vector<Contact>& contacts_;
   double diameter_ = 0, near_ = 0;  // of the two spans being searched
-  std::vector<Vector3> arm_;        // (segment) half of it
 };
 
 }  // namespace

@@ -9,8 +9,8 @@
 // right-hand side of block i + 1. So the caller may assemble block i + 1 just before, and the matrix passes
 // through the cache once.
 //
-// Of a diagonal block only the upper triangle is used. Plain loops of fixed length on row-major arrays: the
-// compiler unrolls and vectorises them.
+// Of a diagonal block only the upper triangle is used. Plain loops on row-major arrays, which the compiler unrolls and
+// vectorises. It has to be asked: loops over a triangle have a fixed length only once the loop around them is unrolled.
 #pragma once
 
 namespace dresslife::sim {
@@ -25,14 +25,18 @@ struct TridiagonalBlock {
 /// Sylvester).
 inline int factor_diagonal(double* d) {
   int not_positive = 0;
+#pragma GCC unroll 6
   for (int c = 0; c < 6; ++c) {
     double* row = d + 6 * c;
     if (!(row[c] > 0)) ++not_positive;
     const double inverse = 1 / row[c];
+#pragma GCC unroll 6
     for (int r = c + 1; r < 6; ++r) {
       const double factor = row[r] * inverse;
+#pragma GCC unroll 6
       for (int k = r; k < 6; ++k) d[6 * r + k] -= factor * row[k];
     }
+#pragma GCC unroll 6
     for (int r = c + 1; r < 6; ++r) row[r] *= inverse;
     row[c] = inverse;
   }
@@ -41,31 +45,40 @@ inline int factor_diagonal(double* d) {
 
 /// x := L^-1 x
 inline void solve_lower(const double* d, double* x) {
+#pragma GCC unroll 6
   for (int c = 0; c < 5; ++c)
+#pragma GCC unroll 6
     for (int r = c + 1; r < 6; ++r) x[r] -= d[6 * c + r] * x[c];
 }
 
 /// x := L^-T x
 inline void solve_lower_transposed(const double* d, double* x) {
+#pragma GCC unroll 6
   for (int r = 4; r >= 0; --r)
+#pragma GCC unroll 6
     for (int k = r + 1; k < 6; ++k) x[r] -= d[6 * r + k] * x[k];
 }
 
 /// x := pivot^-1 x
 inline void scale_by_pivots(const double* d, double* x) {
+#pragma GCC unroll 6
   for (int r = 0; r < 6; ++r) x[r] *= d[7 * r];
 }
 
 /// Takes L^-T-free value y of one block out of the next: next -= (L^-1 U)^T y.
 inline void carry_down(const double* upper, const double* y, double* next) {
+#pragma GCC unroll 6
   for (int k = 0; k < 6; ++k)
+#pragma GCC unroll 6
     for (int r = 0; r < 6; ++r) next[r] -= upper[6 * k + r] * y[k];
 }
 
 /// Takes the solved next block out of this one: value -= pivot^-1 (L^-1 U) next.
 inline void carry_up(const double* d, const double* upper, const double* next, double* value) {
+#pragma GCC unroll 6
   for (int r = 0; r < 6; ++r) {
     double sum = 0;
+#pragma GCC unroll 6
     for (int k = 0; k < 6; ++k) sum += upper[6 * r + k] * next[k];
     value[r] -= d[7 * r] * sum;
   }
@@ -79,13 +92,20 @@ inline int eliminate(TridiagonalBlock& block, TridiagonalBlock* next) {
   scale_by_pivots(d, block.value);
   if (next == nullptr) return not_positive;
   double* u = block.upper;
+#pragma GCC unroll 6
   for (int c = 0; c < 5; ++c)
+#pragma GCC unroll 6
     for (int r = c + 1; r < 6; ++r)
+#pragma GCC unroll 6
       for (int k = 0; k < 6; ++k) u[6 * r + k] -= d[6 * c + r] * u[6 * c + k];
+#pragma GCC unroll 6
   for (int c = 0; c < 6; ++c) {
     double scaled[6];
+#pragma GCC unroll 6
     for (int k = 0; k < 6; ++k) scaled[k] = u[6 * c + k] * d[7 * c];
+#pragma GCC unroll 6
     for (int r = 0; r < 6; ++r)
+#pragma GCC unroll 6
       for (int k = r & ~1; k < 6; ++k) next->diagonal[6 * r + k] -= u[6 * c + r] * scaled[k];
   }
   carry_down(u, block.value, next->value);

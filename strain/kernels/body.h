@@ -406,7 +406,8 @@ struct RowsOfDresspack {
 /// (`slopes`), along that parent:
 ///     radial' = -theta' X,   X' = theta' radial,   y' = R X',   y'' = -R theta'^2 X,   w = V'/V = y y'/V^2,
 ///     a' = -R sigma y' / V^2,   a'' = -R sigma (y'' - 2 y' w) / V^2;   (N / V)' = (N' - N w) / V,
-/// what slides times its factor, which has the slope w0 - w: (1 + strain) of the rest's, w0.
+/// what slides times its factor, which has the slope w0 - w: (1 + strain) of the rest's, w0. Slopes: precondition
+/// slopes_in_single().
 template <Sliding how, bool slopes, class Source>
 void part_from(const Source& of, const BundlePointers& nesting, std::size_t first, std::size_t count,
                float* rows, std::size_t stride) {
@@ -428,6 +429,8 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
                            static_cast<float>(rest.bend2), static_cast<float>(rest.twist)};
   const float R = helix.radius;
   const auto share = static_cast<float>(step.slide.radial_share);
+  const double* const held = step.slide.held;
+  const bool gives = step.slide.radial_share != 1;
   for (std::size_t t = 0; t < count; t += float_pack_size) {
     const ParentAt p(helix, of, t);
     const FloatPack X = p.bend1 * sine - p.bend2 * cosine, radial = p.bend1 * cosine + p.bend2 * sine;
@@ -437,9 +440,16 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
     const FloatPack root = inverse_root(1.0f + q);
     const FloatPack e = q * inverse(1.0f + (1.0f + q) * root);
     FloatPack strain = e, m = -e * root, along = FloatPack{} + 1.0f;  // along: bend1's factor
-    if constexpr (how != Sliding::glued) {
+    if constexpr (how == Sliding::glued) {
+      if (gives) {
+        strain = share * e;
+        m = (strain - q) * (root * root);
+        along = (1.0f + strain) * root;
+      }
+    } else {
       strain = share * (how == Sliding::over_pitch ? p.mean_over_pitch(helix)
                                                    : in_single(step.slide.clamp_strain + first + t));
+      if (held) strain += in_single(held + first + t);
       m = (strain - q) * (root * root);
       along = (1.0f + strain) * root;
     }
@@ -789,7 +799,7 @@ void ingredients_of_layer(const FiveNodes& layer, const PartState& part, std::si
     };
     put(mean_strain, [&](int n) { return sliding[n]; });
     put(deviation, [&](int n) { return FloatPack(factor_of_wall * node[n].strain - sliding[n]); });
-    put(shear, [&](int n) { return FloatPack(by_twist[n] * node[n].twist); });
+    if (nesting.with_shear) put(shear, [&](int n) { return FloatPack(by_twist[n] * node[n].twist); });
     for (int f = 0; f < nesting.fibre_count; ++f)
       put(first_bending + f, [&](int n) {
         const FibreNumbers& fibre = fibres.at[f][n];
@@ -985,6 +995,18 @@ struct Around {
     return (waves[t] + waves[stride + t] * sine1 + waves[2 * stride + t] * cosine1) +
            (waves[3 * stride + t] * sine2 + waves[4 * stride + t] * cosine2);
   }
+  /// side 2: also at the opposite angles (W28).
+  template <int side>
+  inline void at(const float* waves, std::size_t stride, std::size_t t, FloatPack* value) const {
+    if constexpr (side == 1) {
+      value[0] = at(waves, stride, t);
+    } else {
+      const FloatPack even = waves[t] + waves[2 * stride + t] * cosine1 + waves[4 * stride + t] * cosine2;
+      const FloatPack odd = waves[stride + t] * sine1 + waves[3 * stride + t] * sine2;
+      value[0] = even + odd;
+      value[1] = even - odd;
+    }
+  }
 };
 
 /// The sliders of a pack of wires (W17).
@@ -1003,9 +1025,23 @@ struct Sliders {
   inline FloatPack next(const FloatPack& mean, const FloatPack& away) {
     const FloatPack cap = larger(cap0 + cap_per_mean * mean, FloatPack{});
     const FloatPack slides = share * away;
-    const FloatPack held = -larger(-larger(slides - slip, -cap), -cap);
+    const FloatPack held = smaller(larger(slides - slip, -cap), cap);
     slip = slides - held;
     return held;
+  }
+};
+
+/// Where the slips of a pack of wires can be at the end of the motion. One sample cuts a slip to [slides - cap, slides +
+/// cap]; what follows cuts it to [least, most]. Both together are again a cut.
+struct SlipRange {
+  FloatPack least, most;
+
+  inline void before(const Sliders& of, const FloatPack& mean, const FloatPack& away) {
+    const FloatPack cap = larger(of.cap0 + of.cap_per_mean * mean, FloatPack{});
+    const FloatPack slides = of.share * away;
+    const FloatPack low = smaller(larger(slides - cap, least), most);
+    most = smaller(larger(slides + cap, least), most);
+    least = low;
   }
 };
 
@@ -1045,27 +1081,75 @@ void mix_pack(MixedLanes& state, int lane, const float* waves, std::size_t strid
   store(sliders.slip, state.slip + lane);
 }
 
-void mix(MixedLanes& state, const float* waves, std::size_t stride, std::size_t count, int fibres,
-         float* out) {
-  for (int lane = 0; lane < lanes; lane += float_pack_size)
-    mix_pack(state, lane, waves, stride, count, fibres, out);
+/// The most frequent kind: one fibre at the surface, no shear, curvature per path length. side 2: with their images.
+template <int side>
+void mix_plain(MixedLanes* const* states, int lane, const float* waves, std::size_t stride, std::size_t count,
+               float* const* out) {
+  const Around around(states[0]->shape, lane);
+  const float* const bending = waves + first_bending * waves_per_layer * stride;
+  const float* const deviations = waves + deviation * waves_per_layer * stride;
+  const float elastic = states[0]->elastic, inverse_radial_share = states[0]->inverse_radial_share;
+  Sliders sliders[side];
+  FloatPack rest[side], per_own_length[side];
+  for (int k = 0; k < side; ++k) {
+    sliders[k] = Sliders(*states[k], lane);
+    rest[k] = load<FloatPack>(states[k]->rest[1].data() + lane);
+    per_own_length[k] = load<FloatPack>(states[k]->fibre_scale[0].data() + lane);
+  }
+  for (std::size_t t = 0; t < count; ++t) {
+    FloatPack mean[side], away[side], bend[side];
+    around.at<side>(waves, stride, t, mean);
+    around.at<side>(deviations, stride, t, away);
+    around.at<side>(bending, stride, t, bend);
+    for (int k = 0; k < side; ++k) {
+      const FloatPack axial = mean[k] + (sliders[k].next(mean[k], away[k]) + elastic * away[k]);
+      const FloatPack scale = (1.0f + axial) / (1.0f + (mean[k] + away[k]) * inverse_radial_share);
+      store(FloatPack((axial + (bend[k] * scale - rest[k])) * per_own_length[k]), out[k] + t * lanes + lane);
+    }
+  }
+  for (int k = 0; k < side; ++k) store(sliders[k].slip, states[k]->slip + lane);
 }
 
-/// A slider waits for itself from sample to sample: `together` packs at a time fill that wait.
+void mix(MixedLanes& state, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count,
+         int fibres, float* out, float* images_out) {
+  static_assert(mean_strain == 0);
+  const bool plain = fibres == 1 && state.scales && !state.with_shear && !state.on_axis;
+  MixedLanes* const states[] = {&state, images};
+  float* const to[] = {out, images_out};
+  for (int lane = 0; lane < lanes; lane += float_pack_size) {
+    if (plain && images) {
+      mix_plain<2>(states, lane, waves, stride, count, to);
+    } else if (plain) {
+      mix_plain<1>(states, lane, waves, stride, count, to);
+    } else {
+      mix_pack(state, lane, waves, stride, count, fibres, out);
+      if (images) mix_pack(*images, lane, waves, stride, count, fibres, images_out);
+    }
+  }
+}
+
+/// A slip waits for itself from sample to sample: `together` packs at a time fill that wait.
 template <int together>
 void settle_packs(const MixedRun* runs, int lane, std::size_t stride, std::size_t count) {
   Around around[together];
   Sliders sliders[together];
+  SlipRange range[together];
   for (int k = 0; k < together; ++k) {
     around[k] = Around(runs[k].state->shape, lane);
     sliders[k] = Sliders(*runs[k].state, lane);
+    range[k] = {load<FloatPack>(runs[k].state->least_slip + lane),
+                load<FloatPack>(runs[k].state->most_slip + lane)};
   }
-  for (std::size_t t = 0; t < count; ++t)
+  for (std::size_t t = count; t-- > 0;)
     for (int k = 0; k < together; ++k) {
       const FloatPack mean = around[k].at(runs[k].waves + mean_strain * waves_per_layer * stride, stride, t);
-      sliders[k].next(mean, around[k].at(runs[k].waves + deviation * waves_per_layer * stride, stride, t));
+      range[k].before(sliders[k], mean,
+                      around[k].at(runs[k].waves + deviation * waves_per_layer * stride, stride, t));
     }
-  for (int k = 0; k < together; ++k) store(sliders[k].slip, runs[k].state->slip + lane);
+  for (int k = 0; k < together; ++k) {
+    store(range[k].least, runs[k].state->least_slip + lane);
+    store(range[k].most, runs[k].state->most_slip + lane);
+  }
 }
 
 void settle(const MixedRun* runs, std::size_t run_count, std::size_t stride, std::size_t count) {

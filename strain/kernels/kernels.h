@@ -94,6 +94,7 @@ struct BundlePointers {
   std::size_t parent_stride = 0;
   double rest_curvature = 0;              ///< of the undeformed dresspack, about d2 [1/m]
   const SlidingLayer* sliding = nullptr;  ///< (layer), or null
+  bool with_shear = true;                 ///< ingredient_waves() fills the waves of shear
 };
 
 /// What goes on inside a part needs of it, in single precision, one row of samples each: its state, that
@@ -117,13 +118,17 @@ enum PartRow {
 inline namespace DRESSLIFE_MACHINE {
 
 /// Whether waves in a part need its parent in single precision only. nodes: in the part, which `last` leads
-/// to.
+/// to. order: of the part's own series.
 inline bool single_suffices(const NestingLevel& last, const WireNode* nodes, int node_count, int order) {
-  bool suffice = order == 0 && !is_thesis(last.place.kinematics) && last.slide.held == nullptr &&
-                 last.slide.sliding != Sliding::along_ancestor &&
-                 (last.slide.sliding != Sliding::glued || last.slide.radial_share == 1);
+  bool suffice =
+      order == 0 && !is_thesis(last.place.kinematics) && last.slide.sliding != Sliding::along_ancestor;
   for (int n = 0; n < node_count; ++n) suffice &= nodes[n].slide.sliding != Sliding::along_ancestor;
   return suffice;
+}
+
+/// Whether its own slopes follow in single precision, too: its strain does not change along it.
+inline bool slopes_in_single(const NestingLevel& last) {
+  return last.slide.held == nullptr && (last.slide.sliding != Sliding::glued || last.slide.radial_share == 1);
 }
 
 }  // namespace DRESSLIFE_MACHINE
@@ -200,8 +205,10 @@ constexpr int ingredients(int fibres) { return first_bending + fibres; }
 /// Sixteen wires whose strain is put together wire by wire (W17, W18), between two blocks of samples.
 struct MixedLanes {
   alignas(64) float shape[waves_per_layer - 1][lanes];
-  alignas(64) float slip[lanes];               ///< how far each wire has slid against its parent [strain]
-  std::vector<std::array<float, lanes>> rest;  ///< of shear and of the fibres' bending, (1 + fibres)
+  alignas(64) float slip[lanes];        ///< how far each wire has slid against its parent [strain]
+  alignas(64) float least_slip[lanes];  ///< between these it is at the end of the motion, wherever it was at
+  alignas(64) float most_slip[lanes];   ///< the first of the samples that settle() has seen
+  std::vector<std::array<float, lanes>> rest;         ///< of shear and of the fibres' bending, (1 + fibres)
   std::vector<std::array<float, lanes>> fibre_scale;  ///< FibreShape::scale, (fibres)
   float cap = 0, cap_per_mean = 0;                    ///< cap infinite: glued, 0: free
   float elastic = 0;               ///< share of the deviation that is held whatever the cap (W30)
@@ -255,9 +262,11 @@ struct Kernels {
   void (*deviation_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                           std::size_t count, float* out, std::size_t stride);
   /// Puts the strains of sixteen wires together, fibre by fibre, to out[(fibre * count + t) * lanes + lane].
-  /// waves: of one layer's ingredients.
-  void (*mix)(MixedLanes&, const float* waves, std::size_t stride, std::size_t count, int fibres, float* out);
-  /// How far wires slide meanwhile, and nothing else. waves: of their layer's mean strain and deviation.
+  /// waves: of one layer's ingredients. images: wires at the opposite angles, whose strains go to images_out; null: none.
+  void (*mix)(MixedLanes&, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count,
+              int fibres, float* out, float* images_out);
+  /// From the last samples of the motion to the first: narrows least_slip .. most_slip by these samples. waves: of
+  /// their layer's mean strain and deviation.
   void (*settle)(const MixedRun*, std::size_t runs, std::size_t stride, std::size_t count);
   /// Path rates of the nodes, for means along the dresspack: sum[node * stride + t] += weight * rate.
   void (*add_path_rates)(const BundlePointers&, const DeformationColumns&, std::size_t first,

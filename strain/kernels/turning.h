@@ -412,17 +412,22 @@ struct Ranking {
     low = high = turn = extreme = first;
   }
 
-  inline __attribute__((always_inline)) void next(const FloatPack& x) {
+  /// The next strain. Returns which wires have turned: turn_at() has to follow for them.
+  inline __attribute__((always_inline)) Mask next(const FloatPack& x) {
     const FloatPack y = direction * x;
     low = smaller(low, x);
     high = larger(high, x);
     extreme = larger(extreme, y);
-    const Mask turned = greater(extreme - y, below_gate);
+    return greater(extreme - y, below_gate);
+  }
+
+  /// x: the strain by which they have turned.
+  inline void turn_at(const Mask& turned, const FloatPack& x) {
     const FloatPack now = direction * extreme;
     cycle_sum += select(turned, cycle_share(turn, now), FloatPack{});
     range_sum += select(turned, range_share(turn, now), FloatPack{});
     turn = select(turned, now, turn);
-    extreme = select(turned, -y, extreme);
+    extreme = select(turned, -(direction * x), extreme);
     direction = select(turned, -direction, direction);
   }
 
@@ -450,15 +455,22 @@ void rank_packs(const Strains& strains, const PackOf* packs, std::size_t count) 
   for (int k = 0; k < side; ++k) ranking[k] = Ranking(packs[k], x[k]);
   for (std::size_t t = 0; t < count; ++t) {
     strains.at(t, x);
-#pragma GCC unroll 2
-    for (int k = 0; k < side; ++k) ranking[k].next(x[k]);
+    Mask turned[side];
+    unsigned any = 0;
+    for (int k = 0; k < side; ++k) {
+      turned[k] = ranking[k].next(x[k]);
+      any |= bits(turned[k]);
+    }
+    if (any == 0) continue;  // a wire turns at one of a hundred samples
+    for (int k = 0; k < side; ++k) ranking[k].turn_at(turned[k], x[k]);
   }
   for (int k = 0; k < side; ++k) ranking[k].keep(x[k]);
 }
 
 template <class Shape, class Source>
 void rank_all(const LaneRun* runs, std::size_t run_count, std::size_t count) {
-  for_packs<2, Shape, Source>(
+  constexpr int most = float_pack_size == 16 ? 4 : 2;
+  for_packs<most, Shape, Source>(
       runs, run_count, [&](const auto& strains, const PackOf* packs) { rank_packs(strains, packs, count); });
   for (const LaneRun* run = runs; run != runs + run_count; ++run)
     run->state->sample += static_cast<std::int32_t>(count);
