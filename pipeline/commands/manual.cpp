@@ -16,7 +16,8 @@ namespace {
 
 int manual(const Command& program, const std::string& what) {
   if (what == "keys")
-    print(study_manual() + "\n" + job_manual() + field_manual<Cluster>("cluster"));  else if (what == "ranking.csv")
+    print(study_manual() + "\n" + job_manual() + field_manual<Cluster>("cluster"));
+  else if (what == "ranking.csv")
     print(ranking_manual());
   else
     print(what == "files" ? file_manual() : program_manual(program, what));

@@ -42,7 +42,7 @@ class Table {
   Table() {
     add_worst_wire();
     add_lives("life_hours_{}",
-              "by then {} of such dresspacks have failed: p10 is `replace after` of the table",
+              "by then {} of such dresspacks have failed: `replace after`, `half failed`, `90 % failed` of the table",
               [](const RankingRow& row) -> const Lives& {
                 return row.planned() ? row.planned_hours : row.first_wire_hours;
               });
