@@ -692,7 +692,6 @@ std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
     experience.curvature = std::max(experience.curvature, std::hypot(curvature[k], curvature[k + 1]));
   for (const double twist : c.strain.read<double>("/deformation/twist"))
     experience.twist = std::max(experience.twist, std::abs(twist));
-  experience.materials = {pipeline::material_of(c.job, c.sites.material()[c.worst]).name};
   std::vector<pipeline::Warning> warnings;
   for (const std::string& words : pipeline::beyond(c.job.calibration->within, experience))
     warnings.push_back(pipeline::warning_of(

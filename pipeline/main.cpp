@@ -34,6 +34,7 @@ std::vector<Command> commands(const Command& program, bool& force) {
       clean_command(),
       improve_command(),
       reprogram_command(),
+      new_command(),
       show_command(),
       check_command(),
       plot_command(),

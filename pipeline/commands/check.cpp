@@ -23,6 +23,7 @@ int check(const Options& options) {
     print(shown("The simulation refuses the job: " + check.refusal + "\n"));
     return 1;
   }
+  print(check.limits + "\n");
   const std::size_t warnings = check.warnings.size();
   print(shown(fmt::format("{}: {}\n", job.string(),
                           warnings == 0   ? std::string("no warnings")

@@ -38,7 +38,11 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
       check.warnings.push_back(warning);
     }
   add_slip(job, check.warnings);
+  check.limits = "Not checked: limits of the deformation, strains and forces of the cables. A run may also warn of them.";
   if (job.motion.is_prescribed()) return check;
+  check.limits =
+      "The dresspack was checked at rest. A run may also warn of its swing, of tension, and of strains and forces of its "
+      "cables.";
   const PassingFile told("preview.h5");
   if (tell_preview(file, sets, {}, told.path()) != 0)
     throw InputError({file.string()}, "its motion cannot be computed (see above)", "mend what is named there");

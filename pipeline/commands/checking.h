@@ -11,8 +11,9 @@ namespace dresslife::pipeline {
 
 struct JobCheck {
   std::string refusal;             ///< why the simulation refuses the job; empty: it takes it
-  std::vector<Warning> warnings;   ///< a run gives those of slack and of the construction, too
+  std::vector<Warning> warnings;   ///< a run of the job has warnings of the same kinds; of strain.slip only a check has one
   std::vector<std::string> notes;  ///< which lengths suit, for each dresspack between two clamps
+  std::string limits;              ///< what only a run finds, a sentence
 };
 
 /// Errors: InputError for all that a reader of jobs refuses, at once.

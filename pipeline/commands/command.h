@@ -18,6 +18,7 @@ Command rate_command();
 Command validate_command();
 Command calibrate_command();
 // One job, one dresspack
+Command new_command();
 Command show_command();
 Command check_command();
 Command preview_command();

@@ -42,6 +42,38 @@ void describe(Fields& f, LearnedWithin& within) {
   f.maybe_number("fewest_cycles", within.fewest_cycles, at_least(0), "that were observed");
   f.maybe_number("most_cycles", within.most_cycles, at_least(0), "likewise");
   f.text("materials", within.materials, Need::optional, "of the wires, comma-separated");
+  f.text("left_out", within.left_out, Need::optional,
+         "parameters that do not hold for the job, and why: in resolved jobs");
+}
+
+void describe(Fields& f, LearnedSetting& setting) {
+  f.text("key", setting.key, Need::required, "of a job");
+  f.text("value", setting.value, Need::required, "its value in a test; any: it does not matter there");
+}
+
+void describe(Fields& f, LearnedCable& cable) {
+  f.text("name", cable.name, Need::required, "of the cable");
+  f.text("hose", cable.hose, Need::optional, "dresspack that it lay in; empty: it was tested alone");
+  f.text("construction", cable.construction, Need::required,
+         "digest of its parts, without names and friction keys");
+  f.text("friction", cable.friction, Need::optional, "friction keys of its parts");
+}
+
+void describe(Fields& f, LearnedMaterial& material) {
+  f.text("name", material.name, Need::required, "of a material of wires");
+  f.text("constants", material.constants, Need::required, "its keys");
+}
+
+void describe(Fields& f, LearnedUnder& under) {
+  f.list("settings", under.settings, Need::optional, "a job with others is refused");
+  f.list(
+      "cables", under.cables, Need::optional,
+      "a job with other friction keys is refused; for a job with other cables friction_inside, friction_hose and play "
+      "keep their priors");
+  f.list(
+      "materials", under.materials, Need::optional,
+      "a job with other constants is refused; for a job with other materials strength, slope and scatter keep their "
+      "priors");
 }
 
 void describe(Fields& f, Calibration& calibration) {
@@ -52,6 +84,7 @@ void describe(Fields& f, Calibration& calibration) {
             "whether its medians stand in the job's keys already: in resolved jobs");
   f.text("note", calibration.note, Need::optional, "how it was learned");
   f.list("parameters", calibration.parameters, Need::required, "what was learned");
+  f.group("under", calibration.under, Need::optional, "what the tests were computed with");
   f.group("within", calibration.within, Need::optional,
           "what the tests went through; outside nobody has looked");
   f.list("observations", calibration.observations, Need::optional, "from what it was learned");
@@ -143,10 +176,7 @@ std::vector<std::string> beyond(const LearnedWithin& within, const Experience& e
                                 readable(*within.least_strain_range, 2)));
   at_most("a curvature [1/m]", experience.curvature, within.largest_curvature);
   at_most("a twist [rad/m]", experience.twist, within.largest_twist);
-  for (const std::string& material : experience.materials)
-    if (!within.materials.empty() &&
-        (", " + within.materials + ",").find(", " + material + ",") == std::string::npos)
-      words.push_back(fmt::format("wires of {} ({} in its tests)", material, within.materials));
+  if (!within.left_out.empty()) words.push_back(within.left_out);
   return words;
 }
 

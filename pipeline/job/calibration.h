@@ -42,16 +42,46 @@ struct LearnedWithin {
   std::optional<double> largest_curvature, largest_twist;          ///< of the cables [1/m], [rad/m]
   std::optional<double> fewest_cycles, most_cycles;                ///< that were observed
   std::string materials;                                           ///< of the wires, comma-separated
+  std::string left_out;  ///< parameters that do not hold for the job that names it, in words; empty: none
+};
+
+/// A key that all jobs have; of several tests there may be several values.
+struct LearnedSetting {
+  std::string key, value;
+  bool operator==(const LearnedSetting&) const = default;
+};
+
+/// A cable whose wires were evaluated.
+struct LearnedCable {
+  std::string name;
+  std::string hose;          ///< dresspack that it lay in; empty: it was alone
+  std::string construction;  ///< digest of its parts, without names and friction keys
+  std::string friction;      ///< friction keys of its parts, comma-separated
+  bool operator==(const LearnedCable&) const = default;
+};
+
+/// A material of wires.
+struct LearnedMaterial {
+  std::string name, constants;  ///< constants: keys with values, comma-separated
+  bool operator==(const LearnedMaterial&) const = default;
+};
+
+/// What the tests were computed with (learned_settings.h).
+struct LearnedUnder {
+  std::vector<LearnedSetting> settings;
+  std::vector<LearnedCable> cables;
+  std::vector<LearnedMaterial> materials;
 };
 
 struct Calibration {
   static constexpr const char* format_word = "dresslife-calibration";
-  static constexpr int newest_version = 1;
+  static constexpr int newest_version = 2;
   std::string format = format_word;
   int format_version = newest_version;
   bool applied = false;
   std::string note;
   std::vector<LearnedParameter> parameters;
+  LearnedUnder under;
   LearnedWithin within;
   std::vector<LearnedFrom> observations;
   Where where;
@@ -59,6 +89,10 @@ struct Calibration {
 void describe(Fields& f, LearnedParameter& parameter);
 void describe(Fields& f, LearnedFrom& from);
 void describe(Fields& f, LearnedWithin& within);
+void describe(Fields& f, LearnedSetting& setting);
+void describe(Fields& f, LearnedCable& cable);
+void describe(Fields& f, LearnedMaterial& material);
+void describe(Fields& f, LearnedUnder& under);
 void describe(Fields& f, Calibration& calibration);
 
 /// Errors: InputError at the place: another format or a newer version, an unknown parameter or one twice, a
@@ -74,7 +108,6 @@ ParameterKnowledge knowledge_of(const Calibration& calibration);
 struct Experience {
   double strain_range = 0;          ///< of the worst wire
   double curvature = 0, twist = 0;  ///< largest of the motion [1/m], [rad/m]
-  std::vector<std::string> materials;
 };
 std::vector<std::string> beyond(const LearnedWithin& within, const Experience& experience);
 

@@ -29,7 +29,7 @@ constexpr GlossaryEntry entries[] = {
     {"free length", "length of dresspack between its clamps (routing.free_length_m)"},
     {"friction inside", "between wires, conductors and cables; it decides how much of a bend stretches the wires"},
     {"glued, stuck", "parts that cannot slide on each other; a bound, not a best estimate (strain.slip: stick)"},
-    {"job", "one robot with one program and its dresspacks: what one life is computed for"},
+    {"job", "one robot with one program and its dresspacks: what one life is computed for; dresslife new writes a first one"},
     {"lay", "the helix on which a part is wound: its angle to the axis, its length for one turn, its hand"},
     {"level", "a step down in a dresspack: 1 its cables, 2 their conductors, 3 the wires of these"},
     {"life", "hours of motion, or repeats of the program, until something fails"},

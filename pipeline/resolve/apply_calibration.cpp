@@ -1,8 +1,6 @@
 #include "pipeline/resolve/apply_calibration.h"
 
-#include <algorithm>
-
-#include "pipeline/job/calibration.h"
+#include "pipeline/job/learned_settings.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
@@ -22,7 +20,7 @@ bool gives(const Node& job, const UncertainParameter& parameter) {
 
 }  // namespace
 
-void apply_calibration(Node& job) {
+void read_calibration(Node& job) {
   Node* written = job.find("calibration");
   if (!written) return;
   if (written->is_scalar()) {
@@ -34,16 +32,25 @@ void apply_calibration(Node& job) {
   Calibration calibration;
   read_fields(*written, calibration);
   check_calibration(calibration);
-  if (calibration.applied) return;
-  (*written)["applied"] = scalar("true");
-  const Where where = written->where;
-  for (const LearnedParameter& learned : calibration.parameters) {
+}
+
+void apply_calibration(Node& tree, Job& job) {
+  if (!job.calibration) return;
+  const bool applied = job.calibration->applied;
+  if (!applied || !job.calibration->under.settings.empty())
+    check_learned_settings(job);  // older resolved jobs have none
+  if (applied) return;
+  leave_out_foreign_parameters(job);
+  job.calibration->applied = true;
+  for (const LearnedParameter& learned : job.calibration->parameters) {
     const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
-    if (gives(job, parameter)) continue;
+    if (gives(tree, parameter)) continue;
     Node value = scalar(shortest_text(parameter.value(learned.median)));
     value.where = learned.where;
-    set_value(job, std::string(parameter.key), std::move(value), where);
+    set_value(tree, std::string(parameter.key), std::move(value), job.calibration->where);
   }
+  if (const Node* strain = tree.find("strain")) read_fields(*strain, job.strain);
+  if (const Node* fatigue = tree.find("fatigue")) read_fields(*fatigue, job.fatigue);
 }
 
 }  // namespace dresslife::pipeline

@@ -5,8 +5,14 @@
 
 namespace dresslife::pipeline {
 
-/// In a job's tree that is not read yet: the calibration's file in place of its name, its medians in the keys
-/// that stand at their defaults. Errors: InputError.
-void apply_calibration(Node& job);
+struct Job;
+
+/// In a job's tree that is not read yet: the calibration's file in place of its name. Errors: InputError.
+void read_calibration(Node& job);
+
+/// Checks that the calibration was learned under the job's settings, leaves out what does not hold for the job
+/// (pipeline/job/learned_settings.h) and puts its medians into the keys that stand at their defaults.
+/// tree: that the job was read from. Errors: InputError.
+void apply_calibration(Node& tree, Job& job);
 
 }  // namespace dresslife::pipeline

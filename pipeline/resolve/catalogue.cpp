@@ -325,13 +325,14 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   if (const fs::path file = found_in(shipped_catalogue() / folder); !file.empty()) return read_document(file);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
+  const std::string near = nearest_word(name, names);
   const bool may_be_file = folder == "programs" && fs::path(name).has_extension();
   throw InputError(
       named_at,
       fmt::format("'{}' is not in the catalogue (config/{}){}", name, folder,
                   may_be_file ? fmt::format(", and there is no file '{}'", beside.string()) : ""),
       names.empty() ? "write the entry itself or a path to a .yaml file"
-                    : fmt::format("one of: {}", fmt::join(names, ", ")));
+                    : fmt::format("{}one of: {}", near.empty() ? "" : "did you mean '" + near + "'? ", fmt::join(names, ", ")));
 }
 
 void set_value(Node& job, const std::string& path, Node value, const Where& where) {

@@ -1,5 +1,7 @@
 #include "pipeline/resolve/job_text.h"
 
+#include <algorithm>
+
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/job/job_forms.h"
@@ -50,10 +52,13 @@ Job job_from(Node document, const std::vector<std::string>& sets) {
   check_forms(document, problems);
   resolve_job(document, problems);
   if (const Node* calibration = document.find("calibration"))
-    problems.attempt("calibration", calibration->where, [&] { apply_calibration(document); });
+    problems.attempt("calibration", calibration->where, [&] { read_calibration(document); });
   Job job;
   if (document.find("dresspacks")) job.dresspacks.clear();
   read_fields(document, Describe([&](Fields& f) { describe(f, job); }), problems);
+  const std::initializer_list<const char*> parts{"calibration", "strain", "fatigue", "dresspack", "dresspacks"};
+  if (std::none_of(parts.begin(), parts.end(), [&](const char* part) { return problems.touch(part); }))
+    problems.attempt("calibration", document.where, [&] { apply_calibration(document, job); });
   complete_job(job, document, problems);
   check_job(job, document, problems);
   problems.finish(document.where.file);

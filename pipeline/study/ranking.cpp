@@ -16,6 +16,7 @@
 #include "pipeline/files/files.h"
 #include "pipeline/life/first_failure.h"
 #include "pipeline/settings/units.h"
+#include "pipeline/study/ranking_columns.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/row_words.h"
 #include "pipeline/study/shown_rows.h"
@@ -339,100 +340,24 @@ std::string force_words(const RankingRow& row) {
   return fmt::format("{}", fmt::join(parts, " and "));
 }
 
-namespace {
-
-std::vector<std::string> csv_columns() {
-  std::vector<std::string> columns{
-      "job", "life_repeats", "life_hours", "worst_segment_from_tool", "worst_component", "damage_per_repeat",
-      "life_months", "life_repeats_all_stick", "life_repeats_all_free", "worst_position_from_tool_m", "worst_time_s",
-      "worst_step", "status", "message", "life_hours_p10", "life_hours_p50", "life_hours_p90",
-      "conductor_life_hours_p10", "conductor_life_hours_p50", "conductor_life_hours_p90", "hose_life_hours",
-      "hose_segment_from_tool", "hose_position_from_tool_m", "worst_joint", "worst_joint_share", "worst_dresspack",
-      "settings", "largest_force_share", "clamp_moment_share", "force_ok", "life_hours_mean_stress_kept",
-      "life_hours_without_mean_stress", "life_months_p10", "life_hours_all_stick", "life_hours_all_free",
-      "first_wire_life_hours_p10", "first_wire_life_hours_p50", "first_wire_life_hours_p90", "failing_conductor",
-      "failing_position_from_tool_m", "rated_cycles_per_hour", "relative_life_hours", "rated_cable",
-      "scatter_life_hours_p10", "scatter_life_hours_p50", "scatter_life_hours_p90", "outlives_next", "life_shares",
-      "measure_next", "measure_next_share"};
-  for (const std::string& column : warning_columns()) columns.push_back(column);
-  for (const char* column :
-       {"loose_mesh_error", "estimates", "rank", "failing_mode", "failing_mode_share", "life_hours_p10_all_glued",
-        "life_hours_p50_all_glued", "life_hours_p90_all_glued", "life_hours_p10_all_free", "life_hours_p50_all_free",
-        "life_hours_p90_all_free", "best_test", "best_test_life_hours_p10", "best_test_life_hours_p90"})
-    columns.push_back(column);
-  return columns;
-}
-
-/// Empty where it is not known.
-std::string number_text(double value) { return std::isnan(value) ? "" : shortest_text(value); }
-std::string number_text(const std::optional<double>& value) { return value ? shortest_text(*value) : ""; }
-
-/// The cells of a row with a result, in the order of the columns.
-std::vector<std::string> cells_of(const RankingRow& row) {
-  const bool evaluated = row.worst_segment_from_tool > 0;
-  std::vector<std::string> cells{row.job,
-                                 shortest_text(row.life_repeats),
-                                 shortest_text(row.life_hours),
-                                 evaluated ? std::to_string(row.worst_segment_from_tool) : "",
-                                 row.worst_component,
-                                 shortest_text(row.damage_per_repeat),
-                                 shortest_text(row.life_months),
-                                 shortest_text(row.life_repeats_all_stick),
-                                 shortest_text(row.life_repeats_all_free),
-                                 evaluated ? shortest_text(row.worst_position_from_tool) : "",
-                                 evaluated ? shortest_text(row.worst_time) : "",
-                                 row.worst_step,
-                                 row.stale ? "stale" : "done",
-                                 row.stale ? stale_words(row) : ""};
-  const auto add = [&](std::initializer_list<std::string> more) { cells.insert(cells.end(), more); };
-  const auto add_each = [&](const std::array<double, 3>& lives) {
-    for (const double life : lives) cells.push_back(number_text(life));
-  };
-  add_each(row.planned() ? row.planned_hours : row.first_wire_hours);
-  add_each(row.conductor_hours);
-  add({row.hose ? shortest_text(row.hose->hours) : "", row.hose ? std::to_string(row.hose->segment_from_tool) : "",
-       row.hose ? shortest_text(row.hose->position_from_tool) : "", row.worst_joint,
-       row.worst_joint.empty() ? "" : shortest_text(row.worst_joint_share), row.worst_dresspack, row.settings,
-       number_text(row.largest_force_share), number_text(row.clamp_moment_share),
-       !row.clamp_moment_share ? "" : row.force_ok() ? "yes" : "no", number_text(row.hours_mean_stress_kept),
-       number_text(row.hours_without_mean_stress), row.planned() ? shortest_text(row.planned_months) : "",
-       shortest_text(row.hours_of(row.life_repeats_all_stick)), shortest_text(row.hours_of(row.life_repeats_all_free))});
-  add_each(row.first_wire_hours);
-  add({row.failing_conductor, row.failing_conductor.empty() ? "" : shortest_text(row.failing_position_from_tool),
-       row.relative ? shortest_text(row.relative->cycles_per_hour) : "",
-       row.relative ? shortest_text(row.relative->hours()) : "", row.relative ? row.relative->cable : ""});
-  add_each(row.scatter_hours);
-  add({number_text(row.outlives_next), row.life_shares, row.measure_next,
-       row.measure_next.empty() ? "" : shortest_text(row.measure_next_share)});
-  for (const std::string& cell : warning_cells(row)) cells.push_back(cell);
-  add({number_text(row.loose_mesh_error), row.estimates, row.rank ? std::to_string(row.rank) : "", row.failing_mode,
-       row.failing_mode.empty() ? "" : shortest_text(row.failing_mode_share)});
-  add_each(row.glued_hours);
-  add_each(row.free_hours);
-  add({row.best_test, number_text(row.tested_p10), number_text(row.tested_p90)});
-  return cells;
-}
-
-}  // namespace
-
 std::string ranking_csv(const std::vector<RankingRow>& rows) {
-  const std::vector<std::string> columns = csv_columns();
-  const auto place_of = [&](const char* column) {
-    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
-  };
-  std::string text = fmt::format("{}\n", fmt::join(columns, ","));
+  std::vector<std::string> names;
+  for (const RankingColumn& column : ranking_columns()) names.push_back(column.name);
+  std::string text = fmt::format("{}\n", fmt::join(names, ","));
   for (const RankingRow& row : rows) {
-    std::vector<std::string> cells(columns.size());
-    if (row.has_result()) {
-      cells = cells_of(row);
-    } else {
-      cells[place_of("job")] = row.job;
-      cells[place_of("status")] = row.waits() ? row.failure : "failed";
-      cells[place_of("message")] = row.failure;
-      cells[place_of("settings")] = row.settings;
+    const std::map<std::string_view, std::string> without_result{
+        {"job", row.job},
+        {"status", row.waits() ? row.failure : "failed"},
+        {"message", row.failure},
+        {"settings", row.settings}};
+    std::vector<std::string> cells;
+    for (const RankingColumn& column : ranking_columns()) {
+      const auto given = without_result.find(column.name);
+      cells.push_back(csv_cell(row.has_result()                ? column.cell(row)
+                               : given != without_result.end() ? given->second
+                                                               : std::string()));
     }
-    for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
-    text += '\n';
+    text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return text;
 }

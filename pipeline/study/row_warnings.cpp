@@ -8,14 +8,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// In the order of the kinds; those of forces have a column already.
-std::vector<WarningKind> kinds_with_columns() {
-  std::vector<WarningKind> kinds;
-  for (int k = 0; k < warning_kinds_count; ++k)
-    if (const auto kind = static_cast<WarningKind>(k); kind != WarningKind::force) kinds.push_back(kind);
-  return kinds;
-}
-
 std::size_t count_of(const std::vector<Warning>& warnings, WarningKind kind) {
   return static_cast<std::size_t>(std::count_if(
       warnings.begin(), warnings.end(), [&](const Warning& warning) { return warning.kind == kind; }));
@@ -57,25 +49,6 @@ std::string warning_kinds(const RankingRow& row) {
       words.push_back(count == 1 ? std::string(title(kind)) : fmt::format("{} x{}", title(kind), count));
   }
   return fmt::format("{}", fmt::join(words, ", "));
-}
-
-std::vector<std::string> warning_columns() {
-  std::vector<std::string> columns{"warnings", "warning_words"};
-  for (const WarningKind kind : kinds_with_columns()) columns.push_back(fmt::format("{}_ok", word(kind)));
-  return columns;
-}
-
-std::vector<std::string> warning_cells(const RankingRow& row) {
-  std::vector<std::string> cells(warning_columns().size());
-  if (!row.warnings) return cells;
-  std::vector<std::string> words;
-  for (const Warning& warning : *row.warnings) words.push_back(warning.text());
-  cells[0] = std::to_string(words.size());
-  cells[1] = fmt::format("{}", fmt::join(words, "; "));
-  std::size_t column = 2;
-  for (const WarningKind kind : kinds_with_columns())
-    cells[column++] = count_of(*row.warnings, kind) ? "no" : "yes";
-  return cells;
 }
 
 std::string warning_lines(const std::vector<RankingRow>& rows) {

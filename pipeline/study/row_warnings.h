@@ -1,4 +1,4 @@
-// What the stages of a study's jobs warned of, as columns and lines.
+// What the stages of a study's jobs warned of, as lines.
 #pragma once
 
 #include <string>
@@ -13,11 +13,6 @@ std::vector<Warning> warnings_of(const RankingRow& row);
 
 /// "bend radius, program x3"; empty: nothing is warned of, or it is not known.
 std::string warning_kinds(const RankingRow& row);
-
-/// Columns of ranking.csv: `warnings`, how many; `warning_words`, all of them; then KIND_ok, yes or no, of
-/// each kind but forces, which have theirs. Cells are empty where the files do not tell.
-std::vector<std::string> warning_columns();
-std::vector<std::string> warning_cells(const RankingRow& row);
 
 /// Every warning in full, with the job that it is of, a line each: of more than a dozen the first of each
 /// kind, how many jobs have one, and where the others stand. Empty without any.

@@ -65,7 +65,7 @@ TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job 
   CHECK(outcome.out.find("friction_inside") != std::string::npos);
   CHECK(outcome.out.find("no test hangs on it") != std::string::npos);
   const std::string file = unmarked_content(scratch / "runs/calibrate_o/calibration.yaml");
-  CHECK(file.starts_with("format: dresslife-calibration\nformat_version: 1\n"));
+  CHECK(file.starts_with("format: dresslife-calibration\nformat_version: 2\n"));
   CHECK(learned(file, "strength", "value") > 1.05);
   CHECK(learned(file, "model", "value") > 1.05);
   CHECK(file.find("name: slack") == std::string::npos);
@@ -74,6 +74,10 @@ TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job 
   const double after = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
   CHECK(after > 4 * before);
   CHECK(after < 13 * before);
+  // Friction that was learned with slipping parts says nothing of parts that stick.
+  const Outcome other_slip = run(scratch, "dresslife", "check job.yaml --set calibration=runs/calibrate_o/calibration.yaml --set strain.slip=stick");
+  CHECK(other_slip.status == 1);
+  CHECK(other_slip.err.find("was learned with strain.slip: friction (this job has stick); set strain.slip as") != std::string::npos);
   // A second time nothing is left to do, and the same is said; by other rows it is learned anew, and the job
   // runs again.
   const Outcome again = run(scratch, "dresslife", "calibrate o.yaml");

@@ -1,8 +1,13 @@
 // dresslife check: what a run would warn of or refuse, without the run.
+#include <set>
+
+#include "pipeline/commands/checking.h"
+#include "pipeline/files/files.h"
 #include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
+using namespace dresslife::pipeline;
 
 TEST_CASE("check: a job without faults, one whose slip is a bound, one that is too short, one that is misspelt") {
   Scratch scratch;
@@ -11,6 +16,7 @@ TEST_CASE("check: a job without faults, one whose slip is a bound, one that is t
   INFO(bound.out << bound.err);
   CHECK(bound.status == 0);
   CHECK(bound.out.find("strain.slip is stick") != std::string::npos);
+  CHECK(bound.out.find("The dresspack was checked at rest. A run may also warn of its swing") != std::string::npos);
   const Outcome too_short = run(scratch, "dresslife", "check job.yaml --set routing.free_length_m=0.7");
   CHECK(too_short.status == 1);
   CHECK(too_short.out.find("The simulation refuses the job: ") != std::string::npos);
@@ -20,4 +26,40 @@ TEST_CASE("check: a job without faults, one whose slip is a bound, one that is t
   CHECK(misspelt.err.find("did you mean 'free_length_m'?") != std::string::npos);
   const auto entries = std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator{});
   CHECK(entries == 4);  // job, poses, .out, .err: a check leaves nothing
+}
+
+TEST_CASE("check: what it warns of in the shipped jobs, a run warns of, too") {
+  const Scratch scratch;
+  const fs::path config = fs::path(DRESSLIFE_SOURCE_DIR) / "config";
+  // Coarse and quick. 32 segments still bend as tightly as the hose at rest.
+  const std::vector<std::string> coarse{"simulation.segments=32",      "simulation.time_step_ms=10",
+                                        "simulation.sample_rate_Hz=5", "strain.surface_fibres=0",
+                                        "uncertainty.enabled=false",   "strain.cable_elements_per_segment=1"};
+  std::vector<std::pair<std::string, std::string>> jobs;
+  for (const auto& entry : fs::directory_iterator(config / "jobs"))
+    if (entry.path().extension() == ".yaml") jobs.emplace_back(entry.path().stem().string(), "");
+  for (const char* motion : {"easy", "hard", "spot_robot_2"}) jobs.emplace_back("irb6640_spot_welding", motion);
+  REQUIRE(jobs.size() > 8);
+  for (const auto& [job, motion] : jobs) {
+    CAPTURE(job, motion);
+    std::vector<std::string> sets = coarse;
+    if (!motion.empty()) sets.push_back("motion=" + motion);
+    const fs::path file = config / "jobs" / (job + ".yaml");  // a name alone may be that of a study
+    std::string line = "run '" + file.string() + "' --quiet -o " + job + motion;
+    for (const std::string& set : sets) line += " --set " + set;
+    const JobCheck check = check_of(file, sets);
+    CHECK(check.refusal.empty());
+    if (check.warnings.empty()) continue;  // nothing to be found again
+    const Outcome outcome = run(scratch, "dresslife", line);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const FileReader life(scratch / (job + motion + "/" + job + "/" + job + "/life.h5"), life_format(),
+                          FileReader::Scope::attributes);
+    std::set<WarningKind> kinds;
+    for (const Warning& warning : warnings_from(life.text_attribute("warnings"))) kinds.insert(warning.kind);
+    for (const Warning& warning : check.warnings) {
+      INFO(warning.line());
+      CHECK(kinds.count(warning.kind) == 1);
+    }
+  }
 }

@@ -355,9 +355,8 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
     std::array<double, pipeline::uncertain_count> at{};
     std::copy_n(z.begin() + v * 5, 5, at.begin());
     std::vector<std::string> sets = pipeline::sets_at(at);
-    // Glued is the job whose friction lets nothing slip. With other slacks its strains begin from another state than
-    // those of that job, apart by up to a third of their range: not understood, and not compared.
-    if (inside[v] == 1 && at[index_of(pipeline::Uncertain::slack)] != 0) continue;
+    // Glued is the job whose friction lets nothing slip. With a slack of 3 % instead of 1 % glued strains differ by up to
+    // 1.3 of their range where the slack is varied: not understood.
     if (inside[v] != 0) sets.push_back(inside[v] == 1 ? "strain.friction_factor=1000" : "strain.slip=free");
     REQUIRE(!sets.empty());
     INFO(sets.front() << (sets.size() > 1 ? sets.back() : ""));

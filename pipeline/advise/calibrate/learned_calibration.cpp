@@ -11,7 +11,7 @@
 #include "pipeline/base/readable.h"
 #include "pipeline/base/digest.h"
 #include "pipeline/files/files.h"
-#include "pipeline/job/job.h"
+#include "pipeline/job/learned_settings.h"
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/settings/units.h"
 
@@ -62,6 +62,19 @@ LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJob
   return within;
 }
 
+/// What the jobs at the centre were computed with. Tests of stiffness and decay say nothing of materials.
+LearnedUnder under_of(const std::vector<ObservedTest>& tests, const RoundOfJobs& round) {
+  std::vector<const Job*> all, lives;
+  for (std::size_t t = 0; t < tests.size(); ++t)
+    for (const RoundOfJobs::Runs& runs : round.runs()[t]) {
+      all.push_back(round.study().jobs[runs.centre].job.get());
+      if (tests[t].observation.is_life()) lives.push_back(all.back());
+    }
+  LearnedUnder under = learned_under(all);
+  under.materials = learned_under(lives).materials;
+  return under;
+}
+
 std::string digest_of(const ObservedTest& test) {
   const std::filesystem::path& table = test.observation.bending;
   return xxh3(test.text + (table.empty() ? "" : xxh3_of_file(table)));
@@ -93,6 +106,7 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
     parameter.value_p90 = to_figures(learned.axes[p].after[2], 4);
     calibration.parameters.push_back(parameter);
   }
+  calibration.under = under_of(tests, round);
   calibration.within = within_of(tests, round, places);
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const LearnedTest& told = learned.tests[t];

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pipeline/job/job.h"
+#include "pipeline/job/learned_settings.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
 #include "tests/catch.h"
@@ -13,15 +13,23 @@ using namespace dresslife::pipeline;
 
 namespace {
 
-const std::string two_learned = R"(format: dresslife-calibration
-format_version: 1
+/// Of strength and friction, learned from the sample job.
+std::string two_learned() {
+  const Job job = job_from(parse_yaml(sample_job, "test.yaml"));
+  Calibration calibration;
+  calibration.under = learned_under({&job});
+  Node tree;
+  tree["under"] = *echo_fields(calibration).find("under");
+  return R"(format: dresslife-calibration
+format_version: 2
 parameters:
   - {name: strength, median: 0.5, mean: 0.4, covariance: [0.25, -0.1]}
   - {name: friction_inside, median: -1, mean: -0.9, covariance: [-0.1, 0.5]}
 within: {least_strain_range: 1e-3, largest_strain_range: 6e-3, largest_curvature_1_per_m: 10, materials: copper}
 observations:
   - {observation: bench, observed: 1000}
-)";
+)" + to_yaml(tree);
+}
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   return text.replace(text.find(what), what.size(), by);
@@ -40,7 +48,7 @@ std::string refusal(const std::string& calibration) {
 
 TEST_CASE("calibration: the keys of a job that names one go to its medians") {
   const Scratch scratch;
-  scratch.write("learned.yaml", two_learned);
+  scratch.write("learned.yaml", two_learned());
   const auto file = scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n");
   const Job job = read_job(file);
   CHECK(job.fatigue.strength_factor == Approx(std::exp(0.25 * 0.5)));
@@ -53,14 +61,14 @@ TEST_CASE("calibration: the keys of a job that names one go to its medians") {
   CHECK(job_text(again) == job_text(job));
   CHECK(again.fatigue.strength_factor == job.fatigue.strength_factor);
   const std::string before = part_text(job, Part::fatigue), sim = part_text(job, Part::sim);
-  scratch.write("learned.yaml", replaced(two_learned, "0.25", "0.26"));
+  scratch.write("learned.yaml", replaced(two_learned(), "0.25", "0.26"));
   CHECK(part_text(read_job(file), Part::fatigue) != before);
   CHECK(part_text(read_job(file), Part::sim) == sim);
 }
 
 TEST_CASE("calibration: draws are its own, of what it does not know the prior's") {
   const Scratch scratch;
-  scratch.write("learned.yaml", two_learned);
+  scratch.write("learned.yaml", two_learned());
   const Job job = read_job(scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n"));
   const ParameterKnowledge known = knowledge_of(job);
   const auto strength = index_of(Uncertain::strength), friction = index_of(Uncertain::friction_inside),
@@ -75,24 +83,24 @@ TEST_CASE("calibration: draws are its own, of what it does not know the prior's"
 }
 
 TEST_CASE("calibration: bad files are refused at their place") {
-  CHECK(refusal(two_learned) == "");
-  CHECK(refusal(replaced(two_learned, "strength,", "strenght,"))
+  CHECK(refusal(two_learned()) == "");
+  CHECK(refusal(replaced(two_learned(), "strength,", "strenght,"))
             .starts_with("learned.yaml:4:5: error: 'strenght' is no uncertain"));
-  CHECK(refusal(replaced(two_learned, "friction_inside", "strength")).find("'strength' stands twice") !=
+  CHECK(refusal(replaced(two_learned(), "friction_inside", "strength")).find("'strength' stands twice") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned, "dresslife-calibration", "dresslife-life")).find("has the format") !=
+  CHECK(refusal(replaced(two_learned(), "dresslife-calibration", "dresslife-life")).find("has the format") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned, "version: 1", "version: 9")).find("is of version 9") !=
+  CHECK(refusal(replaced(two_learned(), "version: 2", "version: 9")).find("is of version 9") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned, "[0.25, -0.1]", "[0.25]")).find("has 1 covariances") !=
+  CHECK(refusal(replaced(two_learned(), "[0.25, -0.1]", "[0.25]")).find("has 1 covariances") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned, "[0.25, -0.1]", "[0.25, 0.1]")).find("not symmetric") !=
+  CHECK(refusal(replaced(two_learned(), "[0.25, -0.1]", "[0.25, 0.1]")).find("not symmetric") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned, "[0.25, -0.1]", "[0.01, -0.1]")).find("not symmetric and positive") !=
+  CHECK(refusal(replaced(two_learned(), "[0.25, -0.1]", "[0.01, -0.1]")).find("not symmetric and positive") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned, "0.25", ".nan")) != "");
+  CHECK(refusal(replaced(two_learned(), "0.25", ".nan")) != "");
   CHECK(refusal("just words\n").find("holds no calibration") != std::string::npos);
-  CHECK(refusal(replaced(two_learned, "parameters", "parameter")).find("unknown key") != std::string::npos);
+  CHECK(refusal(replaced(two_learned(), "parameters", "parameter")).find("unknown key") != std::string::npos);
   const Scratch scratch;
   const auto lost = scratch.write("job.yaml", sample_job + "calibration: nowhere.yaml\n");
   CHECK(message_of([&] { read_job(lost); }).find("nowhere.yaml") != std::string::npos);
@@ -103,11 +111,114 @@ TEST_CASE("calibration: tells where a job goes beyond what it was learned from")
   within.least_strain_range = 1e-3;
   within.largest_strain_range = 6e-3;
   within.largest_curvature = 10;
-  within.materials = "copper, silver";
-  CHECK(beyond(within, {3e-3, 8, 100, {"copper"}}).empty());
-  CHECK(beyond(within, {1.2e-2, 8, 0, {"copper"}}).at(0) ==
-        "a strain range of 0.012 (at most 0.0060 in its tests)");
-  CHECK(beyond(within, {3e-4, 8, 0, {"silver"}}).size() == 1);
-  CHECK(beyond(within, {3e-3, 12, 0, {"opper"}}).size() == 2);
-  CHECK(beyond({}, {1, 1, 1, {"gold"}}).empty());
+  CHECK(beyond(within, {3e-3, 8, 100}).empty());
+  CHECK(beyond(within, {1.2e-2, 8, 0}).at(0) == "a strain range of 0.012 (at most 0.0060 in its tests)");
+  CHECK(beyond(within, {3e-4, 8, 0}).size() == 1);
+  within.left_out = "no test has the cable x, for which friction_inside is not used";
+  CHECK(beyond(within, {3e-3, 12, 0}).at(1) == within.left_out);
+  CHECK(beyond({}, {1, 1, 1}).empty());
+}
+
+namespace {
+
+/// What a job with these changes says of the calibration; "" when it takes it.
+std::string answer(const std::string& calibration, const std::vector<std::string>& sets) {
+  const Scratch scratch;
+  scratch.write("learned.yaml", calibration);
+  const auto job = scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n");
+  return message_of([&] { read_job(job, sets); });
+}
+
+bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+const std::string wires = "dresspack.components.1.components.1.";
+
+}  // namespace
+
+TEST_CASE("calibration: a job with other settings than its tests is refused, and both are named") {
+  CHECK(answer(two_learned(), {}) == "");
+  const std::string slip = answer(two_learned(), {"strain.slip=free"});
+  CHECK(has(slip, "learned.yaml:1:1: error: was learned with strain.slip: [stick, free] (this job has free); set "
+                  "strain.slip as the tests had it, calibrate again with --set 'strain.slip=free', or leave"));
+  CHECK(answer(two_learned(), {"strain.slip=[stick, free]"}) == "");
+  const std::string both = answer(two_learned(), {"strain.kinematics=thesis", "fatigue.stress=elastic"});
+  CHECK(has(both, "was learned with strain.kinematics: exact (this job has thesis); "));
+  CHECK(has(both, "was learned with fatigue.stress: cyclic (this job has elastic); "));
+  const std::string friction = answer(two_learned(), {wires + "friction_coefficient=0.5"});
+  CHECK(has(friction, "was learned with friction_coefficient 0.3 and radial_line_load_N_per_m "));
+  CHECK(has(friction, "(this job has friction_coefficient 0.5 and radial_line_load_N_per_m "));
+  const std::string constants = answer(replaced(two_learned(), "fatigue_strength_MPa ", "fatigue_strength_MPa 1"), {});
+  CHECK(has(constants, "was learned with fatigue_strength_MPa 1"));
+  CHECK(has(constants, " of material 'copper' (this job has fatigue_strength_MPa "));
+  // Tests under several values teach for each of them.
+  const Scratch scratch;
+  const auto file = scratch.write("job.yaml", sample_job);
+  const Job one = read_job(file), other = read_job(file, {"strain.slip=free"});
+  CHECK(learned_under({&one, &other, &one}).settings.size() == learned_under({&one}).settings.size() + 1);
+  // Files of before say nothing of settings.
+  std::string old = two_learned();
+  old.erase(old.find("under:"));
+  CHECK(has(answer(old, {}), "does not say under which settings it was learned (strain.slip and others); run dresslife "
+                             "calibrate again"));
+}
+
+TEST_CASE("calibration: resolved jobs keep to its settings, too") {
+  const Scratch scratch;
+  scratch.write("learned.yaml", two_learned());
+  const std::string text = job_text(read_job(scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n")));
+  CHECK(message_of([&] { job_from(parse_yaml(text, "resolved.yaml"), {"strain.slip=free"}); }).find("was learned with") !=
+        std::string::npos);
+  const std::size_t began = text.find("  under:\n"), ended = text.find("  within:\n");
+  REQUIRE(ended > began);
+  std::string older = text;
+  older.erase(began, ended - began);
+  CHECK(job_text(job_from(parse_yaml(older, "resolved.yaml"))).size() < text.size());
+}
+
+TEST_CASE("calibration: of a construction or a material that no test had its parameters are left out") {
+  const Scratch scratch;
+  scratch.write("learned.yaml", two_learned());
+  const auto file = scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n");
+  // Another lay: another cable. Strength is the material's and stays, with its own variance.
+  const Job cable = read_job(file, {wires + "lay_angle_deg=20"});
+  CHECK(cable.strain.factors.friction == 1);
+  CHECK(cable.fatigue.strength_factor == Approx(std::exp(0.25 * 0.5)));
+  REQUIRE(cable.calibration->parameters.size() == 1);
+  CHECK(cable.calibration->parameters[0].covariance == std::vector<double>{0.25});
+  CHECK(knowledge_of(cable).covariance(0, 0) == Approx(1));
+  CHECK(cable.calibration->within.left_out == "no test has the cable test hose, for which friction_inside is not used");
+  // Another material of wires: the friction stays.
+  const Job material = read_job(file, {"fatigue.material=copper_halved"});
+  CHECK(material.strain.factors.friction == Approx(std::exp(-0.78)));
+  CHECK(material.fatigue.strength_factor == 1);
+  CHECK(material.calibration->within.left_out == "no test has wires of copper_halved, for which strength is not used");
+  CHECK(read_job(file).calibration->within.left_out.empty());
+}
+
+TEST_CASE("calibration: a cable that was tested alone is known again in a hose") {
+  const Scratch scratch;
+  const std::string rig = "motion: {rig: {kind: torsion, twist_deg_per_m: 90}}\n";
+  const Job alone = read_job(
+      scratch.write("a.yaml", rig + "dresspack: {cable: {from: spot_welding, part: signal cable}}\nstrain: {slip: [free, friction, friction]}\n"));
+  const Job hose = read_job(scratch.write("b.yaml", rig + "dresspack: spot_welding\n"));
+  const LearnedUnder a = learned_under({&alone}), b = learned_under({&hose});
+  REQUIRE(a.cables.size() == 1);
+  REQUIRE(b.cables.size() == 1);
+  CHECK(a.cables[0].construction == b.cables[0].construction);
+  CHECK(a.cables[0].friction == b.cables[0].friction);
+  CHECK(a.cables[0].hose == "");
+  CHECK(b.cables[0].hose == "spot_welding");
+  Job job = hose;
+  job.calibration.emplace().under = a;
+  for (const char* name : {"friction_inside", "play", "slack", "strength"}) {
+    LearnedParameter parameter;
+    parameter.name = name;
+    parameter.covariance = {1, 0, 0, 0};
+    job.calibration->parameters.push_back(parameter);
+  }
+  CHECK_NOTHROW(check_learned_settings(job));
+  leave_out_foreign_parameters(job);
+  // The room between cable and hose is not known from a cable alone.
+  CHECK(job.calibration->within.left_out == "no test has the hose spot_welding, for which play is not used");
+  CHECK(job.calibration->parameters.size() == 3);
 }

@@ -93,13 +93,13 @@ TEST_CASE("catalogue: a name that is not there is answered with those that are")
   const std::string text = edited(sample_job, dresspack_block, "dresspack: spot_weldin\n");
   const std::string message = message_of([&] { job_from(parse_yaml(text, "job.yaml")); });
   CHECK(message.starts_with(place_of(text, "spot_weldin\n", "job.yaml") +
-                            ": error: 'spot_weldin' is not in the catalogue (config/dresspacks); one of: "));
+                            ": error: 'spot_weldin' is not in the catalogue (config/dresspacks); did you mean 'spot_welding'? one of: "));
   CHECK(message.find("spot_welding") != std::string::npos);
 
   const std::string wire = edited(sample_job, "material: copper", "material: coper");
   const std::string answer = message_of([&] { job_from(parse_yaml(wire, "job.yaml")); });
   CHECK(answer.starts_with(place_of(wire, "coper", "job.yaml") +
-                           ": error: 'coper' is not in the catalogue (config/materials); one of: "));
+                           ": error: 'coper' is not in the catalogue (config/materials); did you mean 'copper'? one of: "));
   CHECK(answer.find("copper") != std::string::npos);
 }
 

@@ -1,4 +1,5 @@
 #include "pipeline/study/ranking.h"
+#include "pipeline/study/ranking_columns.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/row_words.h"
 
@@ -136,6 +137,41 @@ TEST_CASE("ranking: the CSV has the contract's columns first and reads back exac
   CHECK(table[0][20] == "hose_life_hours");
   CHECK(table[1][20].empty());
   CHECK(ranking_csv({}) == ranking_csv(rows).substr(0, ranking_csv(rows).find('\n') + 1));
+}
+
+TEST_CASE("ranking: every column is described, and no column was renamed, moved or taken away") {
+  // As other programs have read it; new columns stand last.
+  const std::string known =
+      "job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat,"
+      "life_months,life_repeats_all_stick,life_repeats_all_free,worst_position_from_tool_m,"
+      "worst_time_s,worst_step,status,message,life_hours_p10,life_hours_p50,life_hours_p90,"
+      "conductor_life_hours_p10,conductor_life_hours_p50,conductor_life_hours_p90,hose_life_hours,"
+      "hose_segment_from_tool,hose_position_from_tool_m,worst_joint,worst_joint_share,worst_dresspack,"
+      "settings,largest_force_share,clamp_moment_share,force_ok,life_hours_mean_stress_kept,"
+      "life_hours_without_mean_stress,life_months_p10,life_hours_all_stick,life_hours_all_free,"
+      "first_wire_life_hours_p10,first_wire_life_hours_p50,first_wire_life_hours_p90,"
+      "failing_conductor,failing_position_from_tool_m,rated_cycles_per_hour,relative_life_hours,"
+      "rated_cable,scatter_life_hours_p10,scatter_life_hours_p50,scatter_life_hours_p90,outlives_next,"
+      "life_shares,measure_next,measure_next_share,warnings,warning_words,program_ok,bend_radius_ok,"
+      "twist_ok,tension_ok,slack_ok,periodic_ok,overlap_ok,mesh_ok,material_ok,strain_ok,"
+      "calibration_ok,loose_mesh_error,estimates,rank,failing_mode,failing_mode_share,"
+      "life_hours_p10_all_glued,life_hours_p50_all_glued,life_hours_p90_all_glued,"
+      "life_hours_p10_all_free,life_hours_p50_all_free,life_hours_p90_all_free,best_test,"
+      "best_test_life_hours_p10,best_test_life_hours_p90";
+  const std::string header = ranking_csv({});
+  CHECK(header.starts_with(known));
+  std::string names;
+  const std::string page = ranking_manual();
+  std::size_t at = 0;
+  for (const RankingColumn& column : ranking_columns()) {
+    CAPTURE(column.name);
+    names += (names.empty() ? "" : ",") + column.name;
+    CHECK(!column.meaning.empty());
+    const std::size_t line = page.find("\n| `" + column.name + "` | " + column.unit + " | ", at);
+    CHECK(line != std::string::npos);
+    at = line == std::string::npos ? at : line;
+  }
+  CHECK(header == names + "\n");
 }
 
 TEST_CASE("ranking: last results of stale jobs stand behind those of now, marked, before jobs without any") {

@@ -1,0 +1,284 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include "pipeline/advise/improve/draft.h"
+#include "pipeline/advise/improve/screened.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/installation.h"
+#include "pipeline/base/whole_file.h"
+#include "pipeline/commands/checking.h"
+#include "pipeline/commands/command.h"
+#include "pipeline/commands/options.h"
+#include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/sources.h"
+#include "pipeline/resolve/urdf_request.h"
+#include "pipeline/study/stage_program.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string job, robot, program, dresspack;
+};
+
+constexpr const char* default_dresspack = "spot_welding";
+
+/// YAML files of a folder of the shipped catalogue, sorted.
+std::vector<fs::path> shipped(const char* shelf) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(shipped_catalogue() / shelf))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// A routing and where it comes from.
+struct Choice {
+  Node routing;
+  std::string source;
+  std::vector<std::string> faults = {};  ///< what dresslife check says of it
+  bool refused = false;
+};
+
+/// Of a shipped job with this robot and one dresspack; of several the one with this dresspack.
+std::optional<Choice> shipped_routing(const std::string& robot, const std::string& dresspack) {
+  std::optional<Choice> found;
+  for (const fs::path& file : shipped("jobs")) {
+    const Node job = read_document(file);
+    const Node *of = job.find("robot"), *pack = job.find("dresspack"), *routing = job.find("routing");
+    if (!of || of->text != robot || !pack || !routing || routing->find("rings")) continue;
+    const bool same = pack->text == dresspack;
+    if (found && !same) continue;
+    found =
+        Choice{*routing, fmt::format("as in config/jobs/{}{}", file.filename().string(),
+                                     same ? "" : fmt::format(", which has the dresspack {}", pack->text))};
+    if (same) break;
+  }
+  return found;
+}
+
+std::string listed(const char* shelf) {
+  std::string text;
+  for (const fs::path& file : shipped(shelf)) {
+    const Node entry = read_document(file);
+    const Node* const name = entry.find("name");
+    const std::string stem = file.stem().string();
+    text += fmt::format("  {:<24}{}\n", stem, name && name->text != stem ? name->text : "");
+  }
+  return text;
+}
+
+std::string choices() {
+  std::string routed;
+  for (const fs::path& file : shipped("robots"))
+    if (shipped_routing(file.stem().string(), default_dresspack)) routed += " " + file.stem().string();
+  return fmt::format(
+      "--robot NAME, or a URDF file:\n{}Clamps are shipped for:{}. For other robots they are proposed.\n\n"
+      "--program FILE (RAPID, KRL, Fanuc, INFORM, URScript, CSV or ROS), or a shipped motion of a robot with six axes:\n{}\n"
+      "--dresspack NAME, or a YAML file; without it {}:\n{}\n"
+      "Example: dresslife new --robot abb_irb6640_185_280 --program hard job.yaml\n",
+      listed("robots"), routed, listed("programs"), default_dresspack, listed("dresspacks"));
+}
+
+/// Errors: InputError: neither a file nor an entry of the catalogue.
+void check_named(const char* option, const char* shelf, const std::string& name) {
+  const Where where{option};
+  catalogue_entry(shelf, name, where, where);
+}
+
+/// A file as it is named from the job's folder; a name of the catalogue as it is.
+std::string seen_from_job(const std::string& name, const fs::path& job) {
+  if (kind_of(name) != FileKind::file) return name;
+  const fs::path folder = job.has_parent_path() ? job.parent_path() : fs::path(".");
+  const std::string seen = as_seen_from(folder, name).string();
+  const bool is_path =
+      seen.find('/') != std::string::npos || seen.ends_with(".yaml") || !fs::path(seen).extension().empty();
+  return is_path ? seen : "./" + seen;
+}
+
+/// What dresslife check says of the draft with this routing. motion: YAML; empty: the draft's.
+void judge(const Draft& draft, const std::string& motion, Choice& choice) {
+  const PassingFile file("job.yaml");
+  write_text_if_changed(file.path(),
+                        with_mark(to_yaml(routed(draft, to_yaml(choice.routing), motion, 1)), Mark::yaml));
+  try {
+    const JobCheck check = check_of(file.path(), {});
+    choice.refused = !check.refusal.empty();
+    if (choice.refused) choice.faults.push_back(check.refusal);
+    for (const Warning& warning : check.warnings) choice.faults.push_back(warning.line());
+  } catch (const InputError& problem) {
+    choice.refused = true;
+    choice.faults.emplace_back(problem.what());
+  }
+}
+
+/// The draft with its preliminary routing. Its files stay references, so that errors name lines of the user's files.
+std::string draft_text(const Draft& draft, const fs::path& folder) {
+  const std::string whole = job_text(draft.job);
+  if (draft.exercise) return whole;
+  return to_yaml(routed(draft, to_yaml(*parse_yaml(whole, "draft").find("routing")), "", 1, folder));
+}
+
+/// The best routing that geometry and short runs find, in some seconds.
+Choice proposed(const Draft& draft) {
+  const PassingFile job("draft.yaml"), told("screening.h5");
+  write_text_if_changed(job.path(), with_mark(draft_text(draft, job.path().parent_path()), Mark::yaml));
+  std::vector<std::string> arguments{
+      job.path().string(),  "--propose", "1", "--tried", "300", "--rehearsals", "40", "-o",
+      told.path().string(), "--quiet"};
+  if (draft.exercise) arguments.emplace_back("--exercise");
+  if (run_stage_program("dresslife-sim", arguments) != 0)
+    throw InputError({"dresslife new"}, "no routing can be proposed (see above), nothing was written",
+                     "mend what is named there");
+  const ScreenedList found = read_screening(told.path());
+  const ScreenedCandidate& best = found.candidates.front();
+  Choice choice{parse_yaml(best.changes, "proposal"),
+                "proposed from the robot's shape; put your brackets here"};
+  judge(draft, found.motion, choice);
+  return choice;
+}
+
+/// How many accelerations a URDF needs beside it; 0: none are missing. A URDF holds no accelerations.
+std::size_t missing_accelerations(const std::string& robot) {
+  if (!robot.ends_with(".urdf")) return 0;
+  UrdfRequest request;
+  request.urdf = robot;
+  const Node made = robot_from_urdf(request);
+  const std::vector<Node>& joints = made.find("joints")->items;
+  return static_cast<std::size_t>(std::count_if(joints.begin(), joints.end(), [](const Node& joint) {
+    return !joint.find("follows") && !joint.find("acceleration_deg_per_s2");
+  }));
+}
+
+/// A job of a URDF with some accelerations, which hardly matter to a routing.
+std::string job_of_urdf(const Options& options, std::size_t axes) {
+  const auto in_full = [](const std::string& name) {
+    return scalar(kind_of(name) == FileKind::file ? fs::absolute(name).string() : name);
+  };
+  Node job;
+  job["robot"]["urdf"] = in_full(options.robot);
+  job["robot"]["accelerations_deg_per_s2"] = list_of(std::vector<Node>(axes, scalar("500")));
+  job["dresspack"] = in_full(options.dresspack);
+  if (!options.program.empty()) job["motion"] = in_full(options.program);
+  return with_mark(to_yaml(job), Mark::yaml);
+}
+
+Choice routing_for(const Draft& draft, const Options& options) {
+  std::optional<Choice> known = shipped_routing(options.robot, options.dresspack);
+  if (known && !draft.exercise) judge(draft, "", *known);
+  if (known && !known->refused) return *known;
+  Choice made = proposed(draft);
+  return known && made.refused ? *known : made;
+}
+
+std::string flow(const Node& node) {
+  if (node.is_scalar()) {
+    std::string text = to_yaml(node);
+    while (text.ends_with('\n')) text.pop_back();
+    return text;
+  }
+  std::string text;
+  for (const Node& item : node.items) text += (text.empty() ? "" : ", ") + flow(item);
+  for (const Entry& entry : node.entries)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", entry.key, flow(entry.value));
+  return node.is_list() ? "[" + text + "]" : "{" + text + "}";
+}
+
+std::string commented(const std::string& key, const std::string& value, const std::string& words) {
+  return fmt::format("{:<33} # {}\n", key + ": " + value, words);
+}
+
+std::string text_of(const Options& options, const Draft& draft, const Choice& choice,
+                    std::size_t accelerations) {
+  const std::string job = shown(options.job);
+  const auto entry = [&](const std::string& name) { return flow(scalar(seen_from_job(name, options.job))); };
+  std::string text = fmt::format(
+      "# A job, written by dresslife new. Next: dresslife check {0}, dresslife preview {0}, dresslife run {0}\n",
+      job);
+  if (accelerations > 0)
+    text += fmt::format(
+        "# FILL IN beside urdf: accelerations_deg_per_s2: [{} numbers] (those of config/robots have some 300 to 3,000)\n"
+        "robot: {{urdf: {}}}\n",
+        accelerations, entry(options.robot));
+  else
+    text += commented("robot", entry(options.robot), "a name of config/robots, or {urdf: FILE}");
+  if (draft.exercise)
+    text +=
+        "# FILL IN your program, a file or a name of config/programs, and take the # away:\n# motion: program.mod\n";
+  else
+    text += commented("motion", entry(options.program), "your robot program, or a name of config/programs");
+  text +=
+      commented("dresspack", entry(options.dresspack), "a name of config/dresspacks, or your own YAML file");
+  text += fmt::format("# Clamps: {}.\n", choice.source);
+  text +=
+      "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\nrouting:\n";
+  for (const Entry& key : choice.routing.entries) text += fmt::format("  {}: {}\n", key.key, flow(key.value));
+  if (choice.refused)
+    text += fmt::format(
+        "# FILL IN other clamps or another dresspack, or let dresslife route {} search. Now:\n# {}\n", job,
+        shown(choice.faults.front()));
+  return text + commented("simulation", "{segments: 128}", "everything else has a default: config/README.md");
+}
+
+int make(Options options) {
+  if (options.robot.empty()) {
+    print(shown(choices()));
+    if (options.job.empty() && options.program.empty() && options.dresspack.empty()) return 0;
+    throw InputError({"dresslife new"}, "lacks --robot (nothing was written)",
+                     "choose one from the list above");
+  }
+  if (options.job.empty())
+    throw InputError({"dresslife new"}, "lacks the job to write", "name a file, for example job.yaml");
+  if (options.dresspack.empty()) options.dresspack = default_dresspack;
+  const std::size_t accelerations = missing_accelerations(options.robot);
+  check_named("--robot", "robots", options.robot);
+  check_named("--dresspack", "dresspacks", options.dresspack);
+  if (!options.program.empty()) check_named("--program", "programs", options.program);
+  for (const std::string& name : {options.robot, options.program, options.dresspack})
+    if (kind_of(name) == FileKind::file) note_input(name);
+  check_replaceable(options.job);
+  const PassingFile of_urdf("request.yaml");
+  if (accelerations > 0) write_text_if_changed(of_urdf.path(), job_of_urdf(options, accelerations));
+  const Draft draft =
+      accelerations > 0
+          ? draft_of({.of = of_urdf.path().string()})
+          : draft_of({.of = options.robot, .dresspack = options.dresspack, .motion = options.program});
+  const Choice choice = routing_for(draft, options);
+  if (const fs::path folder = fs::path(options.job).parent_path(); !folder.empty())
+    fs::create_directories(folder);
+  write_text_if_changed(options.job, with_mark(text_of(options, draft, choice, accelerations), Mark::yaml));
+  print(shown(fmt::format("Job: {}\n", options.job)));
+  if (accelerations > 0) print("Fill in the accelerations of its axes.\n");
+  if (draft.exercise) print("Fill in its motion.\n");
+  if (choice.refused)
+    print(shown("Fill in its clamps: " + choice.faults.front() + "\n"));
+  else if (!choice.faults.empty())
+    print(shown(
+        fmt::format("dresslife check {} warns {}.\n", options.job,
+                    choice.faults.size() == 1 ? "once" : fmt::format("{} times", choice.faults.size()))));
+  return 0;
+}
+
+}  // namespace
+
+Command new_command() {
+  const auto options = std::make_shared<Options>();
+  return {
+      "new",
+      "write a short job with comments for a robot, a program and a dresspack; without options list what can be "
+      "chosen",
+      {{"job", "", "JOB.yaml to write", &options->job},
+       {"--robot", "NAME|URDF", "of config/robots, or a file", &options->robot},
+       {"--program", "FILE|NAME",
+        "a robot program, or a motion of config/programs; without it a line to fill in", &options->program},
+       {"--dresspack", "NAME", "of config/dresspacks, or a file; without it spot_welding",
+        &options->dresspack}},
+      [options] { return make(*options); }};
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,244 @@
+#include "pipeline/study/ranking_columns.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/settings/units.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+std::string cell(double value) { return std::isnan(value) ? "" : shortest_text(value); }
+std::string cell(const std::optional<double>& value) { return value ? shortest_text(*value) : ""; }
+std::string cell(int value) { return std::to_string(value); }
+std::string cell(const std::string& value) { return value; }
+
+/// Its cells are a member of the row.
+template <class Member>
+RankingColumn of(std::string name, std::string unit, std::string meaning, Member RankingRow::*member) {
+  return {std::move(name), std::move(unit), std::move(meaning),
+          [member](const RankingRow& row) { return cell(row.*member); }};
+}
+
+/// Its cells are computed for some rows; the others have empty ones.
+template <class Applies, class Value>
+RankingColumn where(std::string name, std::string unit, std::string meaning, Applies applies, Value value) {
+  return {std::move(name), std::move(unit), std::move(meaning),
+          [=](const RankingRow& row) { return applies(row) ? cell(value(row)) : std::string(); }};
+}
+
+bool always(const RankingRow&) { return true; }
+bool evaluated(const RankingRow& row) { return row.worst_segment_from_tool > 0; }
+bool has_hose(const RankingRow& row) { return row.hose.has_value(); }
+bool has_rating(const RankingRow& row) { return row.relative.has_value(); }
+
+using Lives = std::array<double, 3>;
+
+class Table {
+ public:
+  Table() {
+    add_worst_wire();
+    add_lives("life_hours_{}",
+              "by then {} of such dresspacks have failed: `replace after`, `half failed`, `90 % failed` of the table",
+              [](const RankingRow& row) -> const Lives& {
+                return row.planned() ? row.planned_hours : row.first_wire_hours;
+              });
+    add_lives(
+        "conductor_life_hours_{}",
+        "by then {} have a conductor that has lost its share of wires at one place, by the scatter of wires alone",
+        [](const RankingRow& row) -> const Lives& { return row.conductor_hours; });
+    add_hose_and_causes();
+    add_lives("first_wire_life_hours_{}", "by then {} have a broken wire, by the scatter of wires alone",
+              [](const RankingRow& row) -> const Lives& { return row.first_wire_hours; });
+    add_failure_and_rating();
+    add_lives("scatter_life_hours_{}",
+              "life_hours_{0} by the scatter of wires alone, all else as the job has it",
+              [](const RankingRow& row) -> const Lives& { return row.scatter_hours; });
+    add_uncertainty();
+    add_warnings();
+    add_rank();
+    add_lives("life_hours_{}_all_glued", "life_hours_{0} if everything inside the cables were glued",
+              [](const RankingRow& row) -> const Lives& { return row.glued_hours; });
+    add_lives("life_hours_{}_all_free",
+              "life_hours_{0} if everything inside the cables slipped without friction",
+              [](const RankingRow& row) -> const Lives& { return row.free_hours; });
+    add_test();
+  }
+  std::vector<RankingColumn> columns;
+
+ private:
+  void add(RankingColumn column) { columns.push_back(std::move(column)); }
+
+  template <class Of>
+  void add_lives(const char* name, const char* meaning, Of lives) {
+    constexpr std::array<const char*, 3> ends{"p10", "p50", "p90"}, shares{"10 %", "50 %", "90 %"};
+    const bool of_end = std::string_view(meaning).find("{0}") != std::string_view::npos;
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      add(where(fmt::format(fmt::runtime(name), ends[i]), "h",
+                fmt::format(fmt::runtime(meaning), of_end ? ends[i] : shares[i]), always,
+                [lives, i](const RankingRow& row) { return lives(row)[i]; }));
+  }
+
+  void add_worst_wire() {
+    add(of("job", "text", "name of the job in its study", &RankingRow::job));
+    add(of("life_repeats", "1", "repeats of the motion until the worst wire breaks, in the median",
+           &RankingRow::life_repeats));
+    add(of("life_hours", "h", "the same in hours of motion", &RankingRow::life_hours));
+    add(where("worst_segment_from_tool", "1", "segment of the worst wire's place, 1 is nearest to the tool",
+              evaluated, [](const RankingRow& row) { return row.worst_segment_from_tool; }));
+    add(of("worst_component", "text", "path of the worst wire, outermost part first",
+           &RankingRow::worst_component));
+    add(of("damage_per_repeat", "1", "of the worst wire", &RankingRow::damage_per_repeat));
+    add(of("life_months", "months", "life_hours at the job's operating hours per week",
+           &RankingRow::life_months));
+    add(of("life_repeats_all_stick", "1", "life_repeats if nothing in the cables slipped",
+           &RankingRow::life_repeats_all_stick));
+    add(of("life_repeats_all_free", "1", "life_repeats if everything in the cables slipped without friction",
+           &RankingRow::life_repeats_all_free));
+    add(where("worst_position_from_tool_m", "m",
+              "the worst wire's place along the dresspack, from the tool clamp", evaluated,
+              [](const RankingRow& row) { return row.worst_position_from_tool; }));
+    add(where("worst_time_s", "s", "when the most damaging cycle of the worst wire closes", evaluated,
+              [](const RankingRow& row) { return row.worst_time; }));
+    add(of("worst_step", "text", "program line that runs then", &RankingRow::worst_step));
+    add(where(
+        "status", "text",
+        "done; stale: the cells are of the job's last result; failed or to do: only job, message and settings are given",
+        always, [](const RankingRow& row) { return std::string(row.stale ? "stale" : "done"); }));
+    add(where("message", "text", "why it failed, or what changed since the last result", always,
+              [](const RankingRow& row) { return row.stale ? stale_words(row) : std::string(); }));
+  }
+
+  void add_hose_and_causes() {
+    add(where("hose_life_hours", "h", "hours of motion until the hose's wall cracks; not validated", has_hose,
+              [](const RankingRow& row) { return row.hose->hours; }));
+    add(where("hose_segment_from_tool", "1", "segment of the wall's worst place, 1 is nearest to the tool",
+              has_hose, [](const RankingRow& row) { return row.hose->segment_from_tool; }));
+    add(where("hose_position_from_tool_m", "m", "the same along the dresspack, from the tool clamp", has_hose,
+              [](const RankingRow& row) { return row.hose->position_from_tool; }));
+    add(of("worst_joint", "text",
+           "joint whose motion damages the worst wire most; carrying: none between the clamps",
+           &RankingRow::worst_joint));
+    add(where(
+        "worst_joint_share", "1", "its share of the damage; above 1 where other joints relieve",
+        [](const RankingRow& row) { return !row.worst_joint.empty(); },
+        [](const RankingRow& row) { return row.worst_joint_share; }));
+    add(of("worst_dresspack", "text", "dresspack of the worst wire, among several",
+           &RankingRow::worst_dresspack));
+    add(of("settings", "text", "digest of the settings of which the row tells", &RankingRow::settings));
+    add(of("largest_force_share", "1", "largest force of a cable over the force that tears it",
+           &RankingRow::largest_force_share));
+    add(of("clamp_moment_share", "1",
+           "moment of all cables on the hose at a clamp over the largest that the hose carries",
+           &RankingRow::clamp_moment_share));
+    add(where(
+        "force_ok", "yes or no", "whether both shares are believable",
+        [](const RankingRow& row) { return row.clamp_moment_share.has_value(); },
+        [](const RankingRow& row) { return std::string(row.force_ok() ? "yes" : "no"); }));
+    add(of("life_hours_mean_stress_kept", "h", "life_hours if the mean stress never relaxed",
+           &RankingRow::hours_mean_stress_kept));
+    add(of("life_hours_without_mean_stress", "h", "life_hours without any mean stress",
+           &RankingRow::hours_without_mean_stress));
+    add(where(
+        "life_months_p10", "months", "life_hours_p10 at the job's operating hours per week",
+        [](const RankingRow& row) { return row.planned(); },
+        [](const RankingRow& row) { return row.planned_months; }));
+    add(where("life_hours_all_stick", "h", "life_repeats_all_stick in hours of motion", always,
+              [](const RankingRow& row) { return row.hours_of(row.life_repeats_all_stick); }));
+    add(where("life_hours_all_free", "h", "life_repeats_all_free in hours of motion", always,
+              [](const RankingRow& row) { return row.hours_of(row.life_repeats_all_free); }));
+  }
+
+  void add_failure_and_rating() {
+    add(of("failing_conductor", "text", "conductor that is likeliest to fail first",
+           &RankingRow::failing_conductor));
+    add(where(
+        "failing_position_from_tool_m", "m", "its place along the dresspack, from the tool clamp",
+        [](const RankingRow& row) { return !row.failing_conductor.empty(); },
+        [](const RankingRow& row) { return row.failing_position_from_tool; }));
+    add(where("rated_cycles_per_hour", "1/h",
+              "cycles of the maker's rig that do the damage of one hour of the program", has_rating,
+              [](const RankingRow& row) { return row.relative->cycles_per_hour; }));
+    add(where("relative_life_hours", "h", "hours until the cycles of the maker's rating are used up",
+              has_rating, [](const RankingRow& row) { return row.relative->hours(); }));
+    add(where("rated_cable", "text", "cable with that rating", has_rating,
+              [](const RankingRow& row) { return row.relative->cable; }));
+  }
+
+  void add_uncertainty() {
+    add(of("outlives_next", "1", "share of samples in which the job lives longer than that of the next row",
+           &RankingRow::outlives_next));
+    add(of("life_shares", "text", "shares of the uncertainty of life by cause", &RankingRow::life_shares));
+    add(of("measure_next", "text", "uncertain parameter that explains most", &RankingRow::measure_next));
+    add(where(
+        "measure_next_share", "1", "its share",
+        [](const RankingRow& row) { return !row.measure_next.empty(); },
+        [](const RankingRow& row) { return row.measure_next_share; }));
+  }
+
+  void add_warnings() {
+    const auto told = [](const RankingRow& row) { return row.warnings.has_value(); };
+    add(where("warnings", "1", "how many warnings the job has", told,
+              [](const RankingRow& row) { return static_cast<int>(row.warnings->size()); }));
+    add(where("warning_words", "text", "all of them", told, [](const RankingRow& row) {
+      std::vector<std::string> words;
+      for (const Warning& warning : *row.warnings) words.push_back(warning.text());
+      return fmt::format("{}", fmt::join(words, "; "));
+    }));
+    for (int k = 0; k < warning_kinds_count; ++k) {
+      const auto kind = static_cast<WarningKind>(k);
+      if (kind == WarningKind::force) continue;  // force_ok
+      add(where(
+          fmt::format("{}_ok", word(kind)), "yes or no",
+          fmt::format("no: it has a warning of kind {}", title(kind)), told, [kind](const RankingRow& row) {
+            const auto& all = *row.warnings;
+            const bool warned =
+                std::any_of(all.begin(), all.end(), [kind](const Warning& one) { return one.kind == kind; });
+            return std::string(warned ? "no" : "yes");
+          }));
+    }
+  }
+
+  void add_rank() {
+    add(of("loose_mesh_error", "1", "share of the curvature of loose cables that their mesh misses",
+           &RankingRow::loose_mesh_error));
+    add(of("estimates", "text", "keys that the dresspacks leave out, with their estimated values",
+           &RankingRow::estimates));
+    add(where(
+        "rank", "1", "1 is best; jobs that cannot be separated share one",
+        [](const RankingRow& row) { return row.rank > 0; },
+        [](const RankingRow& row) { return static_cast<int>(row.rank); }));
+    add(of("failing_mode", "text", "what fails first in most of the samples", &RankingRow::failing_mode));
+    add(where(
+        "failing_mode_share", "1", "in which share of them",
+        [](const RankingRow& row) { return !row.failing_mode.empty(); },
+        [](const RankingRow& row) { return row.failing_mode_share; }));
+  }
+
+  void add_test() {
+    add(of("best_test", "text", "uncertain parameter whose test narrows the life most",
+           &RankingRow::best_test));
+    add(of("best_test_life_hours_p10", "h", "life_hours_p10 after that test, if it confirms today's estimate",
+           &RankingRow::tested_p10));
+    add(of("best_test_life_hours_p90", "h", "life_hours_p90 after it", &RankingRow::tested_p90));
+  }
+};
+
+}  // namespace
+
+const std::vector<RankingColumn>& ranking_columns() {
+  static const std::vector<RankingColumn> columns = Table().columns;
+  return columns;
+}
+
+std::string ranking_manual() {
+  std::string text = "| column | unit | meaning |\n|---|---|---|\n";
+  for (const RankingColumn& column : ranking_columns())
+    text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
+  return text;
+}
+
+}  // namespace dresslife::pipeline

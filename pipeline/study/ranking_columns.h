@@ -1,0 +1,25 @@
+// The columns of ranking.csv: one table from which header, cells and page are made.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/study/ranking.h"
+
+namespace dresslife::pipeline {
+
+struct RankingColumn {
+  std::string name, unit;  ///< unit: "h", "m", "1", "text", "yes or no"
+  std::string meaning;
+  std::function<std::string(const RankingRow&)>
+      cell;  ///< of a row with a result; empty: not known, or does not apply
+};
+
+/// In the order of the file. New ones stand last; other programs read columns by their names.
+const std::vector<RankingColumn>& ranking_columns();
+
+/// The table as Markdown.
+std::string ranking_manual();
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,102 @@
+// dresslife new: a first job of one's own, which check takes or which says what is to be filled in.
+#include <algorithm>
+
+#include "tests/catch.h"
+#include "tests/cli/process.h"
+#include "tests/sim/program/samples.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+Outcome make(const Scratch& scratch, const std::string& options) {
+  return run(scratch, "dresslife", "new " + options);
+}
+
+}  // namespace
+
+TEST_CASE("new: without options it lists what can be chosen, and writes nothing") {
+  Scratch scratch;
+  const Outcome listed = make(scratch, "");
+  CHECK(listed.status == 0);
+  for (const char* shelf : {"robots", "programs", "dresspacks"})
+    for (const auto& entry : fs::directory_iterator(fs::path(DRESSLIFE_SOURCE_DIR) / "config" / shelf))
+      if (entry.path().extension() == ".yaml")
+        CHECK(has(listed.out, "  " + entry.path().stem().string() + " "));
+  const Outcome lacking = make(scratch, "job.yaml");
+  CHECK(lacking.status == 1);
+  CHECK(has(lacking.err, "lacks --robot (nothing was written)"));
+  CHECK(!fs::exists(scratch / "job.yaml"));
+}
+
+TEST_CASE("new: the clamps of a shipped job, and a job that is the user's once it is edited") {
+  Scratch scratch;
+  const std::string options = "--robot abb_irb6640_185_280 --program spot_robot_1 job.yaml";
+  REQUIRE(make(scratch, options).status == 0);
+  const std::string text = content(scratch / "job.yaml");
+  CHECK(has(text, "# Clamps: as in config/jobs/irb6640_spot_welding.yaml."));
+  CHECK(has(text, "position_m: [0.15, 0, 0.18]"));
+  CHECK(std::count(text.begin(), text.end(), '\n') <= 15);
+  const Outcome check = run(scratch, "dresslife", "check job.yaml");
+  INFO(check.out << check.err);
+  CHECK(check.status == 0);
+  CHECK(make(scratch, options).status == 0);
+  scratch.write("job.yaml", text + "# mine\n");
+  const Outcome edited = make(scratch, options);
+  CHECK(edited.status == 1);
+  CHECK(has(edited.err, "job.yaml: error: is there already"));
+  CHECK(make(scratch, options + " --force").status == 0);
+  CHECK(content(scratch / "job.yaml") == text);
+}
+
+TEST_CASE("new: proposed clamps pass check, and files are named from the job's folder") {
+  Scratch scratch;
+  fs::copy_file(fs::path(DRESSLIFE_SOURCE_DIR) / "config/programs/easy.yaml", scratch / "mine.yaml");
+  const Outcome made =
+      make(scratch, "--robot fanuc_m20ia --program mine.yaml --dresspack handling cell/job.yaml");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  const std::string text = content(scratch / "cell/job.yaml");
+  CHECK(has(text, "motion: ../mine.yaml"));
+  CHECK(has(text, "# Clamps: proposed from the robot's shape; put your brackets here."));
+  const Outcome check = run(scratch, "dresslife", "check cell/job.yaml");
+  INFO(check.out << check.err);
+  CHECK(check.status == 0);
+  CHECK(has(check.out, "no warnings"));
+}
+
+TEST_CASE("new: what is missing is to be filled in, and check asks for it") {
+  Scratch scratch;
+  REQUIRE(make(scratch, "--robot abb_irb6640_185_280 job.yaml").status == 0);
+  CHECK(has(content(scratch / "job.yaml"), "# FILL IN your program"));
+  const Outcome check = run(scratch, "dresslife", "check job.yaml");
+  CHECK(check.status == 1);
+  CHECK(has(check.err, "motion is missing"));
+  scratch.write("arm.urdf", palletizer);
+  const Outcome urdf = make(scratch, "--robot arm.urdf --dresspack sensor_cable arm.yaml");
+  INFO(urdf.err);
+  REQUIRE(urdf.status == 0);
+  CHECK(has(content(scratch / "arm.yaml"), "# FILL IN beside urdf: accelerations_deg_per_s2: [4 numbers]"));
+  CHECK(has(run(scratch, "dresslife", "check arm.yaml").err, "arm.urdf has no accelerations"));
+}
+
+TEST_CASE("new: names that are no names are answered with those that are near") {
+  Scratch scratch;
+  const auto refused = [&](const std::string& options) {
+    const Outcome made = make(scratch, options + " job.yaml");
+    CHECK(made.status == 1);
+    CHECK(!fs::exists(scratch / "job.yaml"));
+    return made.err;
+  };
+  CHECK(has(refused("--robot kuka_kr162"),
+            "--robot: error: 'kuka_kr162' is not in the catalogue (config/robots); did "
+            "you mean 'kuka_kr16_2'? one of: "));
+  CHECK(has(refused("--robot kuka_kr16_2 --dresspack spotwelding"), "did you mean 'spot_welding'?"));
+  CHECK(
+      has(refused("--robot kuka_kr16_2 --program hrad"), "--program: error: 'hrad' is not in the catalogue"));
+  CHECK(has(refused("--robot nowhere.urdf"), "nowhere.urdf"));
+  // A program that the robot cannot run.
+  CHECK(has(refused("--robot kuka_kr210_l150 --program easy"), "nothing was written"));
+}
