@@ -83,7 +83,7 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
   std::vector<Final*> by_life;
   for (std::size_t k = 1; k < finals.of.size(); ++k) by_life.push_back(&finals.of[k]);
   std::stable_sort(by_life.begin(), by_life.end(), [](const Final* a, const Final* b) { return a->hours > b->hours; });
-  if (found.front.size() > 1 && by_life.size() > 1) by_life.resize(1);
+  if (found.front.size() > 1 && by_life.size() > 1) by_life.erase(by_life.begin() + 1, by_life.end());
   std::vector<Finalist> finalists;
   for (const Final* of : by_life) {
     const std::vector<std::string>& sets = found.trials[of->trial].sets;
