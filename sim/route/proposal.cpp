@@ -30,15 +30,17 @@ constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 
 /// Likewise of the job's own run: its numbers are rounded when it is written.
 constexpr std::array<double, screened_limits> wished_of_whole{0.001, 0.001, 0.01, 0.01, 0, 0.001, 0};
 
-constexpr double millimetre = 1e-3;    // places are written in it
-constexpr double ring_radius = 0.75;   // of a guide ring [diameters]
+constexpr double millimetre = 1e-3;   // places are written in it
+constexpr double ring_radius = 0.75;  // of a guide ring [diameters]
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double farthest = 4;   // of a clamp from the link that carries it, where brackets reach so far [diameters]
+constexpr double farthest =
+    4;  // of a clamp from the link that carries it, where brackets reach so far [diameters]
 constexpr int drawn_places = 2000;  // beside a link until one has a bracket: a second
-constexpr int side_by_side = 4;  // rehearsals, however many threads there are
+constexpr int side_by_side = 4;     // rehearsals, however many threads there are
 
 struct Candidate {
-  std::array<Vector3, places> position;   // in their links, where brackets carry them, in whole millimetres [m]
+  std::array<Vector3, places>
+      position;  // in their links, where brackets carry them, in whole millimetres [m]
   std::array<Vector3, places> direction;  // in their links
   double slack = 0;                       // share of the length
   pipeline::Routing routing{};
@@ -71,7 +73,10 @@ class Chance {
 class Search {
  public:
   Search(const pipeline::Setup& setup, const ProposalSettings& settings)
-      : setup_(setup), settings_(settings), screener_(setup, settings.longest_bracket), chance_(settings.seed) {
+      : setup_(setup),
+        settings_(settings),
+        screener_(setup, settings.longest_bracket),
+        chance_(settings.seed) {
     const pipeline::Routing& given = setup.dresspacks.front().routing;
     if (!given.base_clamp || !given.tool_clamp)
       throw pipeline::InputError(setup.motion.where,
@@ -91,7 +96,8 @@ class Search {
     if (settings_.rehearsals > 0) return proposals_of(rehearsed_search());
     std::vector<Candidate> found;
     for (int k = 0; k < settings_.count; ++k) {
-      tell(static_cast<double>(k) / settings_.count, fmt::format("geometry, search {} of {}", k + 1, settings_.count));
+      tell(static_cast<double>(k) / settings_.count,
+           fmt::format("geometry, search {} of {}", k + 1, settings_.count));
       found.push_back(best_of(std::max(10, settings_.tried / settings_.count)));
     }
     std::stable_sort(found.begin(), found.end(),
@@ -111,16 +117,17 @@ class Search {
   /// pays. Of a few changes the one is rehearsed that geometry likes most, which is asked for as much more of
   /// a radius as its parent lacked in its run.
   std::vector<Candidate> rehearsed_search() {
-    constexpr int begun = 12;           // searches by geometry alone
-    constexpr double hopeless = 0.5;    // missed by the best of the first third
-    constexpr std::size_t parents = 5;  // kept
+    constexpr int begun = 12;               // searches by geometry alone
+    constexpr double hopeless = 0.5;        // missed by the best of the first third
+    constexpr std::size_t parents = 5;      // kept
     constexpr double geometry_share = 0.3;  // of the time, about
     std::vector<Candidate> beginnings, kept;
     for (int k = 0; k < begun; ++k) {
       tell(geometry_share * k / begun, fmt::format("geometry, search {} of {}", k + 1, begun));
       beginnings.push_back(best_of(std::max(10, settings_.tried / begun)));
     }
-    if (std::all_of(beginnings.begin(), beginnings.end(), [](const Candidate& of) { return of.screening.rejected(); }))
+    if (std::all_of(beginnings.begin(), beginnings.end(),
+                    [](const Candidate& of) { return of.screening.rejected(); }))
       return excluded(std::move(beginnings));
     double size = 1;
     int left = settings_.rehearsals;
@@ -161,16 +168,18 @@ class Search {
         if (const double g = candidate.screening.beyond[k]; g > surely_beyond[k])
           limits += fmt::format("{}{} by {:.2f} at {:.3f} s", limits.empty() ? "" : ", ",
                                 word(static_cast<ScreenedLimit>(k)), g, candidate.screening.time[k]);
-      candidate.rehearsal.refusal = fmt::format(
-          "geometry excludes all {} routings that were looked at; the nearest is {}", settings_.tried, limits);
+      candidate.rehearsal.refusal =
+          fmt::format("geometry excludes all {} routings that were looked at; the nearest is {}",
+                      settings_.tried, limits);
     }
     return all;
   }
 
   static std::string nearest_words(const Candidate& nearest) {
     if (nearest.missing_in_run == 0) return ", one keeps all limits";
-    return nearest.rehearsal.refusal.empty() ? fmt::format(", nearest misses its limits by {:.2f}", nearest.missing_in_run)
-                                             : ", none runs";
+    return nearest.rehearsal.refusal.empty()
+               ? fmt::format(", nearest misses its limits by {:.2f}", nearest.missing_in_run)
+               : ", none runs";
   }
 
   void tell(double share, const std::string& words) const {
@@ -309,9 +318,10 @@ class Search {
                         screener_.time_of(nearest.moment));
     throw pipeline::InputError(
         setup_.dresspacks.front().routing.where,
-        fmt::format("no place within {:.0f} mm of the surface of {} stays clear of the other links and the cell: the "
-                    "nearest of {} places {}",
-                    1e3 * settings_.longest_bracket, links_[place], drawn_places, why),
+        fmt::format(
+            "no place within {:.0f} mm of the surface of {} stays clear of the other links and the cell: the "
+            "nearest of {} places {}",
+            1e3 * settings_.longest_bracket, links_[place], drawn_places, why),
         "a longer --bracket, another link (--from, --to, --ring), or a program that keeps away from it");
   }
 
@@ -336,7 +346,8 @@ class Search {
       if (chance_.below(2)) {
         const Vector3 place =
             rounded(candidate.position[k] + size * diameter_ * chance_.normal_vector(), millimetre);
-        if (bracket(k, place).beyond(settings_.longest_bracket, diameter_) <= 0) candidate.position[k] = place;
+        if (bracket(k, place).beyond(settings_.longest_bracket, diameter_) <= 0)
+          candidate.position[k] = place;
       }
       if (chance_.below(2))
         candidate.direction[k] = (candidate.direction[k] + 0.4 * size * chance_.normal_vector()).normalized();
@@ -387,11 +398,7 @@ class Search {
   static Vector3 rounded(const Vector3& v, double step) { return (v / step).array().round() * step; }
 
   pipeline::Clamp clamp(const Candidate& candidate, int place) const {
-    return {links_[place],
-            candidate.position[place],
-            rounded(candidate.direction[place], 1e-2),
-            {},
-            {}};
+    return {links_[place], candidate.position[place], rounded(candidate.direction[place], 1e-2), {}, {}};
   }
 
   pipeline::Setup setup_;  // with the routing that is looked at

@@ -28,7 +28,7 @@ struct ProposalSettings {
   int rehearsals =
       0;  ///< runs with few segments, a tenth of a second each, that try the best and better them; 0: none
   std::uint64_t seed = 1;
-  std::string ring_link;  ///< a guide ring on it; empty: none
+  std::string ring_link;                               ///< a guide ring on it; empty: none
   double longest_bracket = pipeline::longest_bracket;  ///< [m] (V7)
   /// Share of the most work that there may be, and what is tried; may be empty.
   std::function<void(double, const std::string&)> progress{};

@@ -383,7 +383,8 @@ void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& scre
       const Carried carried{find_link(setup.robot, place.link, place.where), place.position, radius};
       const BracketFit fit = fit_of(carried, *surfaces, carriers);
       const double g = fit.beyond(*longest_bracket, diameter);
-      if (g > screening.beyond[limit]) screening.beyond[limit] = g, screening.time[limit] = moments[fit.moment].time;
+      if (g > screening.beyond[limit])
+        screening.beyond[limit] = g, screening.time[limit] = moments[fit.moment].time;
     };
     const pipeline::Routing& routing = mounted.routing;
     for (const auto& clamp : {routing.base_clamp, routing.tool_clamp})

@@ -38,10 +38,9 @@ namespace dresslife::sim {
 enum class ScreenedLimit { too_short, too_long, bend, twist, overlap, tension, bracket };
 inline constexpr int screened_limits = 7;
 constexpr std::string_view word(ScreenedLimit value) {
-  return pipeline::word_at(
-      {"too short", "too long", "bent too tightly", "twisted too far", "in the robot", "pulled too hard",
-       "bracket"},
-      value);
+  return pipeline::word_at({"too short", "too long", "bent too tightly", "twisted too far", "in the robot",
+                            "pulled too hard", "bracket"},
+                           value);
 }
 
 /// What is further beyond than this cannot work: by so much the curve may err that knows no weight and no

@@ -82,7 +82,8 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
            const StudyPlaces& places, const MakeRows& make_rows) {
   std::vector<Final*> by_life;
   for (std::size_t k = 1; k < finals.of.size(); ++k) by_life.push_back(&finals.of[k]);
-  std::stable_sort(by_life.begin(), by_life.end(), [](const Final* a, const Final* b) { return a->hours > b->hours; });
+  std::stable_sort(by_life.begin(), by_life.end(),
+                   [](const Final* a, const Final* b) { return a->hours > b->hours; });
   if (found.front.size() > 1 && by_life.size() > 1) by_life.erase(by_life.begin() + 1, by_life.end());
   std::vector<Finalist> finalists;
   for (const Final* of : by_life) {
@@ -94,7 +95,8 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
       for (std::size_t k = 0; k < count; ++k) {
         std::vector<std::string> all = sets;
         all.insert(all.end(), nudges[first + k].sets.begin(), nudges[first + k].sets.end());
-        for (StudyJob& job : changed_jobs(request, all, fmt::format("off_{:04}_{:02}", of->trial, first + k + 1))) {
+        for (StudyJob& job :
+             changed_jobs(request, all, fmt::format("off_{:04}_{:02}", of->trial, first + k + 1))) {
           jobs[k].push_back(job.name);
           study.jobs.push_back(std::move(job));
         }

@@ -95,11 +95,12 @@ class Improver {
       done_.freed.push_back(key.path);
       done_.own.push_back(key.own);
     }
-    const bool frees_dresspack = std::any_of(done_.freed.begin(), done_.freed.end(), [](const std::string& path) {
-      return path.starts_with("dresspack");
-    });
+    const bool frees_dresspack =
+        std::any_of(done_.freed.begin(), done_.freed.end(),
+                    [](const std::string& path) { return path.starts_with("dresspack"); });
     for (const auto& job : jobs_)
-      for (const Warning& fault : dresspack_faults(*job, !frees_dresspack)) faults_ = joined(std::move(faults_), {fault});
+      for (const Warning& fault : dresspack_faults(*job, !frees_dresspack))
+        faults_ = joined(std::move(faults_), {fault});
     for (const Warning& fault : faults_) pipeline::tell(fault.line() + "\n");
     find_screened();
   }
@@ -134,8 +135,8 @@ class Improver {
     if (static_cast<int>(done_.trials.size()) < request_.trials)
       done_.obstacle.insert(
           done_.obstacle.begin(),
-          fmt::format("The search stopped early: of {} short runs the nearest to the limits: {}", done_.rehearsals,
-                      nearest_words_));
+          fmt::format("The search stopped early: of {} short runs the nearest to the limits: {}",
+                      done_.rehearsals, nearest_words_));
     return std::move(done_);
   }
 
@@ -150,7 +151,8 @@ class Improver {
     settings.seed = request_.seed;
     settings.aims = aims();
     settings.rehearsals = std::max(0, request_.rehearsals);
-    done_.most_rehearsals = request_.rehearsals > 0 ? request_.rehearsals : static_cast<int>(40 * freedom_.variables());
+    done_.most_rehearsals =
+        request_.rehearsals > 0 ? request_.rehearsals : static_cast<int>(40 * freedom_.variables());
     Rehearse rehearse;
     if (request_.rehearsals != 0 && !screened_.empty())
       rehearse = [this](const std::vector<VectorXd>& places) { return rehearsed(places); };
@@ -160,7 +162,8 @@ class Improver {
   /// Jobs whose routing geometry can look at, one of those that are alike in it.
   void find_screened() {
     for (const auto& job : jobs_) {
-      const ScreenedList list = screening_of(*job, "[{}]\n", ScreenedBy::geometry, request_.longest_bracket, places_.folder);
+      const ScreenedList list =
+          screening_of(*job, "[{}]\n", ScreenedBy::geometry, request_.longest_bracket, places_.folder);
       if (!list.candidates.empty() && list.candidates.front().refusal.empty()) screened_.push_back(job);
     }
   }
@@ -177,14 +180,16 @@ class Improver {
     const std::string candidates = list_of_changes(sets);
     std::vector<Screened> worst(sets.size());
     for (const auto& job : screened_) {
-      const ScreenedList list = screening_of(*job, candidates, ScreenedBy::geometry, request_.longest_bracket, places_.folder);
+      const ScreenedList list =
+          screening_of(*job, candidates, ScreenedBy::geometry, request_.longest_bracket, places_.folder);
       for (std::size_t k = 0; k < list.candidates.size() && k < sets.size(); ++k) {
         constexpr double no_job = 10;  // beyond every geometry that is one
         const ScreenedCandidate& of = list.candidates[k];
         const double violation = of.refusal.empty() ? of.violation() : no_job;
         worst[k].rejected = worst[k].rejected || of.rejected;
         if (of.refusal.empty())
-          worst[k].bracket = std::max(worst[k].bracket, limits_of_rehearsal(list.limits, of.beyond)[bracket_limit]);
+          worst[k].bracket =
+              std::max(worst[k].bracket, limits_of_rehearsal(list.limits, of.beyond)[bracket_limit]);
         if (violation > worst[k].violation)
           worst[k] = {violation, worst[k].rejected, of.beyond,
                       of.refusal.empty() ? list.words(of) : of.refusal, worst[k].bracket};
@@ -209,13 +214,15 @@ class Improver {
     for (const VectorXd& place : places) looks.push_back({place, true, {}, {}});
     std::vector<std::pair<double, std::string>> worst(places.size());  // how far beyond, by what
     for (const auto& job : screened_) {
-      const ScreenedList list = screening_of(*job, candidates, ScreenedBy::short_runs, request_.longest_bracket, places_.folder);
+      const ScreenedList list =
+          screening_of(*job, candidates, ScreenedBy::short_runs, request_.longest_bracket, places_.folder);
       for (std::size_t k = 0; k < places.size(); ++k) {
         if (k >= list.candidates.size()) throw std::logic_error("a list of short runs is not whole");
         const ScreenedCandidate& of = list.candidates[k];
         add_rehearsal(looks[k], list, of);
         const double violation = of.refusal.empty() ? of.violation() : HUGE_VAL;
-        if (violation >= worst[k].first) worst[k] = {violation, of.refusal.empty() ? list.words(of) : of.refusal};
+        if (violation >= worst[k].first)
+          worst[k] = {violation, of.refusal.empty() ? list.words(of) : of.refusal};
       }
     }
     for (const auto& [violation, words] : worst)

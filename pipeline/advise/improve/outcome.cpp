@@ -65,12 +65,9 @@ const std::vector<std::string>& outcome_limit_names() {
 
 std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
                                         const std::vector<double>& beyond) {
-  static const std::map<std::string, Limit> limit_of{{"bent too tightly", bend},
-                                                     {"twisted too far", twist},
-                                                     {"too short", too_short},
-                                                     {"too long", too_long},
-                                                     {"pulled too hard", pull},
-                                                     {"bracket", bracket}};
+  static const std::map<std::string, Limit> limit_of{{"bent too tightly", bend}, {"twisted too far", twist},
+                                                     {"too short", too_short},   {"too long", too_long},
+                                                     {"pulled too hard", pull},  {"bracket", bracket}};
   std::vector<double> of(outcome_limits, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < names.size(); ++k)
     if (const auto found = limit_of.find(names[k]); found != limit_of.end())

@@ -9,7 +9,8 @@
 namespace dresslife::pipeline {
 
 /// Pages of jobs are linked to where they are already written.
-ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second, const StudyPlaces& places);
+ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second,
+                          const StudyPlaces& places);
 
 /// Lines: how it was, the best and what was changed for it, or what stands against it. off: the
 /// tolerance by which finals were judged [m].

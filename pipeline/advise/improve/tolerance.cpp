@@ -19,7 +19,8 @@ void judge(WithinTolerance& judged, const Finalist& of, double to_beat) {
     for (std::size_t k = 0; k < count; ++k) {
       const Outcome& outcome = outcomes[k];
       const bool ran = outcome.failure.empty();
-      judged.nudges.push_back({of.nudges[first + k].what, ran, ran ? outcome.hours / of.hours : 0, outcome.words()});
+      judged.nudges.push_back(
+          {of.nudges[first + k].what, ran, ran ? outcome.hours / of.hours : 0, outcome.words()});
       judged.least_hours = std::min(judged.least_hours, ran ? outcome.hours : 0);
     }
   }

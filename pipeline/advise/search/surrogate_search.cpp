@@ -261,7 +261,8 @@ std::vector<VectorXd> SurrogateSearch::next_rehearsals(LookModels& models, const
 /// After a third of the rehearsals before the first look: none is even near keeping its limits, nor is a look.
 bool SurrogateSearch::is_hopeless() const {
   const auto misses = [](const Look& look) { return !look.ran || look.violation() > hopeless; };
-  return asked_ == 0 && static_cast<int>(rehearsals_.size()) >= std::max(settings_.rehearsals / 3, settings_.first_looks) &&
+  return asked_ == 0 &&
+         static_cast<int>(rehearsals_.size()) >= std::max(settings_.rehearsals / 3, settings_.first_looks) &&
          std::all_of(rehearsals_.begin(), rehearsals_.end(), misses) &&
          std::all_of(looks_.begin(), looks_.end(), misses);
 }

@@ -46,8 +46,9 @@ TEST_CASE("tolerance: one that falls behind is given up, and one that does not r
   CHECK(judged[1].least_hours == 0);
   CHECK(judged[1].nudges[1].words == "too short");
   CHECK(best_within(judged) == 0);
-  CHECK(tolerance_words(judged[0].nudges, 0.01) ==
-        "With a clamp or the length off by 10 mm it lives at least 0.8 times as long, and all limits are kept\n");
+  CHECK(
+      tolerance_words(judged[0].nudges, 0.01) ==
+      "With a clamp or the length off by 10 mm it lives at least 0.8 times as long, and all limits are kept\n");
 }
 
 }  // namespace
