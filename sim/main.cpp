@@ -3,6 +3,7 @@
 #include <string>
 
 #include "pipeline/files/checks.h"
+#include "pipeline/job/bracket.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/stage/stage.h"
@@ -25,10 +26,12 @@ struct Request {
   std::string screen;  ///< a list of changes; empty: not asked
   std::optional<int> propose;
   sim::ProposalSettings proposals;
+  double bracket_mm = 1e3 * pipeline::longest_bracket;
 };
 
 /// What is asked for without a run. Returns false when it is the run that is asked for.
-bool told_at_rest(const Request& request, const pipeline::StageCall& call, pipeline::Job& job) {
+bool told_at_rest(const Request& request, const pipeline::StageCall& call, pipeline::Job& job,
+                  pipeline::Progress& progress) {
   if (!request.preview && request.screen.empty() && !request.propose) return false;
   if (job.motion.is_prescribed())
     throw pipeline::InputError(job.motion.where,
@@ -40,10 +43,12 @@ bool told_at_rest(const Request& request, const pipeline::StageCall& call, pipel
   if (request.preview) {
     sim::write_preview(job, file);
   } else if (!request.screen.empty()) {
-    sim::write_screening(job, request.screen, request.rehearse, file);
+    sim::write_screening(job, request.screen, request.rehearse, request.bracket_mm / 1e3, file);
   } else {
     sim::ProposalSettings settings = request.proposals;
     settings.count = *request.propose;
+    settings.longest_bracket = request.bracket_mm / 1e3;
+    settings.progress = [&](double share, const std::string& words) { progress.show(share, words); };
     sim::write_proposals(job, settings, file);
   }
   pipeline::stamp(file, call, job, "");
@@ -112,6 +117,8 @@ int main(int argc, char** argv) {
             &request.proposals.rehearsals, {.range = {{0, 100'000}}}},
            {"--seed", "NUMBER", "with --propose: of the search's chances", &request.proposals.seed,
             {.range = {{0, 1'000'000'000}}}},
+           {"--bracket", "MM", "with --screen or --propose: longest bracket between a link's surface and a clamp",
+            &request.bracket_mm, {.range = {{0, 10'000}}}},
            {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about",
             &request.exercise}},
       .part = pipeline::Part::sim,
@@ -119,7 +126,7 @@ int main(int argc, char** argv) {
   return pipeline::run_stage(
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
         pipeline::Job job = pipeline::read_job(call.input, call.sets);
-        if (told_at_rest(request, call, job)) return;
+        if (told_at_rest(request, call, job, progress)) return;
         return job.motion.is_prescribed() ? prescribe(call, job, progress) : simulate(call, job, progress);
       });
 }

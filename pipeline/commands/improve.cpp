@@ -23,12 +23,25 @@ namespace fs = std::filesystem;
 
 struct Options : RunOptions {
   ImproveRequest request;
-  double off_mm = 10;
+  double off_mm = 10, bracket_mm = 1e3 * longest_bracket;
 };
+
+/// Short runs come before the first trial; the remaining time is told of trials.
+void show(Progress& progress, const Improvement& so_far, int trials) {
+  const std::optional<std::size_t> best = so_far.best();
+  const std::string best_words = best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits";
+  const std::size_t done = so_far.trials.size();
+  if (done <= 1)
+    progress.show(fmt::format("short run {} of about {} before the first of {} trials", so_far.rehearsals,
+                              so_far.most_rehearsals, trials));
+  else
+    progress.show(static_cast<double>(done) / trials, fmt::format("trial {} of {}, best {}", done, trials, best_words));
+}
 
 int improve_study(Options options) {
   options.request.file = named_study(options.study);
   options.request.sets = options.sets;
+  options.request.longest_bracket = options.bracket_mm / 1000;
   const std::string name = study_name(options.request.file);
   const StudyPlaces places{fs::path(options.out) / (name + "_improve"), program_folder()};
   const FolderLock lock(places.folder);
@@ -37,20 +50,16 @@ int improve_study(Options options) {
   Progress progress(name, options.quiet);
   const TrialMakers makers{
       [&](const Study& study) { return made_rows(study, places, quiet); },
-      [&](const Improvement& so_far) {
-        const std::optional<std::size_t> best = so_far.best();
-        progress.show(
-            fmt::format("{}/{}  best {}", so_far.trials.size(), options.request.trials,
-                        best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits"));
-      }};
+      [&](const Improvement& so_far) { show(progress, so_far, options.request.trials); }};
   const Improvement found = improve(options.request, places, makers);
   progress.clear();
   write_text_if_changed(places.folder / "improve.csv", improvement_csv(found));
   const MakeRows make_rows = [&](const Study& study) { return made_rows(study, places, options); };
-  const Finals finals = finals_of(found, options.request, make_rows);
+  Finals finals = finals_of(found, options.request, make_rows);
   const bool all_written = write_results(finals.study, places, finals.rows).empty();
   const double off = options.off_mm / 1000;
-  const ImprovementStory story = story_of(found, finals, options.request, off, places, make_rows);
+  if (off > 0) judge(finals, found, options.request, off, places, make_rows);
+  const ImprovementStory story = story_of(found, finals, options.request.second, places);
   write_text_if_changed(places.folder / "improve.html", with_mark(improvement_page(story), Mark::page));
   print(shown(improvement_words(found, finals, story, options.request.second, off, places)));
   print(shown(fmt::format("Trials: {}\nReport: {}\n", (places.folder / "improve.csv").string(),
@@ -86,8 +95,12 @@ Command improve_command() {
                           request.method, {SearchMethod::surrogate, SearchMethod::random}),
             choice_option("--second", "a second aim, to be small: the answer is the front of both",
                           request.second, {SecondAim::none, SecondAim::hose_length, SecondAim::cycle_time}),
-            {"--off", "MM", "what a clamp or the length may be off by: told of the best job; 0: not asked",
-             &options->off_mm, {.range = {{0, 1000}}}}},
+            {"--off", "MM",
+             "mounting tolerance of clamps and length: that job wins which lives longest within it; 0: not asked",
+             &options->off_mm, {.range = {{0, 1000}}}},
+            {"--bracket", "MM",
+             "longest bracket between a link's surface and a clamp; one that the job has already may be longer",
+             &options->bracket_mm, {.range = {{0, 10'000}}}}},
            run_options(*options),
            {launcher_option(*options)},
            study_options(*options)}),

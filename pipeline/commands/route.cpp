@@ -10,8 +10,10 @@
 #include <optional>
 
 #include "pipeline/advise/improve/draft.h"
+#include "pipeline/advise/improve/faults.h"
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/screened.h"
+#include "pipeline/advise/improve/tolerance.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
@@ -20,8 +22,10 @@
 #include "pipeline/commands/pictures.h"
 #include "pipeline/commands/results.h"
 #include "pipeline/base/digest.h"
+#include "pipeline/job/bracket.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
+#include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/job_folder.h"
@@ -40,6 +44,7 @@ struct Options : RunOptions {
   std::string ring, job, scale = "1";
   bool keep = false;
   int tried = 400, rehearsals = 160, seed = 1;
+  double off_mm = 10, bracket_mm = 1e3 * longest_bracket;
 };
 
 /// One search and what became of its routings.
@@ -49,7 +54,8 @@ struct Trial {
   std::vector<Outcome> outcomes;  // (proposal) empty limits: it was not run
   std::vector<RankingRow> rows;   // (proposal) likewise
   std::optional<std::size_t>
-      best;  // that ran: feasible and of the longest life, else least beyond its limits
+      best;  // that ran: feasible and of the longest life within the tolerance, else least beyond its limits
+  std::vector<ImprovementStory::Nudge> nudges{};  // of the best
 
   bool feasible() const { return best && outcomes[*best].feasible(); }
 };
@@ -75,9 +81,11 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
                                      std::to_string(options.rehearsals),
                                      "--seed",
                                      std::to_string(options.seed),
+                                     "--bracket",
+                                     fmt::format("{:.6g}", options.bracket_mm),
                                      "-o",
-                                     told.path().string(),
-                                     "--quiet"};
+                                     told.path().string()};
+  if (options.quiet) arguments.push_back("--quiet");
   if (draft.exercise) arguments.push_back("--exercise");
   if (!options.ring.empty()) arguments.insert(arguments.end(), {"--ring", options.ring});
   if (run_stage_program("dresslife-sim", arguments) != 0)
@@ -98,14 +106,53 @@ void run(Trial& trial, std::size_t k, const Draft& draft, const Options& options
   if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best])) trial.best = k;
 }
 
-/// Those that kept all limits in their rehearsal, until one does in the whole chain.
+/// The feasible ones judged by their life with a clamp or the length off.
+void judge(Trial& trial, const Draft& draft, const Options& options, const StudyPlaces& places) {
+  std::vector<std::size_t> by_life;
+  for (std::size_t k = 0; k < trial.outcomes.size(); ++k)
+    if (!trial.rows[k].job.empty() && trial.outcomes[k].feasible()) by_life.push_back(k);
+  std::stable_sort(by_life.begin(), by_life.end(),
+                   [&](std::size_t a, std::size_t b) { return trial.outcomes[a].hours > trial.outcomes[b].hours; });
+  std::vector<Finalist> finalists;
+  for (const std::size_t k : by_life) {
+    const Node document = routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
+    Finalist finalist{trial.outcomes[k].hours,
+                      nudges_of({{"place", std::make_shared<const Job>(job_from(document)), ""}}, options.off_mm / 1000),
+                      {}};
+    finalist.run = [&, k, document, nudges = finalist.nudges](std::size_t first, std::size_t count) {
+      Study study{draft.name, {}, Keep::lives};
+      for (std::size_t j = first; j < first + count; ++j) {
+        Node off = document;
+        for (const std::string& set : nudges[j].sets) apply_set(off, set);
+        study.jobs.push_back({fmt::format("{}_off_{:02}", trial.rows[k].job, j + 1),
+                              std::make_shared<const Job>(job_from(off)), ""});
+      }
+      const std::vector<RankingRow> rows = made_rows(study, places, options);
+      std::vector<Outcome> outcomes;
+      for (const StudyJob& job : study.jobs)
+        for (const RankingRow& row : rows)
+          if (row.job == job.name) outcomes.push_back(outcome_of(row, places.job(row.job)));
+      return outcomes;
+    };
+    finalists.push_back(std::move(finalist));
+  }
+  const std::vector<WithinTolerance> judged = within_tolerance(finalists);
+  const std::size_t best = best_within(judged);
+  trial.best = by_life[best];
+  trial.nudges = judged[best].nudges;
+}
+
+/// Those that kept all limits in their rehearsal; with a tolerance all of them, as it decides, else until one keeps all
+/// limits in the whole chain.
 Trial tried(const Draft& draft, const Options& options, double factor, const StudyPlaces& places) {
   Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}, {}};
   trial.outcomes.resize(trial.proposals.candidates.size());
   trial.rows.resize(trial.proposals.candidates.size());
-  for (std::size_t k = 0; k < trial.outcomes.size() && !trial.feasible(); ++k)
+  const bool tolerance = options.off_mm > 0;
+  for (std::size_t k = 0; k < trial.outcomes.size() && (tolerance || !trial.feasible()); ++k)
     if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
       run(trial, k, draft, options, places);
+  if (tolerance && trial.feasible()) judge(trial, draft, options, places);
   return trial;
 }
 
@@ -140,7 +187,7 @@ void write_page(const fs::path& job, const fs::path& page) {
     write_text_if_changed(page, preview_page(told.path(), job.stem().string(), xxh3(shell_digest())));
 }
 
-std::string words_of(const Trial& trial, const Draft& draft) {
+std::string words_of(const Trial& trial, const Draft& draft, double off) {
   const Outcome& best = trial.outcomes[*trial.best];
   const Dresspack& dresspack = draft.job.dresspacks.front().dresspack;
   std::string text = trial.proposals.candidates[*trial.best].changes;
@@ -152,6 +199,7 @@ std::string words_of(const Trial& trial, const Draft& draft) {
     text += "No program was given: the wrist was only moved about. Look again with yours.\n";
   text += best.feasible() ? "It keeps all limits in a run.\n"
                           : fmt::format("It runs, but no routing was found that keeps all limits: {}.\n", best.words());
+  text += tolerance_words(trial.nudges, off);
   const RankingRow& row = trial.rows[*trial.best];
   for (const std::string& words :
        {action_words(row), uncertainty_words(row), failure_words(row), hose_words(row)})
@@ -169,6 +217,7 @@ void remove_others(const fs::path& folder, const std::string& winner) {
 
 int route(const Options& options) {
   const Draft draft = draft_of(options.request);
+  for (const Warning& fault : dresspack_faults(draft.job, true)) tell(fault.line() + "\n");
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
   const fs::path page = job.parent_path() / (job.stem().string() + "_preview.html");
   check_replaceable(job);
@@ -204,7 +253,7 @@ int route(const Options& options) {
   write_text_if_changed(job, with_mark(text, Mark::yaml));
   write_page(job, page);
   if (!options.keep) remove_others(places.folder, chosen->rows[*chosen->best].job);
-  print(shown(words_of(*chosen, draft)));
+  print(shown(words_of(*chosen, draft, options.off_mm / 1000)));
   print(shown(fmt::format("Job: {}\nPreview: {}\n", job.string(), page.string())));
   return 0;
 }
@@ -233,6 +282,12 @@ Command route_command() {
                     "short runs that the best of them are tried in and changed by, of each size",
                     &options->rehearsals, {.range = {{1, 100'000}}}},
                    {"--seed", "NUMBER", "of the search's chances", &options->seed, {.range = {{0, 1'000'000'000}}}},
+                   {"--bracket", "MM", "longest bracket between a link's surface and a clamp or ring",
+                    &options->bracket_mm, {.range = {{0, 10'000}}}},
+                   {"--off", "MM",
+                    "mounting tolerance of clamps and length: that routing wins which lives longest within it; 0: not "
+                    "asked",
+                    &options->off_mm, {.range = {{0, 1000}}}},
                    {"--keep", "", "keep the runs of all routings that were tried, not the best alone", &options->keep},
                    {"--job", "FILE.yaml", "job to write; else NAME_routed.yaml here", &options->job},
                    {"-o,--output", "DIR", "folder of the runs that try it", &options->out}},

@@ -483,14 +483,14 @@ Format make_screening_format() {
                 "what geometry alone, or a short run, says of routings", {}, {}};
   add(format, {
     {"/limit/name",         text, "limit",            "1",    always,
-     "too short, too long, bent too tightly, twisted too far, in the robot, pulled too hard"},
+     "too short, too long, bent too tightly, twisted too far, in the robot, pulled too hard, bracket"},
     {"/candidate/changes",  text, "candidate",        "1",    always,
      "YAML: what was changed in the job, or the routing that is proposed"},
     {"/candidate/refusal",  text, "candidate",        "1",    always,
      "why it is no job, or does not run; empty: it is one"},
     {"/candidate/rejected", i32,  "candidate",        "1",    always, "1: cannot work, 0: may"},
     {"/candidate/beyond",   f64,  "candidate, limit", "1",    endless,
-     "how far beyond each limit, (V1) to (V6) in sim/route/screening.h, of the last run where there were rehearsals; <= "
+     "how far beyond each limit, (V1) to (V7) in sim/route/screening.h, of the last run where there were rehearsals; <= "
      "0: kept; 0 where it is no job"},
     {"/candidate/time",     f64,  "candidate, limit", "s",    always, "when"},
     {"/candidate/bend",     f64,  "candidate, bend",  "1",    maybe,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "pipeline/job/bracket.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/simple_mesh.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 /// 24 characters of the page for a triangle: 0.7 MB for all meshes of a robot together.
 constexpr std::size_t most_triangles = 30'000;
-/// Between a link's surface and what it carries [m].
-constexpr double longest_bracket = 0.15;
 
 Json pose(const Vector3d& position, const Vector3d& roll_pitch_yaw) {
   const Eigen::Quaterniond turn = from_roll_pitch_yaw(roll_pitch_yaw);

@@ -11,6 +11,7 @@ namespace dresslife::sim {
 namespace {
 
 constexpr double far_away = 1;  // [m], farther than any bracket: distances beyond it are not told apart
+constexpr double clear = 0.3;   // [m] from a neighbour; meshes are the slower, the farther they are searched
 
 struct PlacedMesh {
   Mesh mesh;
@@ -65,6 +66,8 @@ struct Surfaces::Parts {
 
 Surfaces::Surfaces(const pipeline::Setup& setup) : parts_(std::make_unique<Parts>()) {
   for (const pipeline::Link& link : setup.robot.links) parts_->links.push_back(solid_of(link));
+  if (!parts_->links.empty() && parts_->links.back().empty())
+    parts_->links.back().capsules = {{setup.robot.flange_position, setup.robot.flange_position, 0}};
   parts_->cell = solid_of(setup.cell);
 }
 
@@ -89,17 +92,18 @@ BracketFit fit_of(const Carried& carried, const Surfaces& surfaces, std::span<co
     const std::vector<Frame>& links = poses[m];
     const Frame& own = links[static_cast<std::size_t>(carried.link)];
     const Vector3 point = own.position + own.orientation * carried.position;
+    const auto most = [&] { return std::min(clear, fit.clearance + carried.radius); };
     const auto see = [&](double distance, int neighbour) {
-      if (distance - carried.radius >= std::min(fit.clearance, far_away - carried.radius)) return;
+      if (distance >= most()) return;
       fit.clearance = distance - carried.radius;
       fit.neighbour = neighbour;
       fit.moment = m;
     };
-    see(surfaces.of_cell(point, far_away), -1);
+    see(surfaces.of_cell(point, most()), -1);
     for (std::size_t link = 0; link < links.size(); ++link)
       if (static_cast<int>(link) != carried.link)
         see(surfaces.of_link(static_cast<int>(link), links[link].orientation.conjugate() * (point - links[link].position),
-                             far_away),
+                             most()),
             static_cast<int>(link));
   }
   return fit;

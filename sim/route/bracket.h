@@ -1,7 +1,7 @@
 // Where a bracket can carry a clamp: near the surface of its link, and clear of all other links over the whole motion.
 //
 // (V7) bracket  g = max((b - b_most)/d, -c/d)   b: from the link's surface to the dresspack's at the clamp
-//                                               b_most: routing.bracket_mm
+//                                               b_most: the longest allowed (--bracket of dresslife-sim)
 //                                               c: least distance of the dresspack at the clamp to any other link or the
 //                                               cell over the motion; negative inside
 //                                               d: diameter
@@ -16,7 +16,7 @@
 
 namespace dresslife::sim {
 
-/// Surfaces of all links and of the cell; a link without shapes has none.
+/// Surfaces of all links and of the cell. A link without shapes has none, but the last one has its flange, as a point.
 class Surfaces {
  public:
   /// Reads meshes. Errors: InputError for a mesh that cannot be read.
@@ -42,7 +42,7 @@ struct Carried {
 
 struct BracketFit {
   double length = 0;           ///< b [m]; 0 on the surface, or where the link has no shapes
-  double clearance = 0;        ///< c [m]; infinite: nothing is near
+  double clearance = 0;        ///< c [m]; infinite: nothing is within 0.3 m
   int neighbour = -1;          ///< link that is nearest; -1: the cell
   std::size_t moment = 0;      ///< of the link poses
   double beyond(double most_length, double diameter) const;  ///< (V7)

@@ -1,5 +1,7 @@
 #include "sim/route/proposal.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,20 +22,25 @@ enum Place { base, tool, ring };
 
 /// Wished of each limit beyond keeping it, in the order of ScreenedLimit; a run bends, twists and sways on
 /// top of what geometry says.
-constexpr std::array<double, screened_limits> wished{0.02, 0.02, 0.25, 0.25, 0.25, 0};
+constexpr std::array<double, screened_limits> wished{0.02, 0.02, 0.25, 0.25, 0.25, 0, 0};
 
 /// Likewise of a run with few segments, which sees less of a bend.
-constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 0.04, 0, 0.005};
+constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 0.04, 0, 0.005, 0};
 
 /// Likewise of the job's own run: its numbers are rounded when it is written.
-constexpr std::array<double, screened_limits> wished_of_whole{0.001, 0.001, 0.01, 0.01, 0, 0.001};
+constexpr std::array<double, screened_limits> wished_of_whole{0.001, 0.001, 0.01, 0.01, 0, 0.001, 0};
 
+constexpr double millimetre = 1e-3;   // places are written in it
+constexpr double ring_radius = 0.75;  // of a guide ring [diameters]
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double farthest = 4;   // of a clamp from the link that carries it [diameters]
-constexpr int side_by_side = 4;  // rehearsals, however many threads there are
+constexpr double farthest =
+    4;  // of a clamp from the link that carries it, where brackets reach so far [diameters]
+constexpr int drawn_places = 2000;  // beside a link until one has a bracket: a second
+constexpr int side_by_side = 4;     // rehearsals, however many threads there are
 
 struct Candidate {
-  std::array<Vector3, places> position;   // in their links [m]
+  std::array<Vector3, places>
+      position;  // in their links, where brackets carry them, in whole millimetres [m]
   std::array<Vector3, places> direction;  // in their links
   double slack = 0;                       // share of the length
   pipeline::Routing routing{};
@@ -66,7 +73,10 @@ class Chance {
 class Search {
  public:
   Search(const pipeline::Setup& setup, const ProposalSettings& settings)
-      : setup_(setup), settings_(settings), screener_(setup), chance_(settings.seed) {
+      : setup_(setup),
+        settings_(settings),
+        screener_(setup, settings.longest_bracket),
+        chance_(settings.seed) {
     const pipeline::Routing& given = setup.dresspacks.front().routing;
     if (!given.base_clamp || !given.tool_clamp)
       throw pipeline::InputError(setup.motion.where,
@@ -78,14 +88,18 @@ class Search {
     for (int k = 0; k < used(); ++k) link_[k] = find_link(setup_.robot, links_[k], given.where);
     const std::unique_ptr<ClampPath> path = path_of(setup);
     start_ = path->at(0).links;
+    for (int k = 0; k < used(); ++k) beside(k);  // refuses a link without such a place
   }
 
   /// As many searches as proposals, each from its own beginnings, so that they end at different places.
   std::vector<Proposal> run() {
     if (settings_.rehearsals > 0) return proposals_of(rehearsed_search());
     std::vector<Candidate> found;
-    for (int k = 0; k < settings_.count; ++k)
+    for (int k = 0; k < settings_.count; ++k) {
+      tell(static_cast<double>(k) / settings_.count,
+           fmt::format("geometry, search {} of {}", k + 1, settings_.count));
       found.push_back(best_of(std::max(10, settings_.tried / settings_.count)));
+    }
     std::stable_sort(found.begin(), found.end(),
                      [](const Candidate& a, const Candidate& b) { return a.missing < b.missing; });
     return proposals_of(found);
@@ -103,15 +117,26 @@ class Search {
   /// pays. Of a few changes the one is rehearsed that geometry likes most, which is asked for as much more of
   /// a radius as its parent lacked in its run.
   std::vector<Candidate> rehearsed_search() {
-    constexpr int begun = 12;           // searches by geometry alone
-    constexpr double hopeless = 0.5;    // missed by the best of the first third
-    constexpr std::size_t parents = 5;  // kept
+    constexpr int begun = 12;               // searches by geometry alone
+    constexpr double hopeless = 0.5;        // missed by the best of the first third
+    constexpr std::size_t parents = 5;      // kept
+    constexpr double geometry_share = 0.3;  // of the time, about
     std::vector<Candidate> beginnings, kept;
-    for (int k = 0; k < begun; ++k) beginnings.push_back(best_of(std::max(10, settings_.tried / begun)));
+    for (int k = 0; k < begun; ++k) {
+      tell(geometry_share * k / begun, fmt::format("geometry, search {} of {}", k + 1, begun));
+      beginnings.push_back(best_of(std::max(10, settings_.tried / begun)));
+    }
+    if (std::all_of(beginnings.begin(), beginnings.end(),
+                    [](const Candidate& of) { return of.screening.rejected(); }))
+      return excluded(std::move(beginnings));
     double size = 1;
     int left = settings_.rehearsals;
     const auto whole_ones = [&] { return std::count_if(kept.begin(), kept.end(), is_found); };
     while (left > 0 && whole_ones() < settings_.count) {
+      const int done = settings_.rehearsals - left;
+      tell(geometry_share + (1 - geometry_share) * done / settings_.rehearsals,
+           fmt::format("short run {} of at most {}{}", done + 1, settings_.rehearsals,
+                       kept.empty() ? "" : nearest_words(kept.front())));
       std::vector<Candidate> next;
       const bool begins = !beginnings.empty();
       while (static_cast<int>(next.size()) < std::min(side_by_side, left)) {
@@ -130,6 +155,35 @@ class Search {
     }
     if (kept.size() > static_cast<std::size_t>(settings_.count)) kept.resize(settings_.count);
     return kept;
+  }
+
+  /// Nothing of this can run: the least wrong first, with the reason.
+  std::vector<Candidate> excluded(std::vector<Candidate> all) const {
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.missing < b.missing; });
+    all.resize(std::min(all.size(), static_cast<std::size_t>(settings_.count)));
+    for (Candidate& candidate : all) {
+      std::string limits;
+      for (std::size_t k = 0; k < screened_limits; ++k)
+        if (const double g = candidate.screening.beyond[k]; g > surely_beyond[k])
+          limits += fmt::format("{}{} by {:.2f} at {:.3f} s", limits.empty() ? "" : ", ",
+                                word(static_cast<ScreenedLimit>(k)), g, candidate.screening.time[k]);
+      candidate.rehearsal.refusal =
+          fmt::format("geometry excludes all {} routings that were looked at; the nearest is {}",
+                      settings_.tried, limits);
+    }
+    return all;
+  }
+
+  static std::string nearest_words(const Candidate& nearest) {
+    if (nearest.missing_in_run == 0) return ", one keeps all limits";
+    return nearest.rehearsal.refusal.empty()
+               ? fmt::format(", nearest misses its limits by {:.2f}", nearest.missing_in_run)
+               : ", none runs";
+  }
+
+  void tell(double share, const std::string& words) const {
+    if (settings_.progress) settings_.progress(share, words);
   }
 
   static bool is_found(const Candidate& candidate) {
@@ -217,7 +271,7 @@ class Search {
 
   Candidate random() {
     Candidate candidate;
-    for (int k = 0; k < used(); ++k) candidate.position[k] = beside(link_[k]);
+    for (int k = 0; k < used(); ++k) candidate.position[k] = beside(k);
     const Vector3 way =
         frame(tool).point(candidate.position[tool]) - frame(base).point(candidate.position[base]);
     for (int k = 0; k < used(); ++k) {
@@ -228,7 +282,7 @@ class Search {
     return candidate;
   }
 
-  /// What of the link a clamp is beside: its capsules; of the last link the flange, where tools have their
+  /// What of the link a clamp is drawn beside: its capsules; of the last link the flange, where tools have their
   /// brackets, as a line as long as those reach.
   std::vector<pipeline::Capsule> shapes_of(int link) const {
     const pipeline::Link& of = setup_.robot.links[link];
@@ -241,7 +295,37 @@ class Search {
 
   bool is_flange(int link) const { return link + 1 == static_cast<int>(setup_.robot.links.size()); }
 
-  Vector3 beside(int link) {
+  /// Drawn until a bracket can carry it.
+  Vector3 beside(int place) {
+    BracketFit nearest;
+    double least = never;
+    for (int k = 0; k < drawn_places; ++k) {
+      const Vector3 position = rounded(drawn_beside(link_[place]), millimetre);
+      const BracketFit fit = bracket(place, position);
+      const double beyond = fit.beyond(settings_.longest_bracket, diameter_);
+      if (beyond <= 0) return position;
+      if (beyond < least) least = beyond, nearest = fit;
+    }
+    refuse_link(place, nearest);
+  }
+
+  [[noreturn]] void refuse_link(int place, const BracketFit& nearest) const {
+    const auto& links = setup_.robot.links;
+    std::string why = fmt::format("needs a bracket of {:.0f} mm", 1e3 * nearest.length);
+    if (nearest.clearance < 0)
+      why = fmt::format("is {:.0f} mm inside {} at {:.3f} s of the program", -1e3 * nearest.clearance,
+                        nearest.neighbour < 0 ? "the cell" : links[nearest.neighbour].name,
+                        screener_.time_of(nearest.moment));
+    throw pipeline::InputError(
+        setup_.dresspacks.front().routing.where,
+        fmt::format(
+            "no place within {:.0f} mm of the surface of {} stays clear of the other links and the cell: the "
+            "nearest of {} places {}",
+            1e3 * settings_.longest_bracket, links_[place], drawn_places, why),
+        "a longer --bracket, another link (--from, --to, --ring), or a program that keeps away from it");
+  }
+
+  Vector3 drawn_beside(int link) {
     const std::vector<pipeline::Capsule> shapes = shapes_of(link);
     const pipeline::Capsule& capsule = shapes[chance_.below(shapes.size())];
     const Vector3 along = capsule.to - capsule.from;
@@ -252,19 +336,18 @@ class Search {
     return capsule.from + chance_.between(0, 1) * along + off * out.normalized();
   }
 
-  /// Whether a bracket can hold it there.
-  bool in_reach(int link, const Vector3& place) const {
-    for (const pipeline::Capsule& shape : shapes_of(link))
-      if (distance_to_axis(place, shape.from, shape.to) <= shape.radius + farthest * diameter_) return true;
-    return false;
+  BracketFit bracket(int place, const Vector3& position) const {
+    return screener_.bracket({link_[place], position, (place == ring ? ring_radius : 0.5) * diameter_});
   }
 
   Candidate changed(const Candidate& from, double size) {
     Candidate candidate = from;
     for (int k = 0; k < used(); ++k) {
       if (chance_.below(2)) {
-        const Vector3 place = candidate.position[k] + size * diameter_ * chance_.normal_vector();
-        if (in_reach(link_[k], place)) candidate.position[k] = place;
+        const Vector3 place =
+            rounded(candidate.position[k] + size * diameter_ * chance_.normal_vector(), millimetre);
+        if (bracket(k, place).beyond(settings_.longest_bracket, diameter_) <= 0)
+          candidate.position[k] = place;
       }
       if (chance_.below(2))
         candidate.direction[k] = (candidate.direction[k] + 0.4 * size * chance_.normal_vector()).normalized();
@@ -285,9 +368,9 @@ class Search {
     if (used() > ring) {
       pipeline::GuideRing& guide = routing.rings.emplace_back();
       guide.link = links_[ring];
-      guide.position = rounded(candidate.position[ring], 1e-3);
+      guide.position = candidate.position[ring];
       guide.direction = rounded(candidate.direction[ring], 1e-2);
-      guide.radius = 0.75 * diameter_;
+      guide.radius = ring_radius * diameter_;
       guide.width = diameter_;
       guide.friction = setup_.dresspacks.front().dresspack.friction;
     }
@@ -311,15 +394,11 @@ class Search {
     return sum;
   }
 
-  /// As people write places (mm) and directions.
+  /// As people write places and directions.
   static Vector3 rounded(const Vector3& v, double step) { return (v / step).array().round() * step; }
 
   pipeline::Clamp clamp(const Candidate& candidate, int place) const {
-    return {links_[place],
-            rounded(candidate.position[place], 1e-3),
-            rounded(candidate.direction[place], 1e-2),
-            {},
-            {}};
+    return {links_[place], candidate.position[place], rounded(candidate.direction[place], 1e-2), {}, {}};
   }
 
   pipeline::Setup setup_;  // with the routing that is looked at

@@ -1,7 +1,8 @@
 // A routing from nothing: clamps on two links, and a ring on a third if wanted, that the screening finds
 // nothing against.
 //
-// Places are drawn at random beside the links' shapes (beside the flange on the last link), directions about
+// Places are drawn at random beside the links' shapes (beside the flange on the last link) where a bracket can carry
+// them over the whole motion (V7), directions about
 // the way from clamp to clamp, the length by the slack that it leaves where the way is longest (V1). The best
 // of what was tried are then changed a little, again and again (an evolution strategy without recombination;
 // it needs no derivatives, of which the screening has none). Goodness is the sum of what misses a wished
@@ -10,9 +11,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "pipeline/job/bracket.h"
 #include "pipeline/job/setup.h"
 #include "sim/route/rehearsal.h"
 #include "sim/route/screening.h"
@@ -25,7 +28,10 @@ struct ProposalSettings {
   int rehearsals =
       0;  ///< runs with few segments, a tenth of a second each, that try the best and better them; 0: none
   std::uint64_t seed = 1;
-  std::string ring_link;  ///< a guide ring on it; empty: none
+  std::string ring_link;                               ///< a guide ring on it; empty: none
+  double longest_bracket = pipeline::longest_bracket;  ///< [m] (V7)
+  /// Share of the most work that there may be, and what is tried; may be empty.
+  std::function<void(double, const std::string&)> progress{};
 };
 
 struct Proposal {
@@ -36,7 +42,8 @@ struct Proposal {
 };
 
 /// setup: its first dresspack's clamps name the links; all else of its routing is not read. Errors:
-/// InputError as of Screener, and for a motion without a robot.
+/// InputError as of Screener, for a motion without a robot, and for a link near which no place has a bracket. Where
+/// geometry surely excludes all that was tried nothing is rehearsed, and the proposals' rehearsals say why.
 std::vector<Proposal> propose(const pipeline::Setup& setup, const ProposalSettings& settings);
 
 }  // namespace dresslife::sim

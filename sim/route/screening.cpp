@@ -205,6 +205,9 @@ struct Screener::Parts {
   std::vector<Moment> moments;     // the first ones: from the mounting pose to the start
   std::size_t first = 0;           // of the program
   std::vector<std::size_t> poses;  // to draw, in order
+  std::optional<double> longest_bracket;
+  std::optional<Surfaces> surfaces;  // with brackets of a robot
+  std::vector<Frames> carriers;      // (moment, link) likewise
 
   void add_robot(const pipeline::Setup& setup, const RobotPath& path);
   void choose_poses(const std::vector<Eigen::VectorXd>& joints);
@@ -212,12 +215,18 @@ struct Screener::Parts {
   void see(const pipeline::Setup& setup, const Thread& thread, Screening& screening) const;
   double depth(const pipeline::Setup& setup, const Thread& thread, const Moment& moment,
                const std::vector<Vector3>& points) const;
+  void see_brackets(const pipeline::Setup& setup, Screening& screening) const;
 };
 
-Screener::Screener(const pipeline::Setup& setup) : parts_(std::make_unique<Parts>()) {
+Screener::Screener(const pipeline::Setup& setup, std::optional<double> longest_bracket)
+    : parts_(std::make_unique<Parts>()) {
   const std::unique_ptr<ClampPath> path = path_of(setup);
   if (const auto* robot = dynamic_cast<const RobotPath*>(path.get())) {
     parts_->add_robot(setup, *robot);
+    if (!longest_bracket) return;
+    parts_->longest_bracket = longest_bracket;
+    parts_->surfaces.emplace(setup);
+    for (const Moment& moment : parts_->moments) parts_->carriers.push_back(moment.links);
     return;
   }
   const int count =
@@ -364,10 +373,37 @@ void Screener::Parts::see(const pipeline::Setup& setup, const Thread& thread, Sc
   }
 }
 
+/// (V7) of all clamps and rings
+void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& screening) const {
+  if (!surfaces) return;
+  constexpr auto limit = static_cast<std::size_t>(ScreenedLimit::bracket);
+  for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
+    const double diameter = mounted.dresspack.diameter;
+    const auto see = [&](const auto& place, double radius) {
+      const Carried carried{find_link(setup.robot, place.link, place.where), place.position, radius};
+      const BracketFit fit = fit_of(carried, *surfaces, carriers);
+      const double g = fit.beyond(*longest_bracket, diameter);
+      if (g > screening.beyond[limit])
+        screening.beyond[limit] = g, screening.time[limit] = moments[fit.moment].time;
+    };
+    const pipeline::Routing& routing = mounted.routing;
+    for (const auto& clamp : {routing.base_clamp, routing.tool_clamp})
+      if (clamp) see(*clamp, diameter / 2);
+    for (const pipeline::IntermediateClamp& between : routing.clamps) see(between.clamp, diameter / 2);
+    for (const pipeline::GuideRing& ring : routing.rings) see(ring, ring.radius);
+  }
+}
+
+BracketFit Screener::bracket(const Carried& carried) const {
+  return fit_of(carried, *parts_->surfaces, parts_->carriers);
+}
+double Screener::time_of(std::size_t moment) const { return parts_->moments[moment].time; }
+
 Screening Screener::screen(const pipeline::Setup& setup) const {
   Screening screening;
   screening.beyond.fill(unasked);
   screening.time.fill(0);
+  parts_->see_brackets(setup, screening);
   const Rod rod = rod_of(setup);
   for (const Thread& thread : parts_->threads(setup, rod)) parts_->see(setup, thread, screening);
   return screening;

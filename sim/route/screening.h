@@ -12,6 +12,7 @@
 // (V5) overlap     g = (depth - d/2)/d             depth: in the links' capsules, the cell and the floor
 //                                                  d: diameter
 // (V6) tension     g = ln(F/F_limit)               F: largest pull, which only a run knows (rehearsal.h)
+// (V7) bracket     bracket.h: whether brackets can carry the clamps and rings, at all moments of the program
 //
 // Phi counts whole turns: the direction is transported from clamp to chord to clamp at every moment of the
 // program and followed without jumps; in the poses the transport along the curve itself takes its place.
@@ -20,11 +21,13 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "pipeline/base/words.h"
 #include "sim/rod/rotation.h"
+#include "sim/route/bracket.h"
 
 namespace dresslife::pipeline {
 struct Setup;
@@ -32,19 +35,19 @@ struct Setup;
 
 namespace dresslife::sim {
 
-enum class ScreenedLimit { too_short, too_long, bend, twist, overlap, tension };
-inline constexpr int screened_limits = 6;
+enum class ScreenedLimit { too_short, too_long, bend, twist, overlap, tension, bracket };
+inline constexpr int screened_limits = 7;
 constexpr std::string_view word(ScreenedLimit value) {
-  return pipeline::word_at(
-      {"too short", "too long", "bent too tightly", "twisted too far", "in the robot", "pulled too hard"},
-      value);
+  return pipeline::word_at({"too short", "too long", "bent too tightly", "twisted too far", "in the robot",
+                            "pulled too hard", "bracket"},
+                           value);
 }
 
 /// What is further beyond than this cannot work: by so much the curve may err that knows no weight and no
 /// contact. Of 350 random routings none that was rejected kept its limits in a full run (README.md). In the
-/// robot: the hose is pushed aside, so nothing is sure.
+/// robot: the hose is pushed aside, so nothing is sure. Of brackets geometry knows all.
 inline constexpr std::array<double, screened_limits> surely_beyond{
-    0, 0, 1, 0.5, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    0, 0, 1, 0.5, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0};
 
 /// Of a point to the nearest one of the line between two others [m].
 double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3& to);
@@ -61,9 +64,9 @@ struct Screening {
 
 class Screener {
  public:
-  /// Lays the motion out and looks for the poses that differ most. Errors: InputError, as RobotPath and
-  /// RecordedPath.
-  explicit Screener(const pipeline::Setup& setup);
+  /// Computes the motion and looks for the poses that differ most. longest_bracket: [m]; absent: (V7) is not asked.
+  /// Errors: InputError, as RobotPath, RecordedPath and Surfaces.
+  explicit Screener(const pipeline::Setup& setup, std::optional<double> longest_bracket = {});
   ~Screener();
 
   /// setup: with the robot and motion that this was made with; dresspacks, their routings and the rest may
@@ -73,6 +76,11 @@ class Screener {
   /// (V3) with the hose at rest under its weight in some of the poses (equilibrium.h), free of twist: five
   /// times as dear. Large where it finds no rest.
   double bend_at_rest(const pipeline::Setup& setup) const;
+
+  /// How a bracket carries this over the program. Precondition: a robot, and brackets are asked for.
+  BracketFit bracket(const Carried& carried) const;
+  /// Of BracketFit::moment [s].
+  double time_of(std::size_t moment) const;
 
   /// (span) w of (V1) [m]; 0: a free end.
   std::vector<double> longest_ways(const pipeline::Setup& setup) const;

@@ -69,16 +69,31 @@ class Writer {
   pipeline::FileWriter& file_;
 };
 
+constexpr auto bracket = static_cast<std::size_t>(ScreenedLimit::bracket);
+
 /// Screeners are kept as long as robot and motion stay.
 class Bench {
  public:
+  explicit Bench(double longest_bracket) : longest_bracket_(longest_bracket) {}
+
+  /// (V7) counts from what this job has, where it passes it.
+  void accept_brackets_of(const pipeline::Setup& setup, const Node& document) {
+    try {
+      accepted_ = std::max(0.0, screen(setup, document).beyond[bracket]);
+    } catch (const InputError&) {
+      accepted_ = 0;  // a job whose motion cannot be computed; its candidates say so
+    }
+  }
+
   Screening screen(const pipeline::Setup& setup, const Node& document) {
     const std::string key = text_of(document, "robot") + text_of(document, "motion") + poses_of(setup);
     if (!screener_ || key != key_) {
-      screener_.emplace(setup);
+      screener_.emplace(setup, longest_bracket_);
       key_ = key;
     }
-    return screener_->screen(setup);
+    Screening screening = screener_->screen(setup);
+    screening.beyond[bracket] -= accepted_;
+    return screening;
   }
 
  private:
@@ -93,6 +108,7 @@ class Bench {
     return text;
   }
 
+  double longest_bracket_, accepted_ = 0;
   std::optional<Screener> screener_;
   std::string key_;
 };
@@ -131,7 +147,10 @@ void rehearse(std::vector<Verdict>& verdicts) {
   });
   for (std::size_t k = 0; k < left.size(); ++k) {
     left[k]->refusal = done[k].refusal;
-    if (done[k].refusal.empty()) left[k]->screening = done[k].seen, left[k]->bends = std::move(done[k].bends);
+    if (!done[k].refusal.empty()) continue;
+    done[k].seen.beyond[bracket] = left[k]->screening.beyond[bracket];
+    done[k].seen.time[bracket] = left[k]->screening.time[bracket];
+    left[k]->screening = done[k].seen, left[k]->bends = std::move(done[k].bends);
   }
 }
 
@@ -167,13 +186,14 @@ std::string routing_text(const pipeline::Routing& routing) {
 }  // namespace
 
 void write_screening(const pipeline::Job& job, const std::filesystem::path& candidates, bool in_runs,
-                     pipeline::FileWriter& file) {
+                     double longest_bracket, pipeline::FileWriter& file) {
   const Node list = pipeline::read_yaml(candidates);
   if (!list.is_list())
     throw InputError(list.where, "holds no list of changes", "write a list of maps {KEY.PATH: VALUE}");
   const Node document = pipeline::parse_yaml(pipeline::job_text(job), candidates.string());
   std::vector<Verdict> verdicts;
-  Bench bench;
+  Bench bench(longest_bracket);
+  if (!job.motion.is_prescribed()) bench.accept_brackets_of(job, document);
   for (const Node& changes : list.items) {
     if (!changes.is_map())
       throw InputError(changes.where, "is no map of key paths to values", "write {KEY.PATH: VALUE, ...}");

@@ -36,6 +36,15 @@ bool is_of(const RankingRow& row, const std::vector<std::string>& jobs) {
 }
 
 const Final* Finals::best() const {
+  const Final* found = nullptr;
+  for (const Final& one : of)
+    if (one.tolerance && one.tolerance->whole &&
+        (!found || one.tolerance->least_hours > found->tolerance->least_hours))
+      found = &one;
+  return found ? found : longest();
+}
+
+const Final* Finals::longest() const {
   if (of.size() < 2) return nullptr;
   return &*std::max_element(of.begin() + 1, of.end(),
                             [](const Final& a, const Final& b) { return a.hours < b.hours; });
@@ -67,6 +76,45 @@ Finals finals_of(const Improvement& found, const ImproveRequest& request, const 
     for (const RankingRow& row : finals.rows)
       if (is_of(row, of.jobs)) of.hours = std::min(of.hours, row.done() ? row.headline_hours() : 0);
   return finals;
+}
+
+void judge(Finals& finals, const Improvement& found, const ImproveRequest& request, double off,
+           const StudyPlaces& places, const MakeRows& make_rows) {
+  std::vector<Final*> by_life;
+  for (std::size_t k = 1; k < finals.of.size(); ++k) by_life.push_back(&finals.of[k]);
+  std::stable_sort(by_life.begin(), by_life.end(),
+                   [](const Final* a, const Final* b) { return a->hours > b->hours; });
+  if (found.front.size() > 1 && by_life.size() > 1) by_life.erase(by_life.begin() + 1, by_life.end());
+  std::vector<Finalist> finalists;
+  for (const Final* of : by_life) {
+    const std::vector<std::string>& sets = found.trials[of->trial].sets;
+    Finalist finalist{of->hours, nudges_of(changed_jobs(request, sets, "place"), off), {}};
+    finalist.run = [&, of, sets, nudges = finalist.nudges](std::size_t first, std::size_t count) {
+      Study study{found.name, {}, found.keep_trials};
+      std::vector<std::vector<std::string>> jobs(count);
+      for (std::size_t k = 0; k < count; ++k) {
+        std::vector<std::string> all = sets;
+        all.insert(all.end(), nudges[first + k].sets.begin(), nudges[first + k].sets.end());
+        for (StudyJob& job :
+             changed_jobs(request, all, fmt::format("off_{:04}_{:02}", of->trial, first + k + 1))) {
+          jobs[k].push_back(job.name);
+          study.jobs.push_back(std::move(job));
+        }
+      }
+      const std::vector<RankingRow> rows = make_rows(study);
+      std::vector<Outcome> worst;
+      for (const std::vector<std::string>& names : jobs) {
+        std::vector<Outcome> outcomes;
+        for (const RankingRow& row : rows)
+          if (is_of(row, names)) outcomes.push_back(outcome_of(row, places.job(row.job), found.limits));
+        worst.push_back(worst_of(outcomes));
+      }
+      return worst;
+    };
+    finalists.push_back(std::move(finalist));
+  }
+  const std::vector<WithinTolerance> judged = within_tolerance(finalists);
+  for (std::size_t k = 0; k < judged.size(); ++k) by_life[k]->tolerance = judged[k];
 }
 
 std::optional<double> share_longer(const Finals& finals, const Final& best, const StudyPlaces& places) {

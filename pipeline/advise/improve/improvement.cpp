@@ -8,10 +8,12 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "pipeline/advise/improve/faults.h"
 #include "pipeline/advise/improve/obstacle.h"
 #include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/limits.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
@@ -93,6 +95,13 @@ class Improver {
       done_.freed.push_back(key.path);
       done_.own.push_back(key.own);
     }
+    const bool frees_dresspack =
+        std::any_of(done_.freed.begin(), done_.freed.end(),
+                    [](const std::string& path) { return path.starts_with("dresspack"); });
+    for (const auto& job : jobs_)
+      for (const Warning& fault : dresspack_faults(*job, !frees_dresspack))
+        faults_ = joined(std::move(faults_), {fault});
+    for (const Warning& fault : faults_) pipeline::tell(fault.line() + "\n");
     find_screened();
   }
 
@@ -109,6 +118,7 @@ class Improver {
     while (static_cast<int>(done_.trials.size()) < request_.trials) {
       const int left = request_.trials - static_cast<int>(done_.trials.size());
       const std::vector<VectorXd> asked = search->ask(std::min(left, request_.at_a_time));
+      if (asked.empty()) break;  // it has given up
       std::vector<std::vector<std::string>> sets;
       for (const VectorXd& place : asked) sets.push_back(freedom_.sets_at(place));
       std::vector<Look> looks;
@@ -122,6 +132,11 @@ class Improver {
     }
     done_.front = best_trials();
     if (done_.front.empty()) done_.obstacle = obstacle_words(done_.trials, freedom_);
+    if (static_cast<int>(done_.trials.size()) < request_.trials)
+      done_.obstacle.insert(
+          done_.obstacle.begin(),
+          fmt::format("The search stopped early: of {} short runs the nearest to the limits: {}",
+                      done_.rehearsals, nearest_words_));
     return std::move(done_);
   }
 
@@ -136,6 +151,8 @@ class Improver {
     settings.seed = request_.seed;
     settings.aims = aims();
     settings.rehearsals = std::max(0, request_.rehearsals);
+    done_.most_rehearsals =
+        request_.rehearsals > 0 ? request_.rehearsals : static_cast<int>(40 * freedom_.variables());
     Rehearse rehearse;
     if (request_.rehearsals != 0 && !screened_.empty())
       rehearse = [this](const std::vector<VectorXd>& places) { return rehearsed(places); };
@@ -145,7 +162,8 @@ class Improver {
   /// Jobs whose routing geometry can look at, one of those that are alike in it.
   void find_screened() {
     for (const auto& job : jobs_) {
-      const ScreenedList list = screening_of(*job, "[{}]\n", ScreenedBy::geometry, places_.folder);
+      const ScreenedList list =
+          screening_of(*job, "[{}]\n", ScreenedBy::geometry, request_.longest_bracket, places_.folder);
       if (!list.candidates.empty() && list.candidates.front().refusal.empty()) screened_.push_back(job);
     }
   }
@@ -156,20 +174,25 @@ class Improver {
     bool rejected = false;
     std::vector<double> beyond;
     std::string words;
+    double bracket = -HUGE_VAL;  ///< (V7) of the job that is worst by that
   };
   std::vector<Screened> screened(const std::vector<std::vector<std::string>>& sets) const {
     const std::string candidates = list_of_changes(sets);
     std::vector<Screened> worst(sets.size());
     for (const auto& job : screened_) {
-      const ScreenedList list = screening_of(*job, candidates, ScreenedBy::geometry, places_.folder);
+      const ScreenedList list =
+          screening_of(*job, candidates, ScreenedBy::geometry, request_.longest_bracket, places_.folder);
       for (std::size_t k = 0; k < list.candidates.size() && k < sets.size(); ++k) {
         constexpr double no_job = 10;  // beyond every geometry that is one
         const ScreenedCandidate& of = list.candidates[k];
         const double violation = of.refusal.empty() ? of.violation() : no_job;
         worst[k].rejected = worst[k].rejected || of.rejected;
+        if (of.refusal.empty())
+          worst[k].bracket =
+              std::max(worst[k].bracket, limits_of_rehearsal(list.limits, of.beyond)[bracket_limit]);
         if (violation > worst[k].violation)
           worst[k] = {violation, worst[k].rejected, of.beyond,
-                      of.refusal.empty() ? list.words(of) : of.refusal};
+                      of.refusal.empty() ? list.words(of) : of.refusal, worst[k].bracket};
       }
     }
     return worst;
@@ -189,14 +212,23 @@ class Improver {
     const std::string candidates = list_of_changes(sets);
     std::vector<Look> looks;
     for (const VectorXd& place : places) looks.push_back({place, true, {}, {}});
+    std::vector<std::pair<double, std::string>> worst(places.size());  // how far beyond, by what
     for (const auto& job : screened_) {
-      const ScreenedList list = screening_of(*job, candidates, ScreenedBy::short_runs, places_.folder);
+      const ScreenedList list =
+          screening_of(*job, candidates, ScreenedBy::short_runs, request_.longest_bracket, places_.folder);
       for (std::size_t k = 0; k < places.size(); ++k) {
         if (k >= list.candidates.size()) throw std::logic_error("a list of short runs is not whole");
-        add_rehearsal(looks[k], list, list.candidates[k]);
+        const ScreenedCandidate& of = list.candidates[k];
+        add_rehearsal(looks[k], list, of);
+        const double violation = of.refusal.empty() ? of.violation() : HUGE_VAL;
+        if (violation >= worst[k].first)
+          worst[k] = {violation, of.refusal.empty() ? list.words(of) : of.refusal};
       }
     }
+    for (const auto& [violation, words] : worst)
+      if (violation < nearest_ || nearest_words_.empty()) nearest_ = violation, nearest_words_ = words;
     done_.rehearsals += static_cast<int>(places.size() * screened_.size());
+    makers_.tell(done_);
     return looks;
   }
 
@@ -248,17 +280,20 @@ class Improver {
     return trials;
   }
 
-  /// Of what failed, geometry says how far it was from running.
+  /// Of what failed, geometry says how far it was from running; of what ran, whether brackets carry it.
   void add_geometry(std::vector<Trial>& trials) const {
-    std::vector<std::size_t> failed;
+    if (screened_.empty()) return;
     std::vector<std::vector<std::string>> sets;
-    for (std::size_t k = 0; k < trials.size(); ++k)
-      if (!trials[k].worst.failure.empty()) failed.push_back(k), sets.push_back(trials[k].sets);
-    if (failed.empty() || screened_.empty()) return;
+    for (const Trial& trial : trials) sets.push_back(trial.sets);
     const std::vector<Screened> told = screened(sets);
-    for (std::size_t k = 0; k < failed.size(); ++k) {
-      trials[failed[k]].screened = told[k].words;
-      trials[failed[k]].worst.beyond = told[k].beyond;
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+      Outcome& worst = trials[k].worst;
+      if (worst.failure.empty()) {
+        worst.beyond[bracket_limit] = std::max(worst.beyond[bracket_limit], told[k].bracket);
+        continue;
+      }
+      trials[k].screened = told[k].words;
+      worst.beyond = told[k].beyond;
     }
   }
 
@@ -287,6 +322,9 @@ class Improver {
   std::vector<std::shared_ptr<const Job>> jobs_, screened_;
   Freedom freedom_;
   Improvement done_;
+  std::vector<Warning> faults_;
+  double nearest_ = HUGE_VAL;  // of the short runs to keeping all limits, and what it passes
+  std::string nearest_words_;
 };
 
 }  // namespace

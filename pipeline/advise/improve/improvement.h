@@ -17,6 +17,7 @@
 #include "pipeline/advise/improve/screened.h"
 #include "pipeline/advise/search/search.h"
 #include "pipeline/base/words.h"
+#include "pipeline/job/bracket.h"
 #include "pipeline/study/study.h"
 
 namespace dresslife::pipeline {
@@ -39,6 +40,7 @@ struct ImproveRequest {
   std::uint64_t seed = 1;
   SearchMethod method = SearchMethod::surrogate;
   SecondAim second = SecondAim::none;
+  double longest_bracket = pipeline::longest_bracket;  ///< between a link's surface and a clamp [m]
   int rehearsals =
       -1;  ///< short runs before the first trial, at most; 0: none; -1: 40 times as many as variables
 };
@@ -67,13 +69,14 @@ struct Improvement {
   std::vector<Trial> trials;          ///< in their order, the jobs as they are first
   std::vector<std::size_t> front;     ///< of the feasible, longest life first; with one aim one
   int rehearsals = 0;                 ///< short runs besides
+  int most_rehearsals = 0;            ///< before the first trial
   std::vector<std::string> obstacle;  ///< lines on what stands against every trial; empty: some are feasible
   std::optional<std::size_t> best() const;  ///< longest life of the feasible; absent: none is
 };
 
 struct TrialMakers {
   std::function<std::vector<RankingRow>(const Study&)> make_rows;
-  std::function<void(const Improvement&)> tell;  ///< after every few trials
+  std::function<void(const Improvement&)> tell;  ///< after every few trials and short runs
 };
 
 /// places: of the study of trials. Errors: InputError for what is freed and cannot be; a study whose jobs

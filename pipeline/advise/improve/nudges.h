@@ -13,7 +13,7 @@ struct Nudge {
   std::vector<std::string> sets;  ///< "KEY.PATH=VALUE"
 };
 
-/// Each coordinate of both clamps, and the length, off to both sides [m]. jobs: nothing where their routings
+/// Each coordinate of each clamp and ring, and the length, off to both sides [m]. jobs: nothing where their routings
 /// differ, as no one change is that of all.
 std::vector<Nudge> nudges_of(const std::vector<StudyJob>& jobs, double by);
 

@@ -19,7 +19,8 @@ namespace {
 
 constexpr double unasked = -1e3;  // of a limit that nothing asks for: far from it, and finite for who fits
 
-enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable };
+enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable, bracket };
+static_assert(bracket == bracket_limit);
 
 void see(Outcome& outcome, Limit limit, double g) {
   outcome.beyond[limit] = std::max(outcome.beyond[limit], g);
@@ -57,17 +58,16 @@ void see_check(Outcome& outcome, const CheckedValue& check, const AskedLimits& a
 const std::vector<std::string>& outcome_limit_names() {
   static const std::vector<std::string> names{
       "bend radius", "twist",         "too short",           "too long",
-      "tension",     "contact force", "retraction's stroke", "forces in cables"};
+      "tension",     "contact force", "retraction's stroke", "forces in cables",
+      "bracket"};
   return names;
 }
 
 std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
                                         const std::vector<double>& beyond) {
-  static const std::map<std::string, Limit> limit_of{{"bent too tightly", bend},
-                                                     {"twisted too far", twist},
-                                                     {"too short", too_short},
-                                                     {"too long", too_long},
-                                                     {"pulled too hard", pull}};
+  static const std::map<std::string, Limit> limit_of{{"bent too tightly", bend}, {"twisted too far", twist},
+                                                     {"too short", too_short},   {"too long", too_long},
+                                                     {"pulled too hard", pull},  {"bracket", bracket}};
   std::vector<double> of(outcome_limits, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < names.size(); ++k)
     if (const auto found = limit_of.find(names[k]); found != limit_of.end())

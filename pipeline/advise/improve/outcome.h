@@ -19,9 +19,12 @@ struct AskedLimits {
 };
 void describe(Fields& f, AskedLimits& limits);
 
-/// The limits, in the order of Outcome::beyond. Relative: how many times, or which share of the length.
-inline constexpr int outcome_limits = 8;
+/// The limits, in the order of Outcome::beyond. Relative: how many times, or which share of the length or diameter. The
+/// last one, (V7) of the bracket, comes from geometry (screened.h); a run does not see it.
+inline constexpr int outcome_limits = 9;
 const std::vector<std::string>& outcome_limit_names();
+
+inline constexpr std::size_t bracket_limit = outcome_limits - 1;
 
 /// The same of a short run (screened.h), whose limits have the names of those of geometry; not a number where
 /// it knows nothing.

@@ -7,44 +7,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "pipeline/advise/improve/nudges.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
 namespace {
-
-/// The best with one thing off, as trials were run.
-std::vector<ImprovementStory::Nudge> nudged(const Improvement& found, std::size_t trial,
-                                            const ImproveRequest& request, double off,
-                                            const StudyPlaces& places, const MakeRows& make_rows) {
-  std::vector<ImprovementStory::Nudge> told;
-  if (off == 0) return told;
-  const std::vector<std::string>& sets = found.trials[trial].sets;
-  const std::vector<Nudge> nudges = nudges_of(changed_jobs(request, sets, "place"), off);
-  Study study{found.name, {}, found.keep_trials};
-  std::vector<std::vector<std::string>> jobs;
-  for (std::size_t k = 0; k < nudges.size(); ++k) {
-    std::vector<std::string> all = sets;
-    all.insert(all.end(), nudges[k].sets.begin(), nudges[k].sets.end());
-    jobs.emplace_back();
-    for (StudyJob& job : changed_jobs(request, all, fmt::format("off_{:02}", k + 1))) {
-      jobs.back().push_back(job.name);
-      study.jobs.push_back(std::move(job));
-    }
-  }
-  if (study.jobs.empty()) return told;
-  const std::vector<RankingRow> rows = make_rows(study);
-  for (std::size_t k = 0; k < nudges.size(); ++k) {
-    std::vector<Outcome> outcomes;
-    for (const RankingRow& row : rows)
-      if (is_of(row, jobs[k])) outcomes.push_back(outcome_of(row, places.job(row.job), found.limits));
-    const Outcome worst = worst_of(outcomes);
-    const double share = worst.hours / found.trials[trial].worst.hours;
-    told.push_back({nudges[k].what, worst.failure.empty(), share, worst.words()});
-  }
-  return told;
-}
 
 ImprovementStory::Lives lives_of(const Finals& finals, const Final& of, const Outcome& outcome,
                                  const StudyPlaces& places) {
@@ -59,20 +26,12 @@ ImprovementStory::Lives lives_of(const Finals& finals, const Final& of, const Ou
   return lives;
 }
 
-/// How much the best forgives, in a line.
-std::string forgives_words(const std::vector<ImprovementStory::Nudge>& nudges, double off) {
-  if (nudges.empty()) return "";
-  double least = HUGE_VAL;
-  int broken = 0;
-  for (const ImprovementStory::Nudge& nudge : nudges) {
-    broken += !nudge.words.empty();
-    if (nudge.ran && std::isfinite(nudge.share)) least = std::min(least, nudge.share);
-  }
-  std::string text = fmt::format("With a clamp or the length off by {:.3g} mm", 1000 * off);
-  if (std::isfinite(least)) text += fmt::format(" it lives at least {:.2g} times as long", least);
-  const char* joint = std::isfinite(least) ? ", and" : "";
-  if (broken == 0) return text + joint + " all limits are kept\n";
-  return text + fmt::format("{} {} of {} such jobs pass a limit\n", joint, broken, nudges.size());
+/// That another trial lives longer, but not as people mount it; empty: none does.
+std::string other_words(const Finals& finals) {
+  const Final &best = *finals.best(), &longest = *finals.longest();
+  if (best.trial == longest.trial || !longest.tolerance) return "";
+  return fmt::format("Trial {} lives longer as it is drawn ({}), but at most {} within that tolerance\n", longest.trial,
+                     hours_text(longest.hours), hours_text(longest.tolerance->least_hours));
 }
 
 std::string change_lines(const Trial& trial) {
@@ -83,8 +42,7 @@ std::string change_lines(const Trial& trial) {
 
 }  // namespace
 
-ImprovementStory story_of(const Improvement& found, const Finals& finals, const ImproveRequest& request,
-                          double off, const StudyPlaces& places, const MakeRows& make_rows) {
+ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second, const StudyPlaces& places) {
   ImprovementStory story;
   story.name = found.name;
   for (std::size_t k = 0; k < found.trials.size(); ++k) {
@@ -92,9 +50,9 @@ ImprovementStory story_of(const Improvement& found, const Finals& finals, const 
     story.looks.push_back(
         {static_cast<int>(k), worst.failure.empty(), worst.feasible(), worst.hours, worst.words()});
   }
-  const bool by_length = request.second == SecondAim::hose_length;
+  const bool by_length = second == SecondAim::hose_length;
   story.second_title = by_length ? "free length [m]" : "cycle time [s]";
-  for (std::size_t k = 0; request.second != SecondAim::none && k < found.front.size(); ++k) {
+  for (std::size_t k = 0; second != SecondAim::none && k < found.front.size(); ++k) {
     const Trial& trial = found.trials[found.front[k]];
     story.front.emplace_back(by_length ? trial.hose_length : trial.cycle_seconds, trial.worst.hours);
   }
@@ -108,7 +66,7 @@ ImprovementStory story_of(const Improvement& found, const Finals& finals, const 
   for (std::size_t k = 0; k < trial.sets.size(); ++k)
     story.changes.push_back(
         {found.freed[k], found.own[k], trial.sets[k].substr(trial.sets[k].find('=') + 1)});
-  story.nudges = nudged(found, best->trial, request, off, places, make_rows);
+  if (best->tolerance) story.nudges = best->tolerance->nudges;
   return story;
 }
 
@@ -146,7 +104,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   if (const RankingRow* const row = finals.worst_row(best))
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row), hose_words(*row)})
       text += words + (words.empty() ? "" : "\n");
-  text += change_lines(found.trials[best.trial]) + forgives_words(story.nudges, off);
+  text += change_lines(found.trials[best.trial]) + tolerance_words(story.nudges, off) + other_words(finals);
   if (best.hours <= finals.of.front().hours && was.feasible())
     text += "Nothing that was tried lives longer.\n";
   for (const std::string& job : best.jobs)

@@ -8,13 +8,12 @@
 
 namespace dresslife::pipeline {
 
-/// The best is run with each clamp and length off by `off` [m] (nudges.h); 0: it is not. Pages of jobs are
-/// linked to where they are already written.
-ImprovementStory story_of(const Improvement& found, const Finals& finals, const ImproveRequest& request,
-                          double off, const StudyPlaces& places, const MakeRows& make_rows);
+/// Pages of jobs are linked to where they are already written.
+ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second,
+                          const StudyPlaces& places);
 
-/// Lines: how it was, the best and what was changed for it, or what stands against it. off: as of the story
-/// [m].
+/// Lines: how it was, the best and what was changed for it, or what stands against it. off: the
+/// tolerance by which finals were judged [m].
 std::string improvement_words(const Improvement& found, const Finals& finals, const ImprovementStory& story,
                               SecondAim second, double off, const StudyPlaces& places);
 

@@ -42,7 +42,7 @@ using Rehearse = std::function<std::vector<Look>(const std::vector<Eigen::Vector
 class Search {
  public:
   virtual ~Search() = default;
-  /// So many places to look at next, none of them asked for before.
+  /// So many places to look at next, none of them asked for before. None at all: the search gives up.
   virtual std::vector<Eigen::VectorXd> ask(int count) = 0;
   virtual void tell(const std::vector<Look>& looks) = 0;
 };

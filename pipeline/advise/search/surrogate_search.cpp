@@ -27,6 +27,7 @@ constexpr int spread_share =
     4;                          // of the first looks: places that keep their limits are spread by chance, too
 constexpr double cautious = 1;  // deviations of limits, while none is known to be kept
 constexpr double least_ahead = 0.02;  // width, then the search ahead begins anew elsewhere
+constexpr double hopeless = 0.7;      // beyond the limits, all together: a bend of half the least radius
 constexpr double least_gain = 1e-3;   // of a limit, by which a place is nearer
 constexpr double much_more = 1.3;     // rehearsals than shapes were found from
 
@@ -257,6 +258,15 @@ std::vector<VectorXd> SurrogateSearch::next_rehearsals(LookModels& models, const
   return batch;
 }
 
+/// After a third of the rehearsals before the first look: none is even near keeping its limits, nor is a look.
+bool SurrogateSearch::is_hopeless() const {
+  const auto misses = [](const Look& look) { return !look.ran || look.violation() > hopeless; };
+  return asked_ == 0 &&
+         static_cast<int>(rehearsals_.size()) >= std::max(settings_.rehearsals / 3, settings_.first_looks) &&
+         std::all_of(rehearsals_.begin(), rehearsals_.end(), misses) &&
+         std::all_of(looks_.begin(), looks_.end(), misses);
+}
+
 /// (Q6)
 void SurrogateSearch::rehearse_ahead(int wanted) {
   int left = asked_ == 0 ? settings_.rehearsals : rehearsed_again * wanted;
@@ -266,9 +276,10 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
     left -= count;
   };
   if (asked_ == 0) spread();
+  while (asked_ == 0 && left > 0 && !any_ran(rehearsals_) && !is_hopeless()) spread();
   Merit nearest;
   bool has_nearest = false;
-  while (left > 0 && any_ran(rehearsals_)) {
+  while (left > 0 && any_ran(rehearsals_) && !is_hopeless()) {
     if (ahead_width_ < least_ahead || !any_ran(rehearsals_from(ahead_from_))) {
       spread();
       has_nearest = false;
@@ -349,6 +360,7 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
   };
   const auto wanted = static_cast<std::size_t>(count);
   if (rehearse_) rehearse_ahead(count);
+  if (rehearse_ && is_hopeless()) return {};
   const bool can_model = any_ran(looks_) || any_ran(rehearsals_);
   while (places.size() < wanted && (!can_model || (!rehearse_ && asked_ < settings_.first_looks)))
     take(first_look());

@@ -59,6 +59,7 @@ class SurrogateSearch : public Search {
   std::vector<Eigen::VectorXd> next_rehearsals(LookModels& models, const Eigen::VectorXd& centre,
                                                std::size_t count);
   void rehearse_ahead(int wanted);
+  bool is_hopeless() const;
   void rehearse_looks(const std::vector<Look>& looks);
   void rehearse(const std::vector<Eigen::VectorXd>& places);
   std::vector<Eigen::VectorXd> candidates(const SearchBox& box, const Eigen::VectorXd& centre, double share);

@@ -91,6 +91,61 @@ TEST_CASE("a shipped routing passes the screening, and what cannot work does not
   CHECK(screener.screen(shipped_job({"routing.tool_clamp.direction=[-1, 0, 0.35]"})).rejected());
 }
 
+TEST_CASE("a clamp in the air or in a neighbour has no bracket (V7)") {
+  pipeline::Job job = simple_job();
+  const auto g = [&](std::optional<double> longest) {
+    return Screener(job, longest).screen(job).beyond[static_cast<std::size_t>(ScreenedLimit::bracket)];
+  };
+  CHECK(std::isinf(g({})));  // not asked
+  const double diameter = job.dresspacks.front().dresspack.diameter;
+  // A post whose surface is 0.3 m from the base clamp.
+  const Vector3 clamp = routing(job).base_clamp->position;
+  const auto base = static_cast<std::size_t>(find_link(job.robot, routing(job).base_clamp->link, {}));
+  const auto tool = static_cast<std::size_t>(find_link(job.robot, routing(job).tool_clamp->link, {}));
+  REQUIRE(base != tool);
+  for (pipeline::Link& link : job.robot.links) link.capsules.clear(), link.boxes.clear();
+  job.robot.links[tool].capsules = {
+      {routing(job).tool_clamp->position, routing(job).tool_clamp->position, 0.01}};
+  job.robot.links[base].capsules = {{clamp + Vector3{0, 0, 0.4}, clamp + Vector3{0, 0, 1}, 0.1}};
+  CHECK(g(0.15) == Approx((0.3 - diameter / 2 - 0.15) / diameter));
+  CHECK(Screener(job, 0.15).screen(job).rejected());
+  CHECK(g(0.3) < 0);
+}
+
+TEST_CASE(
+    "proposed clamps have a bracket within the limit, and a link without such a place is refused at once") {
+  pipeline::Job job = shipped_job();
+  ProposalSettings settings;
+  settings.tried = 60;
+  constexpr auto bracket = static_cast<std::size_t>(ScreenedLimit::bracket);
+  for (const double longest : {0.15, 0.06}) {
+    settings.longest_bracket = longest;
+    job.dresspacks.front().routing = propose(job, settings).front().routing;
+    CHECK(Screener(job, longest).screen(job).beyond[bracket] <= 0);
+  }
+  job.cell.boxes = {{{0, 0, 0}, {0, 0, 0}, {20, 20, 20}}};  // everything lies in a block
+  try {
+    propose(job, settings);
+    FAIL("is not refused");
+  } catch (const pipeline::InputError& refusal) {
+    const std::string words = refusal.what();
+    INFO(words);
+    CHECK(words.find("no place within 60 mm of the surface of link_3 stays clear") != std::string::npos);
+    CHECK(words.find("inside the cell at") != std::string::npos);
+  }
+}
+
+TEST_CASE("proposals that geometry surely excludes are not rehearsed") {
+  pipeline::Job job = shipped_job();
+  job.dresspacks.front().dresspack.least_bend_radius = 20;  // [m]
+  ProposalSettings settings;
+  settings.tried = 120;
+  settings.rehearsals = 1000;
+  const Proposal nearest = propose(job, settings).front();
+  CHECK(nearest.rehearsal.refusal.find("geometry excludes all 120 routings") == 0);
+  CHECK(nearest.rehearsal.refusal.find("bent too tightly by ") != std::string::npos);
+}
+
 TEST_CASE("proposals keep what the screening asks and are the same for the same seed") {
   const pipeline::Job job = shipped_job();
   ProposalSettings settings;

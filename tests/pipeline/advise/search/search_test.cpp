@@ -350,19 +350,30 @@ TEST_CASE("rehearsals that do not run, or tell nothing, do not lead astray") {
   const Look best = best_of(all);
   CHECK(best.feasible());
   CHECK(best.aims.front() - problem.least < 0.05);  // its best place, x0 = 2.33, runs
-  // Nothing runs at all: it still looks, and says so.
-  const Rehearse never = [](const std::vector<VectorXd>& places) {
-    std::vector<Look> told;
-    for (const VectorXd& place : places) told.push_back({place, false, {}, {1}});
-    return told;
+}
+
+TEST_CASE("a search gives up after a third of its rehearsals where none runs or is near its limits") {
+  const auto rehearsed_until_it_asks = [](const Rehearse& rehearse, bool gives_up) {
+    SurrogateSettings settings;
+    settings.rehearsals = 90;
+    SurrogateSearch search(2, settings, nothing_rejected, rehearse);
+    CHECK(search.ask(4).empty() == gives_up);
+    return search.rehearsals().size();
   };
-  SurrogateSearch lost(2, {}, nothing_rejected, never);
-  for (int k = 0; k < 3; ++k) {
-    std::vector<Look> told;
-    for (const VectorXd& place : lost.ask(4)) told.push_back({place, false, {}, {1}});
-    CHECK(told.size() == 4);
-    lost.tell(told);
+  const auto all = [](bool run, double least) {
+    return [run, least](const std::vector<VectorXd>& places) {
+      std::vector<Look> told;
+      for (const VectorXd& place : places) told.push_back({place, run, {}, {least + place[0]}});
+      return told;
+    };
+  };
+  constexpr std::size_t third = 30, together = 8;
+  for (const bool run : {false, true}) {
+    const std::size_t count = rehearsed_until_it_asks(all(run, 1), true);
+    CHECK(count >= third);
+    CHECK(count < third + together);
   }
+  CHECK(rehearsed_until_it_asks(all(true, 0.5), false) > third + together);  // missed by less: it goes on
 }
 
 TEST_CASE("places that are rejected beforehand are not asked for") {

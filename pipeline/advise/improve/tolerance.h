@@ -1,0 +1,42 @@
+// The best routings judged by how long they live as people mount them.
+//
+// (T1) h_w = min(h, h_1, ..., h_n)   h: p10 life as drawn; h_i: with one clamp, ring or the length off by the
+//                                    tolerance (nudges.h); 0 where that does not run
+//
+// h_w is at most h. So finalists are judged by falling h, until no other can have the largest h_w, and one is given up
+// where its h_w falls below that of another.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/advise/improve/nudges.h"
+#include "pipeline/advise/improve/outcome.h"
+#include "pipeline/report/improvement_page.h"
+
+namespace dresslife::pipeline {
+
+struct Finalist {
+  double hours = 0;  ///< h
+  std::vector<Nudge> nudges;
+  /// Runs `count` of its nudges from `first` on; outcomes in their order.
+  std::function<std::vector<Outcome>(std::size_t first, std::size_t count)> run;
+};
+
+struct WithinTolerance {
+  std::vector<ImprovementStory::Nudge> nudges;  ///< that were run
+  double least_hours = 0;                       ///< h_w, at least; h_w itself where it is whole
+  bool whole = false;                           ///< all were run
+};
+
+/// Of the first finalists, as many as had to be judged. by_life: longest first.
+std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& by_life);
+
+/// Index of the largest h_w. Precondition: at least one, of which the first is whole.
+std::size_t best_within(const std::vector<WithinTolerance>& judged);
+
+/// "With a clamp or the length off by 10 mm it lives at least 0.7 times as long, ..."; a line, empty without nudges.
+std::string tolerance_words(const std::vector<ImprovementStory::Nudge>& nudges, double off);
+
+}  // namespace dresslife::pipeline
