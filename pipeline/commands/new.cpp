@@ -222,7 +222,7 @@ std::string text_of(const Options& options, const Draft& draft, const Choice& ch
     text += fmt::format(
         "# FILL IN other clamps or another dresspack, or let dresslife route {} search. Now:\n# {}\n", job,
         shown(choice.faults.front()));
-  return text + commented("simulation", "{segments: 128}", "everything else has a default: config/README.md");
+  return text + commented("simulation", "{segments: 64}", "everything else has a default: config/README.md");
 }
 
 int make(Options options) {
