@@ -12,7 +12,6 @@ constexpr GlossaryEntry entries[] = {
     {"bore", "inside of a hose, where its cables and hoses lie (inner_diameter_mm)"},
     {"cable", "part of a dresspack with conductors in it, in a jacket of its own"},
     {"calendar", "a life in months, at the job's operating hours per week (fatigue.operating_hours_per_week)"},
-    {"over 40,000", "longer than the robot's own life (fatigue.robot_life_hours); tables show no longer life"},
     {"calibration", "what observed lives have taught of the uncertain parameters; a file that dresslife calibrate writes"},
     {"candidate", "a job that a search tries: one set of values of the keys that are free"},
     {"clamp", "holds the dresspack in place, direction and twist; the base clamp is nearer to the robot's base"},
@@ -43,7 +42,7 @@ constexpr GlossaryEntry entries[] = {
     {"prior, posterior", "what is known of a parameter before and after observations"},
     {"rating", "cycles that a maker promises of a cable in a standard test rig"},
     {"repeat", "one run of the robot's program"},
-    {"replace after", "the p10: by then 1 of 10 such dresspacks has failed; the number to plan with"},
+    {"replace after", "the p10: by then 1 of 10 such dresspacks has failed; \"over 40,000\" is beyond fatigue.robot_life_hours"},
     {"replace if glued .. free", "the same number if nothing inside the cables could slip, and if everything slipped "
                                  "without friction"},
     {"rig", "a standard test for cables: energy chain, rolling flex, torsion and others"},

@@ -127,7 +127,9 @@ TEST_CASE("bending test with the thesis' model") {
 
 TEST_CASE("bending test with our model") {
   const Bending stick = bend("--set strain.slip=stick");
-  CHECK(stick.worst_from_tool == middle_from_tool);
+  // A column between clamps bends by cos(2 pi s/L): at its clamps as much as in its middle.
+  CHECK((stick.worst_from_tool == middle_from_tool || stick.worst_from_tool == 1 ||
+         stick.worst_from_tool == 2 * middle_from_tool - 1));
   const Line glued = fit(stick.curvature, stick.strain);
   CHECK(glued.share_explained > 0.999);
 

@@ -155,11 +155,18 @@ TEST_CASE("improve refuses what it cannot search") {
   scratch.write("bad.yaml", "base: job.yaml\nfree: {routing.free_length_m: 1 .. 2}\nlimits: {force_N: 4}\n");
   CHECK(run(scratch, "dresslife", "improve bad.yaml")
             .err.find("bad.yaml:3:10: error: unknown key 'limits.force_N'") == 0);
-  // Nothing keeps a limit: the exit status says so.
-  const Outcome none =
-      run(scratch, "dresslife",
-          "improve better.yaml --trials 3 --rehearsals 20 --quiet --set dresspack.least_bend_radius_mm=5000");
+  // Nothing keeps a limit: the exit status says so. By far: no trial is worth its time.
+  const auto improved = [&](const std::string& radius) {
+    return run(scratch, "dresslife",
+               "improve better.yaml --trials 3 --rehearsals 20 --quiet --set dresspack.least_bend_radius_mm=" + radius);
+  };
+  const Outcome hopeless = improved("5000");
+  CHECK(hopeless.status == 1);
+  CHECK(hopeless.out.find("No feasible job was found in 1 trial and ") != std::string::npos);
+  CHECK(hopeless.out.find("\nThe search stopped early: of ") != std::string::npos);
+  const Outcome none = improved("250");
   CHECK(none.status == 1);
+  INFO(none.out);
   CHECK(none.out.find("No feasible job was found in 3 trials and ") != std::string::npos);
   CHECK(none.out.find("\nNo trial keeps bend radius: the best passes it by ") != std::string::npos);
   CHECK(

@@ -44,6 +44,8 @@ const std::map<std::string, std::string> instead{
     {"dresslife import BACKUP -o motion.yaml", "dresslife import CONFIG/programs/side_panel.mod -o motion.yaml"},
     {"dresslife new --robot NAME --program FILE JOB.yaml", "dresslife new --robot abb_irb6640_185_280 --program easy made.yaml"},
     {"dresslife new", "dresslife new"},
+    {"dresslife run STUDY", "not run"},
+    {"dresslife report STUDY", "not run"},
     {"dresslife check JOB.yaml", "dresslife check irb6640_spot_welding"},
     {"dresslife preview JOB.yaml", "dresslife preview irb6640_spot_welding"},
     {"dresslife route ROBOT_OR_JOB",

@@ -79,7 +79,8 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
       : was.failure.empty() ? ", " + was.words()
                             : ": " + was.failure);
   if (finals.of.size() == 1) {
-    text += fmt::format("No feasible job was found in {} trials and {} short runs.\n", found.trials.size(),
+    text += fmt::format("No feasible job was found in {} trial{} and {} short runs.\n", found.trials.size(),
+                        found.trials.size() == 1 ? "" : "s",
                         found.rehearsals);
     for (const std::string& line : found.obstacle) text += line + "\n";
     return text;

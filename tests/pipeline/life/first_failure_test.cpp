@@ -9,6 +9,7 @@ using namespace dresslife::pipeline;
 
 namespace {
 
+constexpr std::size_t motion = index_of(Uncertain::motion);
 constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = index_of(Uncertain::slack),
                       strength = index_of(Uncertain::strength), scatter = index_of(Uncertain::scatter),
                       model = index_of(Uncertain::model);
@@ -25,6 +26,7 @@ LifeResponse straight(double a, double b, double c, double median = 5) {
   LifeResponse response;
   response.construction = "hose", response.material = "copper";
   response.knowledge = prior_of({});
+  response.knowledge.covariance(motion, motion) = 0;  // as where no robot moves; tested by itself
   response.planned = {{median - 0.1, median, median + 0.1}};
   response.points.clear(), response.inside.clear(), response.worst_life.clear();
   response.strength = {-2, 0, 2};
@@ -62,6 +64,22 @@ TEST_CASE("samples of a straight response are normal, with the sum of the varian
   CHECK(sum(lives.share) == Approx(1).margin(1e-12));
   CHECK(largest_share(lives.share) == friction);
   CHECK(lives.first == std::vector<double>{1});
+}
+
+TEST_CASE("the swing of a mounted hose widens lives, each job's by its own") {
+  LifeResponse swings = straight(0, 0, 0);
+  swings.knowledge.covariance.setZero();
+  swings.knowledge.covariance(motion, motion) = 1;
+  swings.planned = {{5, 5, 5}};
+  const double decades = std::log10(uncertain_parameters()[motion].value(1));
+  const FirstFailures lives = summary_of({swings}, "job");
+  CHECK(std::log10(lives.percentiles[0]) == Approx(5 - decile * decades).margin(sampling_error * decades));
+  CHECK(lives.share[motion] == Approx(1));
+  // Two jobs that differ by one deviation of their difference: Phi(1) of the samples.
+  LifeResponse longer = straight(0, 0, 0, 5 + decades * std::sqrt(2.0));
+  longer.knowledge = swings.knowledge;
+  CHECK(share_outliving(first_failures({longer}, "one"), first_failures({swings}, "other")) ==
+        Approx(normal(1)).margin(sampling_error));
 }
 
 TEST_CASE("shares of causes that act together are divided between them and add up to 1") {

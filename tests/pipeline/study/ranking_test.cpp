@@ -364,9 +364,12 @@ TEST_CASE(
 }
 
 /// Of a job whose lives all are one power of ten [repeats], known as badly as any.
+constexpr std::size_t motion = index_of(Uncertain::motion);
+
 std::string response_of(double log10_life) {
   LifeResponse response;
   response.knowledge = prior_of({});
+  response.knowledge.covariance(motion, motion) = 0;  // what every job has for itself makes no order certain
   response.worst_life = {log10_life};
   response.planned = {{log10_life, log10_life, log10_life}};
   return response.text();
@@ -411,6 +414,7 @@ TEST_CASE("ranking: jobs that cannot be separated share a rank, those that can d
     LifeResponse response;
     response.construction = construction;
     response.knowledge = prior_of({});
+    response.knowledge.covariance(motion, motion) = 0;
     response.points = {{0}, {-1.5}, {1.5}};
     response.inside.assign(3, Inside::as_is);
     response.worst_life = {log10_life, log10_life + 0.6, log10_life - 0.6};
