@@ -89,6 +89,7 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
       lies.slack = cable.slack;
       lies.grip = std::min(cable.base_grip, cable.tool_grip);
       lies.play = layer.laying.play.value_or(without_limit);
+      if (job.rub) lies.friction = layer.friction;
       loosened_.push_back(cables_.size());
     } else {
       held.push_back({in.layer, in.number});

@@ -30,6 +30,7 @@ struct LooseCable {
   /// Force per length and sideways speed that holds it [N s/m2] (README W36): at 50 mm/s friction of 0.3
   /// under 0.2 kg/m. It only decides which way the cable goes where several are open.
   double drag = 12;
+  double friction = 0;  ///< Coulomb's coefficient sideways, on wall, core and neighbours (W36)
 
   // How far it can go; fit_in_hose() finds all but the first.
   double play = without_limit;      ///< c: from its place, whatever else stops it [m]

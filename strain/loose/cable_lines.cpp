@@ -1,5 +1,6 @@
 #include "strain/loose/cable_lines.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -24,6 +25,7 @@ CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& ho
   batch_.spacing = hose.spacing;
   lane_rows_.assign(OfLane::lane_rows, batch_.lanes);
   for (LaneRows& rows : node_rows_) rows.assign(2 * batch_.nodes, batch_.lanes);
+  blocks_.assign(3 * batch_.nodes, batch_.lanes);
   if (presses) press_.assign(batch_.nodes, batch_.lanes);
   iterations_.assign(count(), 0);
   for (std::size_t k = 0; k < batch_.lanes; ++k) lay(k);
@@ -41,7 +43,8 @@ CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& ho
     of_lane(gap, k) = cable.gap;
     of_lane(per_radius, k) = a0.norm() > 0 ? 1 / a0.norm() : 0;
     of_lane(counts, k) = k < count() ? 1 : 0;
-    for (std::size_t i = 0; i < batch_.nodes; ++i) put(path, i, k, vector(laid, i, k));
+    for (std::size_t i = 0; i < batch_.nodes; ++i)
+      for (const OfNode row : {path, start, held}) put(row, i, k, vector(laid, i, k));
   }
   point_at_rows();
 }
@@ -59,6 +62,8 @@ void CableLines::point_at_rows() {
   batch_.strain = lanes(strain), batch_.tension = lanes(tension), batch_.stiffness = lanes(stiffness);
   batch_.rest = nodes(rest), batch_.place = nodes(place_at), batch_.before = nodes(before),
   batch_.path = nodes(path);
+  batch_.held = nodes(held), batch_.limits = nodes(limits);
+  batch_.yields = lanes(yields), batch_.blocks = blocks_.data();
   batch_.slope = nodes(slope), batch_.gained = nodes(gained), batch_.press = press_.data();
 }
 
@@ -130,12 +135,77 @@ void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frame
       put(place_at, i, k, place);
       put(before, i, k, turned(at, frame));
       const bool clamped = i == 0 || i == last;
-      put(path, i, k, clamped ? place : turned(Vector2d(at + ahead * vector(velocity, i, k)), frame));
+      put(path, i, k, clamped ? place : turned(Vector2d(at + (cables_[k].friction > 0 ? 0 : ahead) * vector(velocity, i, k)), frame));
+      put(held, i, k, turned(vector(held, i, k), hose.turn[i]));
+      if (!goes_on) put(limits, i, k, Vector2d::Zero());
     }
 }
 
+void CableLines::lie_as(const CableLines& all, std::span<const std::size_t> members, const HoseLine& hose,
+                        const Frame& frame) {
+  for (std::size_t k = 0; k < count(); ++k) {
+    const std::size_t of = members[k];
+    for (std::size_t i = 0; i < batch_.nodes; ++i) {
+      const Vector2d lay = all.vector(path, i, of), at = turned(lay, frame[i]);
+      put(start, i, k, lay);
+      put(path, i, k, at);
+      put(before, i, k, at);
+      put(held, i, k, turned(all.vector(held, i, of), hose.turn[i]));
+      put(limits, i, k, all.vector(limits, i, of));
+    }
+    // T = T before + E A / yields (strain - strain at the start)
+    const double EA = cables_[k].axial_stiffness, soft = EA / std::max(1.0, std::abs(all.batch_.yields[of]));
+    const double strain_there = (1 + follow(hose, k)) / all.tensions_[of].free_length_rate() - 1;
+    const double pulled = EA * all.tensions_[of].strain();
+    of_lane(axial_stiffness, k) = soft;
+    of_lane(free_length_rate, k) = all.tensions_[of].free_length_rate();
+    of_lane(slipped, k) = strain_there - pulled / soft;
+    of_lane(most_strain, k) = without_limit;
+    of_lane(least_strain, k) = -without_limit;
+  }
+}
+
 void CableLines::place(const Frame& frame) {
-  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data());
+  loose_kernels().place(batch_, node_rows_[start].data(), frame.front().data());
+}
+
+/// Friction of cable k at the end of the sample, and its limits at the next one: from how it presses now.
+void CableLines::rub(const HoseLine& hose, std::size_t k) {
+  const LooseCable& cable = cables_[k];
+  if (cable.friction == 0) return;
+  const bool own = cable.play < without_limit;
+  const double per_radius = of_lane(OfLane::per_radius, k);
+  const auto kept = [](double share) { return std::clamp(share, -1.0, 1.0); };
+  const auto over = [](double force, double limit) { return limit > 0 ? force / limit : 0; };
+  for (std::size_t i = 1; i + 1 < batch_.nodes; ++i) {
+    const Vector2d place = vector(place_at, i, k), centre = own ? place : Vector2d(Vector2d::Zero());
+    const Vector2d arm = at_[i] - centre, from = vector(held, i, k) - centre;
+    const double reach = arm.norm(), from_reach = from.norm();
+    if (reach == 0 || from_reach == 0) {
+      put(held, i, k, turned_back(at_[i], hose.turn[i]));
+      put(limits, i, k, Vector2d::Zero());
+      continue;
+    }
+    const Vector2d limit = vector(limits, i, k);
+    const double around = (from.x() * arm.y() - from.y() * arm.x()) / from_reach;
+    const double away = from.dot(arm) / from_reach - from_reach;
+    const double drawn = limit.x() * kept(around / friction_way), pushed = limit.y() * kept(away / friction_way);
+    double round = 0, beside = 0;  // press on wall, core or the bound of its play; on a neighbour
+    if (own) {
+      round = cable.play > 0 ? cable.wall_stiffness * std::max(0.0, reach - cable.play) : 0;
+    } else {
+      round = cable.wall_stiffness * std::max({0.0, reach - cable.farthest, cable.nearest - reach});
+      const double along = per_radius * (place.x() * at_[i].y() - place.y() * at_[i].x());
+      beside = cable.wall_stiffness * std::max(0.0, std::abs(along) - cable.gap);
+    }
+    const double most_around = cable.friction * (round + beside * cable.radius * per_radius);
+    const double most_away = cable.friction * beside;
+    const Vector2d out = arm / reach, across(-out.y(), out.x());
+    const double back = friction_way * kept(over(drawn, most_around)) / reach;
+    const double still = reach - friction_way * kept(over(pushed, most_away));
+    put(held, i, k, turned_back(Vector2d(centre + still * (out - back * across)), hose.turn[i]));
+    put(limits, i, k, {most_around, most_away});
+  }
 }
 
 /// at_, bent_ and gain_ of cable k. Returns the mean gain.
@@ -195,6 +265,7 @@ void CableLines::end(const HoseLine& hose, std::span<const Frame* const> frames,
       states[k].strain = settled;
       tell(hose, k, states[k]);
     }
+    if (!states.empty()) rub(hose, k);
     const Frame& frame = *frames[k];
     for (std::size_t i = 0; i < batch_.nodes; ++i) {
       if (time > 0)

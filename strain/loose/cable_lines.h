@@ -42,7 +42,10 @@ class CableLines {
   void begin(const HoseLine& hose, std::span<const Frame* const> frames, double step, bool goes_on);
   /// (cable) that they took to rest, of LineBench.
   std::span<std::int32_t> iterations() { return iterations_; }
-  /// Cables of a ring (strain/loose/ring.h) to their places in a frame.
+  /// As cables `members` of `all` lie and rub at the end of the sample before, in place of as they were laid. begin() comes
+  /// first. frame: in which they lay. Their tension goes on from what it was, and grows as fast as it did there.
+  void lie_as(const CableLines& all, std::span<const std::size_t> members, const HoseLine& hose, const Frame& frame);
+  /// Cables of a ring (strain/loose/ring.h) to where they lie in a frame.
   void place(const Frame& frame);
   /// The sample is over. frames, step: as in begin(); step 0: there was none before. states: (cable), or empty: nobody
   /// asks.
@@ -66,14 +69,18 @@ class CableLines {
   /// Of what is kept by lane.
   enum OfLane {
     bending_stiffness, axial_stiffness, mass_per_length, wall_stiffness, play, farthest, nearest, gap, per_radius, drag,
-    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, lane_rows
+    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, yields, lane_rows
   };
   /// Of what is kept by node, each (node, 2, lane). laid: the place, and laid_bent: its second derivative, in the frame
   /// in which it stays.
-  enum OfNode { laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, node_rows };
+  /// start: where the cable is as its ring's turn begins, in the ring's frame. held: between samples in the hose's frame.
+  enum OfNode {
+    laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, start, held, limits, node_rows
+  };
 
   void lay(std::size_t k);
   double laid_gain(std::size_t k) const;
+  void rub(const HoseLine& hose, std::size_t k);
   void judge_mesh(const HoseLine& hose, std::size_t k);
   void tell(const HoseLine& hose, std::size_t k, CableState& state) const;
   double& of_lane(OfLane row, std::size_t k) { return lane_rows_[static_cast<std::size_t>(row) * batch_.lanes + k]; }
@@ -86,7 +93,7 @@ class CableLines {
   std::vector<CableTension> tensions_;
   double rest_curvature_;
   LineBatch batch_;
-  LaneRows lane_rows_, node_rows_[OfNode::node_rows], press_;
+  LaneRows lane_rows_, node_rows_[OfNode::node_rows], blocks_, press_;
   // Of one cable where it rests: its path (node) [m], its curvature less that at rest (node) [1/m], gain (element).
   std::vector<Eigen::Vector2d> at_, bent_;
   std::vector<double> gain_;

@@ -46,6 +46,7 @@ LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSetti
     std::vector<LooseCable> lying;
     for (const std::size_t k : of_ring) lying.push_back(cables[k]);
     Ring& ring = rings_.emplace_back(lying, hose_, settings.rest_curvature);
+    members_.push_back(of_ring);
     for (std::size_t place = 0; place < of_ring.size(); ++place) {
       frames_[of_ring[place]] = &ring.frame();
       in_ring_[of_ring[place]] = {&ring, place};
@@ -107,7 +108,11 @@ void LooseCables::relax(std::span<LooseCables* const> all, double step) {
 
 void LooseCables::begin(double step) {
   rests_ = true;
-  for (Ring& ring : rings_) rests_ &= ring.advance(hose_, step, started_);
+  for (std::size_t r = 0; r < rings_.size(); ++r) {
+    const bool rubs = std::ranges::any_of(members_[r], [&](std::size_t k) { return cable(k).friction > 0; });
+    const Ring::Lying lying{lines_, members_[r]};
+    rests_ &= rings_[r].advance(hose_, step, started_, started_ && rubs ? &lying : nullptr);
+  }
   lines_.begin(hose_, frames_, step, started_);
 }
 

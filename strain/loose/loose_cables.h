@@ -74,6 +74,7 @@ class LooseCables {
   CableLines lines_;
   LineBench bench_;
   std::vector<Ring> rings_;
+  std::vector<std::vector<std::size_t>> members_;       ///< (ring) its cables
   std::vector<const CableLines::Frame*> frames_;        ///< (cable)
   std::vector<std::pair<Ring*, std::size_t>> in_ring_;  ///< (cable) its ring and number there; null: in none
   std::vector<CableState> states_;

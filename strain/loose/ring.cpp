@@ -57,10 +57,14 @@ Ring::Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double r
   products_.assign(lanes, lanes);
 }
 
-/// Every cable to where the turn has it.
-void Ring::place(const HoseLine& hose) {
+void Ring::turn_frame(const HoseLine& hose) {
   for (std::size_t i = 1; i + 1 < hose.nodes(); ++i)
     frame_[i] = turned(hose.turn[i], {std::cos(psi_[i]), std::sin(psi_[i])});
+}
+
+/// Every cable to where the turn has it.
+void Ring::place(const HoseLine& hose) {
+  turn_frame(hose);
   lines_.place(frame_);
 }
 
@@ -125,18 +129,23 @@ double Ring::step(const HoseLine& hose) {
   return most;
 }
 
-bool Ring::advance(const HoseLine& hose, double time, bool goes_on) {
+bool Ring::advance(const HoseLine& hose, double time, bool goes_on, const Lying* lying) {
   const std::vector<double> before = psi_;
   const std::vector<const CableLines::Frame*> frames(lines_.count(), &hose.turn);
   lines_.begin(hose, frames, time, false);
-  for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) psi_[i] += time * velocity_[i];
   frame_ = hose.turn;
+  if (lying) {
+    turn_frame(hose);
+    lines_.lie_as(lying->all, lying->members, hose, frame_);
+  } else if (goes_on) {
+    for (std::size_t i = 0; i < psi_.size(); ++i) psi_[i] += time * velocity_[i];
+  }
   place(hose);
   bool rests = false;
   const int most = goes_on ? most_iterations : 10 * most_iterations;
   for (int k = 0; k < most && !rests; ++k) rests = step(hose) < at_rest;
   for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - before[i]) / time;
-  lines_.end(hose, frames, 0, {});
+  if (!lying) lines_.end(hose, frames, 0, {});
   return rests;
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "strain/loose/cable_lines.h"
@@ -22,13 +23,20 @@ class Ring {
     lines_.shorten(cable, share);
   }  ///< of its own; see CableTension
 
+  /// Cables `members` of `all`, whose ring it is.
+  struct Lying {
+    const CableLines& all;
+    std::span<const std::size_t> members;
+  };
   /// Turns to the minimum at the next sample. time: since the sample before [s]. goes_on: as it turned then.
-  /// Returns whether it has come to rest.
-  bool advance(const HoseLine& hose, double time, bool goes_on);
+  /// lying: with friction, from where its cables lie; else as if each kept to its place. Returns whether it has come to
+  /// rest.
+  bool advance(const HoseLine& hose, double time, bool goes_on, const Lying* lying = nullptr);
   /// (node) cosine and sine of phi + psi: the frame in which its cables' places stay.
   const std::vector<Eigen::Vector2d>& frame() const { return frame_; }
 
  private:
+  void turn_frame(const HoseLine& hose);
   void place(const HoseLine& hose);
   Eigen::VectorXd newton_turn();
   double step(const HoseLine& hose);

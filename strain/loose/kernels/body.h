@@ -80,6 +80,7 @@ struct Lines {
   void slopes() const;
   struct Touch;
   void contacts(std::size_t node, int p, Touch& touch) const;
+  void rub(std::size_t node, int p, Touch& touch) const;
   void factor(const Progress* progress, Pack* negative) const;
   void substitute() const;
   void judge(int most, Progress* progress) const;
@@ -179,7 +180,32 @@ inline void Lines<packs>::contacts(std::size_t node, int p, Touch& touch) const 
   if (bits(beside)) touch.add(beside, wall, side * along, depth, zero);
 }
 
-/// Of the energy over each node inside; with_contact: with press and blocks.
+/// Friction (W36): a spring from where the contact is held, up to its limit; see CableLines.
+template <int packs>
+inline void Lines<packs>::rub(std::size_t node, int p, Touch& touch) const {
+  const std::size_t k = lane(p);
+  const Pack zero(0.0), one(1.0), per_way(1 / friction_way);
+  const Pair limit = pair(of.limits, node, p);
+  if (!bits(greater(limit.x + limit.y, zero))) return;
+  const DoubleMask own = greater(Pack(without_end), at(of.play, k));
+  const Pair place = pair(of.place, node, p), centre = select(own, place, {zero, zero});
+  const Pair arm = pair(of.held, node, p) - centre, here = pair(of.path, node, p) - centre;
+  const Pack reach = square_root(dot(arm, arm));
+  const Pack per_reach = simd::select(greater(reach, zero), one / reach, zero);
+  const Pair out = per_reach * arm, across{-out.y, out.x};
+  const auto spring = [&](const Pair& along, const Pack& moved, const Pack& most) {
+    const Pack share = moved * per_way, held = smaller(larger(share, -one), one);
+    touch.slope = touch.slope + (most * held) * along;
+    const Pack stiffness = simd::select(equal(share, held), most * per_way, zero);
+    touch.xx += stiffness * (along.x * along.x);
+    touch.xy += stiffness * (along.x * along.y);
+    touch.yy += stiffness * (along.y * along.y);
+  };
+  spring(across, dot(across, here), limit.x);
+  spring(out, dot(out, here) - reach, limit.y);
+}
+
+/// Of the energy over each node inside; with_contact: with press.
 template <int packs>
 template <bool with_contact>
 void Lines<packs>::slopes() const {
@@ -212,16 +238,17 @@ void Lines<packs>::slopes() const {
         Pair slope = bending[p] * ((bent_before[p] - bent_here[p]) + (bent_next - bent_here[p])) +
                      tension[p] * gained - mass[p] * pull + drag[p] * (A - pair(of.before, i, p));
         put(gained, of.gained, i, p);
+        Touch touch;
         if constexpr (with_contact) {
-          Touch touch;
           contacts(i, p, touch);
-          slope = slope + Pack(h) * touch.slope;
           if (of.press) store(touch.press, of.press + i * lanes + lane(p));
-          double* const block = of.blocks + 3 * i * lanes + lane(p);
-          store(touch.xx, block);
-          store(touch.xy, block + lanes);
-          store(touch.yy, block + 2 * lanes);
         }
+        rub(i, p, touch);
+        slope = slope + Pack(h) * touch.slope;
+        double* const block = of.blocks + 3 * i * lanes + lane(p);
+        store(touch.xx, block);
+        store(touch.xy, block + lanes);
+        store(touch.yy, block + 2 * lanes);
         put(slope, of.slope, i, p);
       }
       bent_before[p] = bent_here[p];
@@ -379,6 +406,8 @@ void Lines<packs>::newton_step(Progress* progress) const {
     store(simd::select(steps[p], zero, simd::select(wants, larger_shift, shift)), at_p.shift);
     store(simd::select(steps[p], zero, simd::select(wants, shifts + 1.0, shifts)), at_p.shifts);
     back[p] = spring * along[p] / whole;
+    double* const yields = of.yields + lane(p);
+    store(simd::select(steps[p], whole, load<Pack>(yields)), yields);
   }
   for (std::size_t i = 1; i < last; ++i)
     for (int p = 0; p < packs; ++p) {
@@ -481,6 +510,7 @@ void to_bench(const WaitingCable& cable, const LineBatch& bench, std::size_t lan
 void from_bench(const LineBatch& bench, std::size_t lane, const WaitingCable& cable) {
   const LineBatch& kept = *cable.kept;
   copy(bench.path + lane, bench.lanes, kept.path + cable.lane, kept.lanes, 2 * bench.nodes);
+  kept.yields[cable.lane] = bench.yields[lane];
   if (bench.press) copy(bench.press + lane, bench.lanes, kept.press + cable.lane, kept.lanes, bench.nodes);
 }
 
@@ -561,7 +591,11 @@ void assemble_turn(const LineBatch& batch, const RingSystem& system) {
       const Pack bending = at(batch.bending_stiffness, k) * Pack(1 / (h * h * h));
       const Pair A = lines.pair(batch.path, i, 0), slope = lines.pair(batch.slope, i, 0);
       const Pack diagonal = (at_clamp ? 7.0 : 6.0) * bending + 2.0 * pulled + Pack(h) * at(batch.drag, k);
-      own += counts * (diagonal * dot(A, A) - dot(slope, A));
+      const double* const block = batch.blocks + 3 * i * lanes + k;
+      const Pair way = across(A);
+      const Pack rubs = load<Pack>(block) * way.x * way.x + 2.0 * load<Pack>(block + lanes) * way.x * way.y +
+                        load<Pack>(block + 2 * lanes) * way.y * way.y;
+      own += counts * (diagonal * dot(A, A) + Pack(h) * rubs - dot(slope, A));
       if (i + 1 < last) next += counts * (4.0 * bending + pulled) * dot(A, lines.pair(batch.path, i + 1, 0));
       if (i + 2 < last) after += counts * bending * dot(A, lines.pair(batch.path, i + 2, 0));
       store(Pack(counts * dot(lines.pair(batch.gained, i, 0), across(A))),

@@ -8,6 +8,8 @@
 
 namespace dresslife::strain {
 
+constexpr double friction_way = 1e-5;  ///< by which a contact gives until friction has its limit [m]: (W36)
+constexpr double without_end = 1e300;  ///< any limit below is one
 constexpr std::size_t most_lanes = 8;  ///< of any register, in double precision: cables are padded to a multiple of it
 
 /// Cables of one hose. Number i of cable k at [i * lanes + k], component d of a node's vector at
@@ -31,14 +33,20 @@ struct LineBatch {
   double* rest = nullptr;                      ///< (node, 2, lane) K0 and how its place bends in it [1/m]
   double *place = nullptr, *before = nullptr;  ///< (node, 2, lane) A0, A_before [m]
   double* path = nullptr;                      ///< (node, 2, lane) A [m]
+  /// (node, 2, lane) where friction holds it [m]; its limits around the wall or core, and away from them [N/m].
+  double *held = nullptr, *limits = nullptr;
 
   double *strain = nullptr, *tension = nullptr, *stiffness = nullptr;  ///< (lane) [1], [N], [N]
+  /// (lane) E A over how much tension grows with the gain of the path that it comes from, where it rests.
+  double* yields = nullptr;
   double* press = nullptr;                                             ///< (node, lane) [N/m]; null: nobody asks
   double *slope = nullptr, *gained = nullptr;                          ///< (node, 2, lane)
 
+  double* blocks = nullptr;  ///< (node, 3, lane) what contact and friction add to the matrix [N/m2]
+
   // Scratch, of where they come to rest alone.
   double *solved = nullptr, *soft = nullptr, *step = nullptr, *from = nullptr, *going = nullptr;  ///< (node, 2, lane)
-  double *blocks = nullptr, *factors = nullptr;  ///< (node, 3, lane), (node, 7, lane)
+  double* factors = nullptr;                                                                      ///< (node, 7, lane)
 };
 
 // What a cable takes along to where it comes to rest: what it is (lane), and where (node, 2, lane).
@@ -47,7 +55,7 @@ constexpr double* LineBatch::*what_cables_are[] = {
     &LineBatch::play, &LineBatch::farthest, &LineBatch::nearest, &LineBatch::gap, &LineBatch::per_radius, &LineBatch::drag,
     &LineBatch::free_length_rate, &LineBatch::slipped, &LineBatch::least_strain, &LineBatch::most_strain};
 constexpr double* LineBatch::*where_cables_are[] = {&LineBatch::rest, &LineBatch::place, &LineBatch::before,
-                                                    &LineBatch::path};
+                                                    &LineBatch::path, &LineBatch::held, &LineBatch::limits};
 
 /// A cable that is to come to rest.
 struct WaitingCable {
