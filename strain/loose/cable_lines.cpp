@@ -63,7 +63,7 @@ void CableLines::point_at_rows() {
   batch_.rest = nodes(rest), batch_.place = nodes(place_at), batch_.before = nodes(before),
   batch_.path = nodes(path);
   batch_.held = nodes(held), batch_.limits = nodes(limits);
-  batch_.yields = lanes(yields), batch_.blocks = blocks_.data();
+  batch_.blocks = blocks_.data();
   batch_.slope = nodes(slope), batch_.gained = nodes(gained), batch_.press = press_.data();
 }
 
@@ -153,15 +153,7 @@ void CableLines::lie_as(const CableLines& all, std::span<const std::size_t> memb
       put(held, i, k, turned(all.vector(held, i, of), hose.turn[i]));
       put(limits, i, k, all.vector(limits, i, of));
     }
-    // T = T before + E A / yields (strain - strain at the start)
-    const double EA = cables_[k].axial_stiffness, soft = EA / std::max(1.0, std::abs(all.batch_.yields[of]));
-    const double strain_there = (1 + follow(hose, k)) / all.tensions_[of].free_length_rate() - 1;
-    const double pulled = EA * all.tensions_[of].strain();
-    of_lane(axial_stiffness, k) = soft;
-    of_lane(free_length_rate, k) = all.tensions_[of].free_length_rate();
-    of_lane(slipped, k) = strain_there - pulled / soft;
-    of_lane(most_strain, k) = without_limit;
-    of_lane(least_strain, k) = -without_limit;
+    of_lane(slipped, k) = all.tensions_[of].slipped();
   }
 }
 
@@ -174,7 +166,7 @@ void CableLines::rub(const HoseLine& hose, std::size_t k) {
   const LooseCable& cable = cables_[k];
   if (cable.friction == 0) return;
   const bool own = cable.play < without_limit;
-  const double per_radius = of_lane(OfLane::per_radius, k);
+  const double per_distance = of_lane(per_radius, k);
   const auto kept = [](double share) { return std::clamp(share, -1.0, 1.0); };
   const auto over = [](double force, double limit) { return limit > 0 ? force / limit : 0; };
   for (std::size_t i = 1; i + 1 < batch_.nodes; ++i) {
@@ -195,10 +187,10 @@ void CableLines::rub(const HoseLine& hose, std::size_t k) {
       round = cable.play > 0 ? cable.wall_stiffness * std::max(0.0, reach - cable.play) : 0;
     } else {
       round = cable.wall_stiffness * std::max({0.0, reach - cable.farthest, cable.nearest - reach});
-      const double along = per_radius * (place.x() * at_[i].y() - place.y() * at_[i].x());
+      const double along = per_distance * (place.x() * at_[i].y() - place.y() * at_[i].x());
       beside = cable.wall_stiffness * std::max(0.0, std::abs(along) - cable.gap);
     }
-    const double most_around = cable.friction * (round + beside * cable.radius * per_radius);
+    const double most_around = cable.friction * (round + beside * cable.radius * per_distance);
     const double most_away = cable.friction * beside;
     const Vector2d out = arm / reach, across(-out.y(), out.x());
     const double back = friction_way * kept(over(drawn, most_around)) / reach;

@@ -43,7 +43,7 @@ class CableLines {
   /// (cable) that they took to rest, of LineBench.
   std::span<std::int32_t> iterations() { return iterations_; }
   /// As cables `members` of `all` lie and rub at the end of the sample before, in place of as they were laid. begin() comes
-  /// first. frame: in which they lay. Their tension goes on from what it was, and grows as fast as it did there.
+  /// first. frame: that of their ring then.
   void lie_as(const CableLines& all, std::span<const std::size_t> members, const HoseLine& hose, const Frame& frame);
   /// Cables of a ring (strain/loose/ring.h) to where they lie in a frame.
   void place(const Frame& frame);
@@ -69,7 +69,7 @@ class CableLines {
   /// Of what is kept by lane.
   enum OfLane {
     bending_stiffness, axial_stiffness, mass_per_length, wall_stiffness, play, farthest, nearest, gap, per_radius, drag,
-    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, yields, lane_rows
+    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, lane_rows
   };
   /// Of what is kept by node, each (node, 2, lane). laid: the place, and laid_bent: its second derivative, in the frame
   /// in which it stays.

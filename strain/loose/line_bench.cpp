@@ -7,7 +7,7 @@ namespace dresslife::strain {
 namespace {
 
 /// Of cables on their way alone: (lane), and so many numbers of each node.
-constexpr double* LineBatch::*pulls[] = {&LineBatch::strain, &LineBatch::tension, &LineBatch::stiffness, &LineBatch::yields};
+constexpr double* LineBatch::*pulls[] = {&LineBatch::strain, &LineBatch::tension, &LineBatch::stiffness};
 struct OfNode {
   double* LineBatch::*row;
   std::size_t numbers;

@@ -80,6 +80,7 @@ class LooseCables {
   std::vector<CableState> states_;
   std::size_t restless_ = 0, iterations_ = 0;
   bool started_ = false, rests_ = true;
+  bool rubs_ = false;  ///< sideways
 };
 
 }  // namespace dresslife::strain

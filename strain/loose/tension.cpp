@@ -28,9 +28,9 @@ void CableTension::shorten(double share) {
 
 double CableTension::settle(double mean_gain) {
   const double stretch = (1 + mean_gain) / free_length_rate_ - 1, most = most_strain();
-  strain_ = std::clamp(stretch - slipped_, -most, most);
-  slipped_ = stretch - strain_;
-  return strain_;
+  const double strain = std::clamp(stretch - slipped_, -most, most);
+  slipped_ = stretch - strain;
+  return strain;
 }
 
 }  // namespace dresslife::strain

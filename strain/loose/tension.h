@@ -18,7 +18,6 @@ class CableTension {
 
   double laid_in() const { return laid_in_; }
   double free_length_rate() const { return free_length_rate_; }  ///< free length over that of the hose
-  double strain() const { return strain_; }  ///< when the last sample was over
   double slipped() const { return slipped_; }  ///< through the clamps, over the cable's length; > 0: let out
   double most_strain() const { return held_ ? without_limit : most_; }  ///< at the grip, pulled or pressed
 
@@ -35,7 +34,7 @@ class CableTension {
  private:
   double slack_, laid_in_, free_length_rate_, fed_in_ = 1, shortened_ = 0;
   double most_ = without_limit;
-  double slipped_ = 0, strain_ = 0;
+  double slipped_ = 0;
   bool held_ = false;  ///< while slack is fed in
 };
 

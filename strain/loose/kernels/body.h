@@ -406,8 +406,6 @@ void Lines<packs>::newton_step(Progress* progress) const {
     store(simd::select(steps[p], zero, simd::select(wants, larger_shift, shift)), at_p.shift);
     store(simd::select(steps[p], zero, simd::select(wants, shifts + 1.0, shifts)), at_p.shifts);
     back[p] = spring * along[p] / whole;
-    double* const yields = of.yields + lane(p);
-    store(simd::select(steps[p], whole, load<Pack>(yields)), yields);
   }
   for (std::size_t i = 1; i < last; ++i)
     for (int p = 0; p < packs; ++p) {
@@ -510,7 +508,6 @@ void to_bench(const WaitingCable& cable, const LineBatch& bench, std::size_t lan
 void from_bench(const LineBatch& bench, std::size_t lane, const WaitingCable& cable) {
   const LineBatch& kept = *cable.kept;
   copy(bench.path + lane, bench.lanes, kept.path + cable.lane, kept.lanes, 2 * bench.nodes);
-  kept.yields[cable.lane] = bench.yields[lane];
   if (bench.press) copy(bench.press + lane, bench.lanes, kept.press + cable.lane, kept.lanes, bench.nodes);
 }
 

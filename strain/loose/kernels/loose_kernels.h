@@ -37,8 +37,6 @@ struct LineBatch {
   double *held = nullptr, *limits = nullptr;
 
   double *strain = nullptr, *tension = nullptr, *stiffness = nullptr;  ///< (lane) [1], [N], [N]
-  /// (lane) E A over how much tension grows with the gain of the path that it comes from, where it rests.
-  double* yields = nullptr;
   double* press = nullptr;                                             ///< (node, lane) [N/m]; null: nobody asks
   double *slope = nullptr, *gained = nullptr;                          ///< (node, 2, lane)
 
