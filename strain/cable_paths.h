@@ -52,6 +52,10 @@ class CablePaths {
   /// Whether what clamps and friction did stays in memory: strains are known after finish() only.
   bool remembers() const;
 
+  /// Whether loose cables remember where they came from: they want the motion once before add().
+  bool wants_rehearsal() const { return loose_ && loose_->rubs(); }
+  /// The same blocks, in order of time, of those that want it: cables lie then as a repeat of the motion leaves them.
+  static void rehearse(std::span<CablePaths* const> all, const SpanBlock& block);
   void add(const SpanBlock& block);  ///< in order of time
   /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone.
   static void add(std::span<CablePaths* const> all, const SpanBlock& block);
@@ -148,6 +152,7 @@ class CablePaths {
   std::optional<LooseCables> loose_;
   std::optional<SegmentRows> curvature_;  ///< (segment, loose cable x 2, sample) of their own paths [1/m]
   std::vector<HoseNode> nodes_;
+  std::vector<HoseNode> rehearsed_;    ///< at the last sample that a rehearsal took
   std::vector<double> hose_twist_;     ///< (sample) mean along it [rad/m]
   std::vector<float> hose_curvature_;  ///< (clamp, 2, sample) at the base and the tool end [1/m]
   std::vector<double> hose_moment_, offsets_;

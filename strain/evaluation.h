@@ -100,6 +100,9 @@ class Evaluation {
   float worst_range() const { return worst_range_; }
 
   /// First pass, in order of time.
+  /// See CablePaths.
+  bool wants_rehearsal() const { return cables_.wants_rehearsal(); }
+  static void rehearse(std::span<Evaluation* const> all, const SpanBlock& block);
   void add(const SpanBlock& block);
   /// The same for several of one span, whose loose cables go side by side: each gets what it would get alone.
   static void add(std::span<Evaluation* const> all, const SpanBlock& block);

@@ -546,6 +546,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   };
   const auto any = [&](auto does) { return std::any_of(evaluations.begin(), evaluations.end(), does); };
   const bool loose = any([](const auto& evaluation) { return evaluation->any_loose(); });
+  if (any([](const auto& evaluation) { return evaluation->wants_rehearsal(); }))
+    reader.run(true, [&](const MotionBlock& block) { each_span(block, Evaluation::rehearse); });
   reader.run(loose, [&](const MotionBlock& block) {
     append_deformation(strain, block.deformation);
     each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {

@@ -106,6 +106,11 @@ double CableLines::laid_gain(std::size_t k) const {
   return sum / static_cast<double>(batch_.nodes - 1);
 }
 
+void CableLines::forget_sums() {
+  std::ranges::fill(bent_sum_, 0.0);
+  std::ranges::fill(missed_sum_, 0.0);
+}
+
 void CableLines::feed_in(double share) {
   for (CableTension& pulled : tensions_) pulled.feed_in(share);
 }
@@ -135,7 +140,7 @@ void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frame
       put(place_at, i, k, place);
       put(before, i, k, turned(at, frame));
       const bool clamped = i == 0 || i == last;
-      put(path, i, k, clamped ? place : turned(Vector2d(at + (cables_[k].friction > 0 ? 0 : ahead) * vector(velocity, i, k)), frame));
+      put(path, i, k, clamped ? place : turned(Vector2d(at + ahead * vector(velocity, i, k)), frame));
       put(held, i, k, turned(vector(held, i, k), hose.turn[i]));
       if (!goes_on) put(limits, i, k, Vector2d::Zero());
     }

@@ -61,6 +61,7 @@ class CableLines {
   /// h^2 a'' / 12 wrong. Both squared and summed over nodes and samples so far, of which a state was asked.
   double bent(std::size_t cable) const { return bent_sum_[cable]; }      ///< its curvature, the hose's with it [1/m2]
   double missed(std::size_t cable) const { return missed_sum_[cable]; }  ///< of h^2 a'' / 12 [1/m2]
+  void forget_sums();
 
   static constexpr int most_iterations = 60;             ///< enough from one sample to the next
   static constexpr int most_iterations_at_start = 2000;  ///< from its place to where it rests

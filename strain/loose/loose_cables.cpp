@@ -135,6 +135,11 @@ void LooseCables::end(double step, int most) {
   started_ = true;
 }
 
+void LooseCables::forget_sums() {
+  restless_ = iterations_ = 0;
+  lines_.forget_sums();
+}
+
 double LooseCables::mesh_error() const {
   double largest = 0;
   for (std::size_t k = 0; k < cables(); ++k)

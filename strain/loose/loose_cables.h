@@ -52,8 +52,9 @@ class LooseCables {
   /// and lie as they would alone.
   static void advance(std::span<LooseCables* const> all, std::span<const HoseNode> hose, double step);
 
-  /// The next sample follows on none: cables start from where they are, at rest.
-  void start_again() { started_ = false; }
+  bool rubs() const { return rubs_; }  ///< whether any cable rubs sideways: it remembers where it came from
+  /// Samples so far count in none of the sums below; where cables lie stays.
+  void forget_sums();
 
   const CableState& state(std::size_t cable) const { return states_[cable]; }
   /// Samples at which a ring or a cable was still moving when the work was cut short.

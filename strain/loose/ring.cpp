@@ -137,9 +137,8 @@ bool Ring::advance(const HoseLine& hose, double time, bool goes_on, const Lying*
   if (lying) {
     turn_frame(hose);
     lines_.lie_as(lying->all, lying->members, hose, frame_);
-  } else if (goes_on) {
-    for (std::size_t i = 0; i < psi_.size(); ++i) psi_[i] += time * velocity_[i];
   }
+  for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) psi_[i] += time * velocity_[i];
   place(hose);
   bool rests = false;
   const int most = goes_on ? most_iterations : 10 * most_iterations;
