@@ -52,9 +52,9 @@ class CablePaths {
   /// Whether what clamps and friction did stays in memory: strains are known after finish() only.
   bool remembers() const;
 
-  /// Whether loose cables remember where they came from: they want the motion once before add().
+  /// Whether loose cables remember where they came from: they want the end of the motion before add().
   bool wants_rehearsal() const { return loose_ && loose_->rubs(); }
-  /// The same blocks, in order of time, of those that want it: cables lie then as a repeat of the motion leaves them.
+  /// Its blocks, in order of time, of those that want it: cables lie then as a repeat of the motion leaves them.
   static void rehearse(std::span<CablePaths* const> all, const SpanBlock& block);
   void add(const SpanBlock& block);  ///< in order of time
   /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone.

@@ -29,6 +29,9 @@ using pipeline::Warning;
 using pipeline::WarningKind;
 
 constexpr std::size_t block_samples = 512;  // rows read at a time
+// The last quarter of the motion takes loose cables to where a repeat ends: lives as with all of it, within what resting
+// positions differ by (measurements.md).
+constexpr std::size_t rehearsed_part = 4;
 constexpr double first_pass_share = 0.05;   // of the work, for the progress display
 // 2 % of strain are a tenth of a life that goes with its fifth power: less than anything else here is known
 // to.
@@ -73,14 +76,14 @@ class MotionReader {
     return last && !is_clamped(job.dresspacks[dresspack].routing.tool_end);
   }
 
-  /// One block after the other. with_pull: gives that, too.
-  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put) {
+  /// One block after the other, from a sample on. with_pull: gives that, too.
+  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put, std::size_t from = 0) {
     const std::size_t segments = lengths_.size();
     const std::size_t clamps = file_.row_size("/clamp/position") / 3;
     std::vector<double> position, orientation, clamp_position, clamp_orientation;
     std::vector<Deformation> deformation;
     std::vector<double> pull;
-    for (std::size_t first = 0; first < samples_; first += block_samples) {
+    for (std::size_t first = from; first < samples_; first += block_samples) {
       const std::size_t count = std::min(block_samples, samples_ - first);
       file_.read_rows("/segment/position", first, count, position);
       file_.read_rows("/segment/orientation", first, count, orientation);
@@ -547,7 +550,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   const auto any = [&](auto does) { return std::any_of(evaluations.begin(), evaluations.end(), does); };
   const bool loose = any([](const auto& evaluation) { return evaluation->any_loose(); });
   if (any([](const auto& evaluation) { return evaluation->wants_rehearsal(); }))
-    reader.run(true, [&](const MotionBlock& block) { each_span(block, Evaluation::rehearse); });
+    reader.run(
+        true, [&](const MotionBlock& block) { each_span(block, Evaluation::rehearse); }, samples - samples / rehearsed_part);
   reader.run(loose, [&](const MotionBlock& block) {
     append_deformation(strain, block.deformation);
     each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {

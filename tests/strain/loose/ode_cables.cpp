@@ -166,17 +166,20 @@ void OdeCables::bend(const Chain& chain) {
   }
 }
 
-/// A soft, smooth contact at the middle of a segment; normal: out of what it touches.
+/// A soft contact with friction across the cable at the middle of a segment; normal: out of what it touches.
 void OdeCables::push(const Chain& chain, int segment, const Vector3d& normal, double depth) {
   const Vector3d at = position(chain.bodies[segment]);
   dContact contact{};
-  contact.surface.mode = dContactSoftCFM | dContactSoftERP;
-  contact.surface.mu = 0;
+  contact.surface.mode = dContactSoftCFM | dContactSoftERP | dContactMu2 | dContactFDir1 | dContactApprox1;
+  contact.surface.mu = chain.cable.friction;  // across the cable
+  contact.surface.mu2 = 0;                    // along it
+  const Vector3d across = normal.cross(orientation(chain.bodies[segment]) * Vector3d(0, 0, 1)).normalized();
   contact.surface.soft_erp = 1;
   contact.surface.soft_cfm = 1 / (h * chain.cable.wall_stiffness * l_);
   for (int k = 0; k < 3; ++k) {
     contact.geom.pos[k] = at[k];
     contact.geom.normal[k] = normal[k];
+    contact.fdir1[k] = across[k];
   }
   contact.geom.depth = depth;
   dJointAttach(dJointCreateContact(world_, contacts_, &contact), chain.bodies[segment], nullptr);
