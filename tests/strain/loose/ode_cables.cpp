@@ -171,7 +171,7 @@ void OdeCables::push(const Chain& chain, int segment, const Vector3d& normal, do
   const Vector3d at = position(chain.bodies[segment]);
   dContact contact{};
   contact.surface.mode = dContactSoftCFM | dContactSoftERP | dContactMu2 | dContactFDir1 | dContactApprox1;
-  contact.surface.mu = chain.cable.friction;  // across the cable
+  contact.surface.mu = rubs_ ? chain.cable.friction : 0;  // across the cable
   contact.surface.mu2 = 0;                    // along it
   const Vector3d across = normal.cross(orientation(chain.bodies[segment]) * Vector3d(0, 0, 1)).normalized();
   contact.surface.soft_erp = 1;

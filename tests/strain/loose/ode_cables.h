@@ -57,6 +57,8 @@ class OdeCables {
   /// Takes the hose to its next shape and lets cables follow for some steps; returns the last step's largest
   /// way [m].
   double follow(const HoseCurve& hose, const std::function<HoseNode(double)>& nodes, int steps);
+  /// Whether contacts rub across the cables from now on, by the cables' coefficients; not before.
+  void rub(bool rubs) { rubs_ = rubs; }
   OdeState state(std::size_t cable, const HoseCurve& hose) const;
 
  private:
@@ -78,6 +80,7 @@ class OdeCables {
 
   double length_, l_, inner_radius_, core_radius_;
   int segments_;
+  bool rubs_ = false;
   dWorldID world_;
   dThreadingImplementationID threading_;
   dJointGroupID contacts_;
