@@ -30,7 +30,7 @@ using pipeline::WarningKind;
 
 constexpr std::size_t block_samples = 512;  // rows read at a time
 // The last quarter of the motion takes loose cables to where a repeat ends: lives as with all of it, within what resting
-// positions differ by (measurements.md).
+// positions differ by (strain/measurements.md).
 constexpr std::size_t rehearsed_part = 4;
 constexpr double first_pass_share = 0.05;   // of the work, for the progress display
 // 2 % of strain are a tenth of a life that goes with its fifth power: less than anything else here is known

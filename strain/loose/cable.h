@@ -27,8 +27,8 @@ struct LooseCable {
   double slack = 0;               ///< length beyond the path on which it was laid in, over it
   double wall_stiffness = 1e7;    ///< k_w, of what it lies against, force per length and depth [N/m2]
   double grip = without_limit;    ///< force at which a clamp lets it slip [N]
-  /// Force per length and sideways speed that holds it [N s/m2] (README W36): at 50 mm/s friction of 0.3
-  /// under 0.2 kg/m. It only decides which way the cable goes where several are open.
+  /// Force per length and sideways speed that holds it [N s/m2] (W36): at 50 mm/s friction of 0.3
+  /// under 0.2 kg/m. Without friction it decides which way the cable goes where several are open.
   double drag = 12;
   double friction = 0;  ///< Coulomb's coefficient sideways, on wall, core and neighbours (W36)
 

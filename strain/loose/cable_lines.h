@@ -1,10 +1,11 @@
 // Loose cables between two clamps, each by itself: where they rest (README W32 to W36).
 //
 // At A(s) in the hose's untwisted frame (strain/loose/hose_line.h) a cable has the energy
-//     Pi = L W(mean g) + int E I |K - K0 + A'' - A0''|^2 / 2 - w . A + eta |A - A_before|^2 / 2 + contact ds,
+//     Pi = L W(mean g) + int E I |K - K0 + A'' - A0''|^2 / 2 - w . A + eta |A - A_before|^2 / 2 + contact + friction ds,
 //     g = e - K . A + |A'|^2 / 2,
-// W that of its tension (strain/loose/tension.h), w weight and inertia per length, eta |..| what holds it
-// sideways (W36), contact k_w depth^2 / 2 with the hose's wall, its core, and the bounds of its place. At the
+// W that of its tension (strain/loose/tension.h), w weight and inertia per length, eta |..| a drag, contact
+// k_w depth^2 / 2 with the hose's wall, its core, and the bounds of its place. Friction (W36) is f H(u), its limit f
+// that of the sample before, u the way since where it held the cable. At the
 // clamps it stays at its place A0, as it was laid there whatever the hose's twist (b = 0, A' = A0').
 //
 // Newton's method: bending and tension tie a node to the two next ones, so the matrix has two bands of 2 x 2

@@ -5,6 +5,9 @@
 // along, so no contact stands in its way. With t = J A, a cable's way when its ring turns, the slope of the
 // sum is that of slope . t, its matrix that of bending, tension and drag between these ways, less slope . A
 // on the diagonal since places go along circles; each cable's stretch adds a matrix of rank one (Woodbury).
+//
+// With friction A = e^(i (phi + psi)) (a0 + b): each cable keeps the offset b of the sample before, and its friction
+// (W36) is part of its energy.
 #pragma once
 
 #include <Eigen/Core>
