@@ -9,7 +9,7 @@
 namespace dresslife::strain {
 
 constexpr double friction_way = 1e-5;  ///< by which a contact gives until friction has its limit [m]: (W36)
-constexpr double without_end = 1e300;  ///< any limit below is one
+constexpr double without_end = 1e300;  ///< beyond any limit of a cable's place [m]
 constexpr std::size_t most_lanes = 8;  ///< of any register, in double precision: cables are padded to a multiple of it
 
 /// Cables of one hose. Number i of cable k at [i * lanes + k], component d of a node's vector at
