@@ -1,26 +1,115 @@
-#include "pipeline/commands/command.h"
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 
+#include "pipeline/commands/command.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/cluster.h"
-#include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
+#include "pipeline/settings/problems.h"
 #include "pipeline/stage/program_manual.h"
 #include "pipeline/study/ranking_columns.h"
 #include "pipeline/study/study.h"
 namespace dresslife::pipeline {
 namespace {
 
+/// What a first job needs. All other keys have a default or belong to a special case.
+constexpr std::array first_keys{
+    "motion", "robot", "dresspack", "routing", "study.base", "study.vary", "study.jobs", "study.table",
+    "motion.program", "motion.modules", "motion.routine", "motion.speed_percent", "motion.steps",
+    "motion.steps[].joints_deg", "motion.steps[].speed_percent", "motion.steps[].dwell_s",
+    "dresspack.diameter_mm", "dresspack.inner_diameter_mm", "dresspack.components", "dresspack.components[].name",
+    "dresspack.components[].count", "dresspack.components[].radius_mm", "dresspack.components[].slack_percent",
+    "dresspack.components[].measured_bending_stiffness_Nm2", "dresspack.components[].without_wires",
+    "dresspack.components[].without_wires.kind", "dresspack.components[].without_wires.bore_mm",
+    "dresspack.components[].without_wires.filled_with", "dresspack.components[].data_sheet.cores",
+    "dresspack.components[].data_sheet.cross_section_mm2", "dresspack.components[].data_sheet.conductor_class",
+    "dresspack.components[].data_sheet.outer_diameter_mm", "routing.free_length_m", "routing.base_clamp",
+    "routing.base_clamp.link", "routing.base_clamp.position_m", "routing.base_clamp.direction", "routing.tool_clamp",
+    "simulation.segments", "fatigue.operating_hours_per_week", "fatigue.robot_life_hours", "calibration"};
+
+/// As on a command line: "motion.program"; a key of the job itself is "motion".
+std::string path_of(const KeyRow& row) { return row.map == "job" ? row.key : row.map + "." + row.key; }
+
+std::vector<KeyRow> every_key() {
+  std::vector<KeyRow> rows;
+  for (const std::vector<KeyRow>& some : {study_keys(), job_keys(), key_rows<Cluster>("cluster")})
+    rows.insert(rows.end(), some.begin(), some.end());
+  return rows;
+}
+
+/// The keys of a first job by their paths, then the others map by map.
+std::string keys_page() {
+  std::vector<KeyRow> first, others;
+  for (KeyRow& row : every_key()) {
+    const std::string path = path_of(row);
+    if (std::find(first_keys.begin(), first_keys.end(), path) == first_keys.end())
+      others.push_back(std::move(row));
+    else
+      first.push_back({"Keys of a first job", path, row.unit, row.allowed, row.fallback, row.meaning});
+  }
+  return key_tables(first) + "\n" + key_tables(others);
+}
+
+/// A path with or without the numbers of list items, as the manual writes it: "components.2.count" is "components[].count".
+std::string as_in_manual(const std::string& key) {
+  std::string path;
+  for (std::size_t at = 0; at <= key.size();) {
+    const std::size_t end = std::min(key.find('.', at), key.size());
+    const std::string part = key.substr(at, end - at);
+    if (!part.empty() && part.find_first_not_of("0123456789") == std::string::npos)
+      path += "[]";
+    else
+      path += (path.empty() ? "" : ".") + part;
+    at = end + 1;
+  }
+  return path.starts_with("job.") ? path.substr(4) : path;
+}
+
+/// The keys of this path; else all keys whose path ends with it; else all with its last name.
+/// Errors: none of these, with the nearest name.
+std::vector<KeyRow> keys_of(const std::string& wanted) {
+  const std::vector<KeyRow> all = every_key();
+  const std::string path = as_in_manual(wanted);
+  const std::string last = path.substr(path.rfind('.') + 1);
+  std::vector<KeyRow> found;
+  const auto take = [&](const auto& fits) {
+    if (found.empty()) std::copy_if(all.begin(), all.end(), std::back_inserter(found), fits);
+  };
+  take([&](const KeyRow& row) { return path_of(row) == path; });
+  take([&](const KeyRow& row) { return ("." + path_of(row)).ends_with("." + path); });
+  take([&](const KeyRow& row) { return row.key == last; });
+  if (!found.empty()) return found;
+  std::vector<std::string> names;
+  for (const KeyRow& row : all) names.push_back(row.key);
+  const std::string near = nearest_word(last, names);
+  throw InputError({"dresslife manual"}, fmt::format("there is no key '{}'", wanted),
+                   near.empty() ? "see 'dresslife manual keys'" : fmt::format("did you mean '{}'?", near));
+}
+
+std::string keys_text(const std::string& wanted) {
+  std::string text;
+  for (const KeyRow& row : keys_of(wanted))
+    text += fmt::format("{}{}\n  {}\n  allowed: {}{}\n  default: {}\n", text.empty() ? "" : "\n", path_of(row), row.meaning,
+                        row.allowed, row.unit.empty() ? "" : ", unit " + row.unit, row.fallback);
+  return text;
+}
+
 int manual(const Command& program, const std::string& what) {
   if (what == "keys")
-    print(study_manual() + "\n" + job_manual() + field_manual<Cluster>("cluster"));
+    print(keys_page());
+  else if (what == "files")
+    print(file_manual());
   else if (what == "ranking.csv")
     print(ranking_manual());
+  else if (std::find(manual_kinds().begin(), manual_kinds().end(), what) != manual_kinds().end())
+    print(program_manual(program, what));
   else
-    print(what == "files" ? file_manual() : program_manual(program, what));
+    print(keys_text(what));
   return 0;
 }
 
@@ -31,9 +120,9 @@ Command manual_command(const Command& program) {
   std::vector<std::string> references{"keys", "files", "ranking.csv"};
   references.insert(references.end(), manual_kinds().begin(), manual_kinds().end());
   return {"manual",
-          "print a reference: of all keys, all files or the columns of ranking.csv (Markdown), the man page, a shell's "
-          "completion",
-          {{"what", "", "which one", what.get(), {.required = true, .choices = references}}},
+          "print a reference: one KEY, such as slack_percent; all keys, all files or the columns of ranking.csv (Markdown); the "
+          "man page, a shell's completion",
+          {{"what", "", "KEY, keys, files, ranking.csv, man, bash or zsh", what.get(), {.required = true, .choices = references, .other_values = true}}},
           [&program, what] { return manual(program, *what); }};
 }
 

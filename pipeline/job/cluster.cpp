@@ -6,21 +6,23 @@
 namespace dresslife::pipeline {
 
 void describe(Fields& f, Cluster& cluster) {
-  f.text("name", cluster.name, Need::required, "name");
-  f.text("source", cluster.source, Need::required, "where the words and limits come from");
+  f.text("name", cluster.name, Need::required, "The name of the cluster.");
+  f.text("source", cluster.source, Need::required, "The source of the commands and limits.");
   f.text(
       "launcher", cluster.launcher, Need::required,
-      "shell words before each stage's command, which start it in the allocation and end with its exit status");
+      "The shell words before the command of each stage. They start the stage in the allocation and end "
+      "with its exit status.");
   f.text("submit", cluster.submit, Need::optional,
-         "shell words that queue a batch script of Slurm's kind and print its number alone");
+         "The shell words that queue a batch script in Slurm's format and print its number alone.");
   f.text("options", cluster.options, Need::optional,
-         "more options of the queue, as in `--partition=long --time=24:00:00`");
+         "Further options of the queue, as in `--partition=long --time=24:00:00`.");
   f.integer("tasks", cluster.tasks, Need::optional, between(1, 1024),
-            "stages at a time in an allocation, a core each");
+            "The number of stages that run at a time in an allocation, one core each.");
   f.number("memory_MB", cluster.memory, Need::optional, between(64, 1e7),
-           "of each of them; no stage may take more");
+           "The memory of each stage. No stage may use more.");
   f.integer("most_stages", cluster.most_stages, Need::optional, between(3, 1e9),
-            "that one allocation can start; a study with more becomes an array of them");
+            "The number of stages that one allocation can start. A larger study becomes an array of "
+            "allocations.");
 }
 
 Cluster read_cluster(const std::filesystem::path& file) {

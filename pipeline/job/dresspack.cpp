@@ -13,153 +13,169 @@ namespace {
 void describe(Fields& f, Laying& laying) {
   f.choice(
       "position", laying.position,
-      "in the cross-section of a hose: held at its place, loose where it rests, or auto: loose if the "
-      "part is no wire, has a lay angle of 20 deg at most, may slide, and the dresspack has an inner_diameter_mm or a "
-      "hose_corrugation");
+      "The position of the part in the cross-section of a hose. A held part keeps its place. A loose part "
+      "moves to where it rests. auto: loose if the part is no wire, has a lay angle of at most 20 deg, may "
+      "slide, and the dresspack has inner_diameter_mm or hose_corrugation.");
   f.number("slack_percent", laying.slack, Need::optional, between(0, 20),
-           "length of the part beyond the path on which it was laid in, when the hose had its rest shape; of a "
-           "loose part that names none 1, an ESTIMATE");
+           "The length of the part beyond its path in the hose at rest. Default for a loose part: 1, an "
+           "ESTIMATE.");
   f.maybe_number(
       "play_mm", laying.play, above(0),
-      "how far a loose part can leave its place; without it to the wall, what fills the middle and "
-      "its neighbours");
+      "The distance that a loose part can move from its place. Default: the distance to the wall, the core "
+      "and the neighbours.");
   f.maybe_number("base_grip_N", laying.base_grip, above(0),
-                 "force at which the base clamp lets the part slip; without it never");
-  f.maybe_number("tool_grip_N", laying.tool_grip, above(0), "the same of the tool clamp");
+                 "The force at which the part slips in the base clamp. Default: it never slips.");
+  f.maybe_number("tool_grip_N", laying.tool_grip, above(0),
+                 "The force at which the part slips in the tool clamp. Default: it never slips.");
   f.maybe_number(
       "mass_kg_per_m", laying.mass, above(0),
-      "of a loose part, or one without wires; without it wires of 8900 kg/m3 in a polymer of 1200");
+      "The mass of a loose part or of a part without wires. Default: wires of 8900 kg/m3 in a polymer of "
+      "1200 kg/m3.");
 }
 
 }  // namespace
 
 void describe(Fields& f, Component& component) {
   f.place(component.where);
-  f.text("name", component.name, Need::required, "what the part is; equal parts are numbered from 1");
+  f.text("name", component.name, Need::required, "The name of the part. Equal parts are numbered from 1.");
   f.text("layer", component.layer, Need::optional,
-         "name of the layer, where layers of equal parts lie over each other");
-  f.integer("count", component.count, Need::optional, between(1, 1000), "equal parts in the layer (K)");
-  f.number("radius_mm", component.radius, Need::required, above(0), "of the part");
+         "The name of the layer, where several layers of equal parts lie over each other.");
+  f.integer("count", component.count, Need::optional, between(1, 1000),
+            "The number of equal parts in the layer (K).");
+  f.number("radius_mm", component.radius, Need::required, above(0), "The radius of the part.");
   f.number("helix_radius_mm", component.helix_radius, Need::required, at_least(0),
-           "from the parent's axis to the part's (R)");
+           "The distance from the parent's axis to the part's axis (R).");
   f.number("lay_angle_deg", component.lay_angle, Need::optional, between(0, 60),
-           "angle to the parent's axis (alpha)");
-  f.choice("hand", component.hand, "of the helix: right (Z) or left (S)");
+           "The angle between the part and the parent's axis (alpha).");
+  f.choice("hand", component.hand, "The direction of the helix: right (Z) or left (S).");
   f.number("phase_deg", component.phase, Need::optional, between(-360, 360),
-           "angle of part 1 at the base clamp");
+           "The angle of part 1 around the parent's axis at the base clamp.");
   f.maybe_number("friction_coefficient", component.friction, between(0, 1e6),
-                 "Coulomb, of the part on what it lies against; without it 0.3, an ESTIMATE");
+                 "The Coulomb friction of the part on its support. Default: 0.3, an ESTIMATE.");
   f.maybe_number(
       "radial_line_load_N_per_m", component.radial_line_load, at_least(0),
-      "presses the part on what it lies against, by jacket and tape; without it an ESTIMATE: a jacket's 0.17 MPa "
-      "times its width, or the pressure on the part that holds it; nothing on a cable in a hose");
+      "The force per length by which jacket and tape press the part on its support. Default: an ESTIMATE, a "
+      "jacket's 0.17 MPa times the width of the part, or the pressure on its parent. A cable in a hose has "
+      "none.");
   f.number("tension_N", component.tension, Need::optional, at_least(0),
-           "of the part in the dresspack at rest");
+           "The tension of the part in the dresspack at rest.");
   describe(f, component.laying);
   f.text("material", component.material, Need::optional,
-         "of a wire: a name of config/materials; a part with parts has none");
-  f.list("components", component.components, Need::optional, "the layers of parts inside");
+         "The material of a wire: a name of config/materials. A part with components has none.");
+  f.list("components", component.components, Need::optional, "The layers of parts inside this part.");
   f.maybe_group(
       "without_wires", component.plain,
-      "of a part right in the dresspack that is neither wire nor cable: it has mass, stiffness and a place, and "
-      "no life of its own");
+      "The description of a part of the dresspack that is neither wire nor cable. It has mass, stiffness "
+      "and a place, and no life.");
   f.number("jacket_stiffness_N_per_m2", component.jacket_stiffness, Need::optional, at_least(0),
-           "force per length and displacement by which a jacket that fills the gussets holds the part along "
-           "its path; read where strain.slip is friction");
+           "The force per length and displacement by which a jacket holds the part along its path if it "
+           "fills the gussets. It counts where strain.slip is friction.");
   f.maybe_number("radial_stiffness_N_per_m2", component.radial_stiffness, above(0),
-                 "force per length and displacement of what the helix lies on; without it 5e7, that of polymer, under parts in a "
-                 "cable that hold parts, and nothing gives under others or where strain.kinematics is thesis");
+                 "The radial force per length and displacement of the part's support. Default: 5e7, of "
+                 "polymer, under parts in a cable that have parts themselves. Other supports are rigid, and "
+                 "all are rigid where strain.kinematics is thesis.");
   f.maybe_number("measured_bending_stiffness_Nm2", component.measured_bending_stiffness, above(0),
-                 "of one part with parts, moment over curvature; sets the level of radial_line_load_N_per_m "
-                 "of all that lies in it, read where strain.slip is friction");
+                 "The measured bending moment over curvature of one part that has parts. It sets the level "
+                 "of radial_line_load_N_per_m of everything inside, where strain.slip is friction.");
   f.number("measured_at_curvature_1_per_m", component.measured_at_curvature, Need::optional, above(0),
-           "to which the straight part was bent for it");
+           "The curvature to which the straight part was bent in that test.");
   f.number("polymer_bending_stiffness_Nm2", component.polymer_bending_stiffness, Need::optional, at_least(0),
-           "of it that jacket and insulation make");
-  f.list("ratings", component.ratings, Need::optional, "of a cable: what its maker promises in test rigs");
+           "The share of the measured stiffness of jacket and insulation.");
+  f.list("ratings", component.ratings, Need::optional,
+         "The cycles in test rigs that the maker of a cable states.");
 }
 
 void describe(Fields& f, Corrugation& corrugation) {
   f.place(corrugation.where);
-  f.number("pitch_mm", corrugation.pitch, Need::required, above(0), "of one corrugation along the hose");
+  f.number("pitch_mm", corrugation.pitch, Need::required, above(0),
+           "The length of one corrugation along the hose.");
   f.number("height_mm", corrugation.height, Need::required, above(0),
-           "half the difference of outer and inner diameter");
-  f.number("wall_mm", corrugation.wall, Need::required, above(0), "thickness of the material");
+           "Half the difference of outer and inner diameter.");
+  f.number("wall_mm", corrugation.wall, Need::required, above(0), "The thickness of the wall.");
 }
 
 void describe(Fields& f, Dresspack& dresspack) {
   f.place(dresspack.where);
-  f.text("name", dresspack.name, Need::required, "name of the dresspack");
-  f.text("source", dresspack.source, Need::required, "where the numbers come from");
-  f.text("estimates", dresspack.estimates, Need::optional,
-         "keys that were left out and their estimated values; dresslife writes it into resolved jobs");
+  f.text("name", dresspack.name, Need::required, "The name of the dresspack.");
+  f.text("source", dresspack.source, Need::required, "The source of the numbers.");
+  f.text("estimates", dresspack.estimates, Need::written,
+         "The keys that were left out and their estimated values. dresslife writes it into resolved jobs.");
   f.boolean(
-      "cable_alone", dresspack.cable_alone, Need::optional,
-      "it is one cable by itself, as `cable:` makes it; stiffness, mass and damping may be left out where a "
-      "rig or a deformation moves it");
+      "cable_alone", dresspack.cable_alone, Need::written,
+      "Whether it is a cable by itself. The form `cable:` sets it. Stiffness, mass and damping may then be "
+      "left out where a rig or a deformation moves it.");
   const Need need = dresspack.cable_alone ? Need::optional : Need::required;
   const Range range = dresspack.cable_alone ? at_least(0) : above(0);
-  f.number("diameter_mm", dresspack.diameter, Need::required, above(0), "outer diameter of the hose");
+  f.number("diameter_mm", dresspack.diameter, Need::required, above(0), "The outer diameter of the hose.");
   constexpr std::string_view from = "from_construction";
   f.number_or_word("mass_kg_per_m", dresspack.mass_per_length, dresspack.mass_from_construction, from, need,
-                   range, "of the filled hose; or of its parts and wall");
+                   range,
+                   "The mass of the filled hose. from_construction: the sum of its parts and its wall.");
   f.number_or_word("bending_stiffness_Nm2", dresspack.bending_stiffness, dresspack.bending_from_construction,
                    from, need, range,
-                   "EI of the filled hose; or of its parts, wall and core in their construction_state");
+                   "E I of the filled hose. from_construction: of its parts, wall and core in "
+                   "construction_state.");
   f.number_or_word("torsional_stiffness_Nm2", dresspack.torsional_stiffness,
                    dresspack.torsional_from_construction, from, need, range,
-                   "GJ of the filled hose, likewise");
+                   "G J of the filled hose. from_construction: as for bending.");
   f.number_or_word("axial_stiffness_N", dresspack.axial_stiffness, dresspack.axial_from_construction, from,
-                   need, range, "EA of the filled hose, likewise");
+                   need, range, "E A of the filled hose. from_construction: as for bending.");
   f.choice(
       "construction_state", dresspack.construction_state,
-      "in which from_construction takes a stiffness: parts slide, are held by their friction, or are glued");
+      "The state of the parts for a stiffness from_construction: they slide freely, with friction, or not "
+      "at all.");
   f.number("construction_curvature_1_per_m", dresspack.construction_curvature, Need::optional,
            between(1e-3, 100),
-           "to which the hose is bent in construction_state friction: the larger, the more has slid");
+           "The curvature of the hose for construction_state friction. The larger it is, the more parts "
+           "slide.");
   f.maybe_number(
       "core_bending_stiffness_Nm2", dresspack.core_bending_stiffness, at_least(0),
-      "EI of what fills the middle and is no component; read where a stiffness is from_construction");
+      "E I of the filling in the middle that is no component. It counts where a stiffness is "
+      "from_construction.");
   f.maybe_number("core_torsional_stiffness_Nm2", dresspack.core_torsional_stiffness, at_least(0),
-                 "its GJ; without it 0.8 of its EI, as of a solid round bar");
+                 "G J of that filling. Default: 0.8 of its E I, as of a solid round bar.");
   f.maybe_number("core_axial_stiffness_N", dresspack.core_axial_stiffness, at_least(0),
-                 "its EA; 0 of what is laid in with slack");
+                 "E A of that filling. It is 0 for a filling with slack.");
   f.number("rest_curvature_1_per_m", dresspack.rest_curvature, Need::optional, any_number(),
-           "of the delivered hose when nothing pulls on it, toward the x axis of its base clamp, which "
-           "base_clamp.roll_deg turns; its parts are free of strain in that shape");
+           "The curvature of the delivered hose without load, toward the x axis of its base clamp. "
+           "base_clamp.roll_deg turns it. The parts are free of strain in that shape.");
   f.number("damping_time_ms", dresspack.damping_time, need, at_least(0),
-           "Kelvin-Voigt time of bending and twist, from a decay test");
+           "The Kelvin-Voigt time of bending and twist, from a decay test.");
   f.text("damping_source", dresspack.damping_source, need,
-         "where the damping comes from: life depends on it");
+         "The source of the damping. The life depends on it.");
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
-           "Coulomb, hose against robot; between two dresspacks the smaller of theirs counts; of a dresspack with "
-           "components that names none 0.3, an ESTIMATE");
+           "The Coulomb friction of the hose on the robot. Between two dresspacks the smaller one counts. "
+           "Default with components: 0.3, an ESTIMATE.");
   f.maybe_number("least_bend_radius_mm", dresspack.least_bend_radius, above(0),
-                 "that the maker allows in motion; a smaller one is warned of; without it ten diameters, in a corrugated hose those of the parts in it");
+                 "The smallest bend radius that the maker allows in motion. A smaller one causes a warning. "
+                 "Default: ten diameters, in a corrugated hose those of its parts.");
   f.maybe_number("most_twist_deg_per_m", dresspack.most_twist, above(0),
-                 "that the maker allows in motion; more is warned of; without it 180");
+                 "The largest twist that the maker allows in motion. More causes a warning. Default: 180.");
   f.maybe_number(
       "most_tension_N", dresspack.most_tension, above(0),
-      "pull along the filled hose that the maker allows in motion; more is warned of; without it no pull is");
+      "The largest tension of the filled hose that the maker allows in motion. More causes a warning. "
+      "Default: no limit.");
   f.text("hose_material", dresspack.hose_material, Need::optional,
-         "of the hose's wall, a name of config/materials; without it the hose's strain is not evaluated");
+         "The material of the hose's wall: a name of config/materials. Without it the wall's strain is not "
+         "evaluated.");
   f.maybe_number(
       "hose_strain_factor", dresspack.hose_strain_factor, between(1e-3, 100),
-      "strain of the wall over that of a smooth hose of the same diameter; without it 1, or that of "
-      "hose_corrugation");
+      "The strain of the wall over that of a smooth hose of the same diameter. Default: 1, or the factor of "
+      "hose_corrugation.");
   f.maybe_group("hose_corrugation", dresspack.hose_corrugation,
-                "profile of the hose's wall, which gives the factor of its strain");
+                "The profile of the hose's wall. It gives the strain factor of the wall.");
   f.maybe_number(
       "inner_diameter_mm", dresspack.inner_diameter, above(0),
-      "of a hose in which parts lie loose; without it that within hose_corrugation; neither: parts "
-      "are held by a jacket");
+      "The inner diameter of a hose with loose parts. Default: the one of hose_corrugation. Without both a "
+      "jacket holds the parts.");
   f.number("core_diameter_mm", dresspack.core_diameter, Need::optional, at_least(0),
-           "of what fills the middle of a hose and is no component");
-  f.list("components", dresspack.components, Need::optional, "what lies in the hose; none: motion only; place: auto in place of helix_radius_mm and phase_deg packs parts into the "
-         "bore");
-  f.list("materials", dresspack.materials, Need::optional, "materials that are not in config/materials");
+           "The diameter of the filling in the middle of a hose that is no component.");
+  f.list("components", dresspack.components, Need::optional,
+         "The parts in the hose. Without them only the motion is computed. `place: auto` instead of "
+         "helix_radius_mm and phase_deg packs parts into the bore.");
+  f.list("materials", dresspack.materials, Need::optional, "Materials that are not in config/materials.");
   f.list("ratings", dresspack.ratings, Need::optional,
-         "of a dresspack that is one cable, without a hose: what its maker promises in test rigs");
+         "The cycles in test rigs that the maker states, of a dresspack that is one cable without a hose.");
 }
 
 std::optional<double> inner_radius(const Dresspack& dresspack) {

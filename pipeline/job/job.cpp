@@ -14,26 +14,29 @@ JobForms forms_of(const Job& job) {
 
 void describe_keys(Fields& f, Job& job, const JobForms& forms) {
   // The motion first: whether it brings its own clamp poses decides whether a robot is needed.
-  f.group("motion", job.motion, Need::required, "a name of config/programs, a file, or the entry itself");
+  f.group("motion", job.motion, Need::required,
+          "The motion: a name of config/programs, a file, or the keys themselves.");
   f.group("robot", job.robot, job.motion.needs_robot() ? Need::required : Need::optional,
-          "a name of config/robots, a file, or the entry itself", !job.robot.joints.empty());
+          "The robot: a name of config/robots, a file, or the keys themselves. A rig needs none.", !job.robot.joints.empty());
   if (forms.one) {
     MountedDresspack& only = job.dresspacks.front();
     f.group("dresspack", only.dresspack, Need::required,
-            "a name of config/dresspacks, a file, or the entry itself");
+            "The dresspack: a name of config/dresspacks, a file, or the keys themselves.");
     f.group("routing", only.routing, job.motion.rig ? Need::optional : Need::required,
-            "clamps and free length", !job.motion.rig);
+            "The clamps and the free length. A rig needs none.", !job.motion.rig);
   }
   if (forms.list)
     f.list("dresspacks", job.dresspacks, forms.one ? Need::optional : Need::required,
-           "several on one robot, instead of dresspack and routing");
-  f.group("cell", job.cell, Need::optional, "what stands still around the robot: obstacles of the dresspack");
-  f.group("simulation", job.simulation, Need::optional, "settings of dresslife-sim");
-  f.group("strain", job.strain, Need::optional, "settings of dresslife-strain");
-  f.group("fatigue", job.fatigue, Need::optional, "settings of dresslife-fatigue");
-  f.group("uncertainty", job.uncertainty, Need::optional, "what is not known, and how well");
+           "Several dresspacks on one robot, instead of dresspack and routing.");
+  f.group("cell", job.cell, Need::optional, "The fixed obstacles around the robot.");
+  f.group("simulation", job.simulation, Need::optional, "The settings of dresslife-sim.");
+  f.group("strain", job.strain, Need::optional, "The settings of dresslife-strain.");
+  f.group("fatigue", job.fatigue, Need::optional, "The settings of dresslife-fatigue.");
+  f.group("uncertainty", job.uncertainty, Need::optional,
+          "The uncertain parameters and their standard deviations.");
   f.maybe_group("calibration", job.calibration,
-                "a file that dresslife calibrate wrote: what observations have taught of what is not known");
+                "A file that dresslife calibrate wrote. It holds the posterior of the uncertain parameters.",
+                Need::written);
 }
 
 void describe(Fields& f, Job& job) { describe_keys(f, job, forms_of(job)); }

@@ -6,41 +6,45 @@ namespace dresslife::pipeline {
 
 void describe(Fields& f, StrainLifePoint& point) {
   f.number("strain_amplitude", point.strain_amplitude, Need::required, between(1e-9, 10),
-           "half the strain range of the test");
-  f.number("cycles", point.cycles, Need::required, between(0.5, 1e15), "to failure, median");
+           "Half the strain range of the test.");
+  f.number("cycles", point.cycles, Need::required, between(0.5, 1e15),
+           "The median number of cycles to failure.");
 }
 
 void describe(Fields& f, Material& material) {
   f.place(material.where);
-  f.text("name", material.name, Need::required, "name, as the wires call it");
-  f.text("source", material.source, Need::required, "where the constants come from");
-  f.number("youngs_modulus_GPa", material.youngs_modulus, Need::required, above(0), "E");
+  f.text("name", material.name, Need::required, "The name of the material, as wires refer to it.");
+  f.text("source", material.source, Need::required, "The source of the constants.");
+  f.number("youngs_modulus_GPa", material.youngs_modulus, Need::required, above(0), "Young's modulus E.");
   f.maybe_number("tensile_strength_MPa", material.tensile_strength, above(0),
-                 "at which a wire tears, to hold the forces of cables against");
-  f.number("poisson_ratio", material.poisson_ratio, Need::optional, between(0, 0.5), "nu");
+                 "The stress at which a wire tears. Warnings compare the forces of cables with it.");
+  f.number("poisson_ratio", material.poisson_ratio, Need::optional, between(0, 0.5), "Poisson's ratio nu.");
   f.list(
       "strain_life_table", material.strain_life_table, Need::optional,
-      "measured points, larger strains first, instead of the keys below: for polymers; log-log between them");
+      "Measured points instead of the constants below, larger strains first. The curve between them is "
+      "straight in logarithms. It is meant for polymers.");
   const bool measured = !material.strain_life_table.empty() && material.strain_life_table.front().cycles > 0;
   if (measured) return;  // the manual's one point is without cycles: there the other keys follow
-  f.number("fatigue_strength_MPa", material.fatigue_strength, Need::required, above(0), "sigma_f' of (8)");
+  f.number("fatigue_strength_MPa", material.fatigue_strength, Need::required, above(0),
+           "The fatigue strength sigma_f' of equation (8).");
   f.number("fatigue_strength_exponent", material.fatigue_strength_exponent, Need::required,
-           between(-1, -1e-3), "b of (8)");
-  f.number("fatigue_ductility", material.fatigue_ductility, Need::required, above(0), "epsilon_f' of (8)");
+           between(-1, -1e-3), "The exponent b of equation (8).");
+  f.number("fatigue_ductility", material.fatigue_ductility, Need::required, above(0),
+           "The fatigue ductility epsilon_f' of equation (8).");
   f.number("fatigue_ductility_exponent", material.fatigue_ductility_exponent, Need::required,
-           between(-2, -1e-2), "c of (8)");
+           between(-2, -1e-2), "The exponent c of equation (8).");
   f.maybe_number("cyclic_strength_MPa", material.cyclic_strength, above(0),
-                 "K'; without it sigma_f'/epsilon_f'^n'");
+                 "The cyclic strength K'. Default: sigma_f'/epsilon_f'^n'.");
   f.maybe_number("cyclic_hardening_exponent", material.cyclic_hardening_exponent, between(0.01, 1),
-                 "n'; without it b/c");
+                 "The cyclic hardening exponent n'. Default: b/c.");
   f.maybe_number("walker_exponent", material.walker_exponent, between(0, 1),
-                 "gamma of mean_stress walker; without it 0.5");
+                 "The exponent gamma of mean_stress walker. Default: 0.5.");
   f.maybe_number(
       "relaxation_threshold_strain", material.relaxation_threshold_strain, between(1e-6, 1),
-      "strain amplitude above which mean stress relaxes, for mean_stress_relaxation power_law; without "
-      "it never");
+      "The strain amplitude above which mean stress relaxes, for mean_stress_relaxation power_law. Default: "
+      "it never relaxes.");
   f.maybe_number("relaxation_exponent", material.relaxation_exponent, between(0, 1),
-                 "of the number of repeats, at twice that amplitude; without it 0.085");
+                 "The exponent of the number of repeats at twice that amplitude. Default: 0.085.");
 }
 
 void check_materials(const std::vector<Material>& materials) {

@@ -10,124 +10,134 @@ namespace dresslife::pipeline {
 
 void describe(Fields& f, MotionStep& step) {
   f.place(step.where);
-  f.text("text", step.text, Need::optional, "what the step is, for reports");
-  f.choice("path", step.path, "how a move gets to its target");
-  f.numbers("joints_deg", step.joints, Need::optional, "target of a joint move, one angle per axis");
+  f.text("text", step.text, Need::optional, "A description of the step for reports.");
+  f.choice("path", step.path, "The path of a move to its target.");
+  f.numbers("joints_deg", step.joints, Need::optional, "The target of a move: one angle per axis.");
   f.numbers("position_mm", step.position, Need::optional,
-            "target of the tool in the work object: x, y, z, instead of joints_deg");
-  f.numbers("quaternion", step.quaternion, Need::optional, "orientation of the tool there: w, x, y, z");
-  f.numbers("via_position_mm", step.via_position, Need::optional, "of a circular move: a point on the way");
+            "The target of the tool in the work object: x, y, z. It replaces joints_deg.");
+  f.numbers("quaternion", step.quaternion, Need::optional,
+            "The orientation of the tool at the target: w, x, y, z.");
+  f.numbers("via_position_mm", step.via_position, Need::optional, "A point on the path of a circular move.");
   f.numbers("circle_joints_deg", step.circle_joints, Need::optional,
-            "of a circular move to joints_deg: angles at another point of its circle, before its start or behind its "
-            "end");
+            "The joint angles at a further point of the circle, before the start or behind the end of a "
+            "circular move to joints_deg.");
   f.text(
       "configuration", step.configuration, Need::optional,
-      "which arm reaches the pose: abb CF1 CF4 CF6 CFX, kuka S T, fanuc NUT 0 0 0, motoman and the first six numbers "
-      "of RCONF, near and six angles in deg; without it the nearest");
+      "The configuration of the arm at the pose: abb CF1 CF4 CF6 CFX, kuka S T, fanuc NUT 0 0 0, motoman "
+      "and the first six numbers of RCONF, or near and six angles in deg. Default: the nearest one.");
   f.numbers("external_axes", step.external_axes, Need::optional,
-            "targets of external axes, mm or deg; without them they stay");
-  f.text("tool", step.tool, Need::optional, "a name of tools; without it the flange");
+            "The targets of the external axes in mm or deg. Default: the axes do not move.");
+  f.text("tool", step.tool, Need::optional, "A name of tools. Default: the flange.");
   f.text("work_object", step.work_object, Need::optional,
-         "a name of work_objects; without it the robot's base frame");
+         "A name of work_objects. Default: the robot's base frame.");
   f.maybe_number("speed_percent", step.speed_percent, between(0.1, 100),
-                 "speed of the move, of each axis' highest");
+                 "The speed of the move, as a share of the highest speed of each axis.");
   f.maybe_number("speed_deg_per_s", step.speed, above(0),
-                 "speed of the axis that moves farthest, instead of a percentage");
-  f.maybe_number("speed_mm_per_s", step.tool_speed, above(0), "highest speed of the tool");
+                 "The speed of the axis with the longest way, instead of a percentage.");
+  f.maybe_number("speed_mm_per_s", step.tool_speed, above(0), "The highest speed of the tool.");
   f.maybe_number("turn_deg_per_s", step.turn_speed, above(0),
-                 "highest speed of the tool's rotation on a path");
-  f.maybe_number("duration_s", step.duration, above(0), "of the whole move, instead of a speed");
+                 "The highest speed of the tool's rotation on a path.");
+  f.maybe_number("duration_s", step.duration, above(0),
+                 "The duration of the whole move, instead of a speed.");
   f.maybe_number("acceleration_percent", step.acceleration_percent, between(1, 150),
-                 "of this move, besides the program's");
+                 "The acceleration of this move. It multiplies the one of the program.");
   f.maybe_number("jerk_percent", step.jerk_percent, between(10, 100),
-                 "of the rate at which the acceleration of this move builds up, as the second argument of RAPID's AccSet");
+                 "The rate at which the acceleration of this move builds up, as the second argument of "
+                 "AccSet in RAPID.");
   f.maybe_number("acceleration_deg_per_s2", step.acceleration, above(0),
-                 "highest of the axis that moves farthest, besides the axes' own");
+                 "The highest acceleration of the axis with the longest way. The limits of the axes hold as "
+                 "well.");
   f.maybe_number("acceleration_mm_per_s2", step.tool_acceleration, above(0),
-                 "highest of the tool along its path, besides the axes' own");
+                 "The highest acceleration of the tool along its path. The limits of the axes hold as well.");
   f.maybe_number("zone_mm", step.tool_zone, at_least(0),
-                 "the tool leaves its path this near to the target; 0: stop");
+                 "The distance to the target at which the tool leaves its path. 0: the robot stops.");
   f.maybe_number("zone_percent", step.stop_zone, between(0, 100),
-                 "the next move begins at this share of the way in which the robot would stop");
+                 "The share of the braking distance at which the next move begins.");
   f.maybe_number("zone_deg", step.zone, at_least(0),
-                 "the next move begins when every axis is this near; 0: stop");
-  f.number("dwell_s", step.dwell, Need::optional, at_least(0), "standstill instead of a move");
+                 "The distance of every axis to the target at which the next move begins. 0: the robot "
+                 "stops.");
+  f.number("dwell_s", step.dwell, Need::optional, at_least(0),
+           "The duration of a standstill. It replaces a move.");
   f.integer("repeat", step.repeat, Need::optional, at_least(0),
-            "how often the block of `steps` runs; 0: not a block");
-  f.list("steps", step.steps, Need::optional, "the block");
+            "The number of runs of the block of `steps`. 0: this step is no block.");
+  f.list("steps", step.steps, Need::optional, "The steps of the block.");
 }
 
 void describe(Fields& f, MotionFrame& frame) {
-  f.text("name", frame.name, Need::required, "name of the tool or work object");
-  f.vector("position_mm", frame.position, Need::optional, "of its origin");
-  f.numbers("quaternion", frame.quaternion, Need::optional, "its orientation: w, x, y, z");
+  f.text("name", frame.name, Need::required, "The name of the tool or work object.");
+  f.vector("position_mm", frame.position, Need::optional, "The position of its origin.");
+  f.numbers("quaternion", frame.quaternion, Need::optional, "Its orientation: w, x, y, z.");
   f.boolean("stationary", frame.stationary, Need::optional,
-            "the tool stands still and the robot carries the work object");
+            "Whether the tool stands still and the robot holds the work object.");
 }
 
 void describe(Fields& f, BranchAssumption& assumption) {
-  f.text("line", assumption.line, Need::required, "of the branch: FILE:LINE, or LINE alone");
+  f.text("line", assumption.line, Need::required, "The line of the branch: FILE:LINE, or LINE alone.");
   f.text(
       "take", assumption.take, Need::optional,
-      "what the branch does: then, else; of a choice among several (TEST, SWITCH, SELECT): the value that it "
-      "hangs on");
+      "The decision of the branch: then or else. For a choice among several (TEST, SWITCH, SELECT): the "
+      "value that decides.");
 }
 
 void describe(Fields& f, ProgramValue& value) {
   f.text("name", value.name, Need::required,
-         "of an input, a register, a variable or a position, as the program writes it: di5, $IN[3], R[1], "
-         "PR[2]");
-  f.text("value", value.value, Need::required, "likewise: TRUE, 3, [[0,0,100],[1,0,0,0]]");
+         "The name of an input, a register, a variable or a position, as in the program: di5, $IN[3], R[1], "
+         "PR[2].");
+  f.text("value", value.value, Need::required,
+         "The value, as in the program: TRUE, 3, [[0,0,100],[1,0,0,0]].");
 }
 
 void describe(Fields& f, ProgramFile& file) {
-  f.path("file", file.file, Need::required, "a module or data file");
+  f.path("file", file.file, Need::required, "A module or data file.");
 }
 
 void describe(Fields& f, Motion& motion) {
   f.place(motion.where);
-  f.text("name", motion.name, Need::optional, "name of the program");
-  f.text("source", motion.source, Need::optional, "who wrote it");
+  f.text("name", motion.name, Need::optional, "The name of the program.");
+  f.text("source", motion.source, Need::optional, "The author of the program.");
   f.number("speed_percent", motion.speed_percent, Need::optional, between(0.1, 100),
-           "speed of moves that name none");
+           "The speed of moves without a speed of their own.");
   f.number("acceleration_percent", motion.acceleration_percent, Need::optional, between(1, 100),
-           "of each axis' highest acceleration, for all moves");
+           "The acceleration of all moves, as a share of the highest one of each axis.");
   f.number("ramp_percent", motion.ramp_percent, Need::optional, between(1, 50),
-           "of the duration of each change of speed in a joint move, in which the acceleration builds up, and again in which it "
-           "ends; 50: never constant. ESTIMATE, controllers do not publish it");
+           "The share of each change of speed in a joint move in which the acceleration builds up, and "
+           "again in which it ends. At 50 it is never constant. ESTIMATE: controllers do not publish it.");
   f.number("path_smoothing_ms", motion.path_smoothing, Need::optional, between(1, 200),
-           "of tool paths: the acceleration builds up within twice this time. ESTIMATE, likewise");
+           "The smoothing of tool paths. The acceleration builds up within twice this time. ESTIMATE: "
+           "controllers do not publish it.");
   f.number("zone_deg", motion.zone, Need::optional, at_least(0),
-           "zone of moves that name none; 0: stop at each target");
+           "The zone of moves without a zone of their own. 0: the robot stops at each target.");
   f.list("steps", motion.steps, Need::optional,
-         "the program; it starts at rest at the target of the first step");
+         "The steps of the program. The robot starts at rest at the target of the first step.");
   f.list("tools", motion.tools, Need::optional,
-         "tools, in the flange's frame; also those that a program names but does not hold");
+         "The tools in the flange's frame, also those that a program uses without a definition.");
   f.list("work_objects", motion.work_objects, Need::optional,
-         "work objects, in the robot's base frame; likewise");
+         "The work objects in the robot's base frame, also those that a program uses without a definition.");
   f.path("program", motion.program, Need::optional,
-         "a robot program instead of steps: RAPID (.mod, .prg, .sys, .pgf), KRL (.src), Fanuc (.ls), INFORM (.jbi), "
-         "URScript (.script), joints (.csv), ROS (.yaml, .json), or the folder of a controller's backup");
+         "A robot program instead of steps: RAPID (.mod, .prg, .sys, .pgf), KRL (.src), Fanuc (.ls), INFORM "
+         "(.jbi), URScript (.script), joints (.csv), ROS (.yaml, .json), or the folder of a controller's "
+         "backup.");
   f.list("modules", motion.modules, Need::optional,
-         "further files of the program: modules, .dat files, called programs");
+         "Further files of the program: modules, .dat files and called programs.");
   f.text(
       "routine", motion.routine, Need::optional,
-      "of the program to run, with its arguments where it takes some: name(1, p20); without it main, or the "
-      "first");
-  f.list("assume", motion.assume, Need::optional, "how branches of the program go that hang on inputs");
+      "The routine to run, with its arguments if it takes some: name(1, p20). Default: main, or the first "
+      "routine.");
+  f.list("assume", motion.assume, Need::optional, "The decisions of branches that depend on inputs.");
   f.list("values", motion.values, Need::optional,
-         "what the program asks and only the running robot knows: inputs, registers, variables, positions");
+         "The values of inputs, registers, variables and positions that the files of the program do not "
+         "contain.");
   f.integer("passes", motion.passes, Need::optional, at_least(0),
-            "of the program's endless main loop; 0: until it repeats itself");
+            "The number of passes of the program's endless main loop. 0: until it repeats itself.");
   f.number("spot_time_s", motion.spot_time, Need::optional, at_least(0),
-           "dwell of a spot weld of the program");
+           "The dwell at each spot weld of the program.");
   f.path("clamp_poses", motion.clamp_poses, Need::optional,
-         "CSV with the poses of both clamps instead of steps: t, then x y z qw qx qy qz of base and tool "
-         "clamp (s, m)");
+         "A CSV file with the poses of both clamps instead of steps: t, then x y z qw qx qy qz of base and "
+         "tool clamp (s, m).");
   f.path("deformation", motion.deformation, Need::optional,
-         "CSV with curvature, twist and elongation of the dresspack over time instead of steps; nothing is "
-         "simulated (sim/README.md, \"Prescribed deformation\")");
-  f.maybe_group("rig", motion.rig, "a test rig that bends or twists the dresspack instead of steps");
+         "A CSV file with curvature, twist and elongation of the dresspack over time instead of steps. No "
+         "simulation runs (section Prescribed deformation of sim/README.md).");
+  f.maybe_group("rig", motion.rig, "A test rig that bends or twists the dresspack, instead of steps.");
 }
 
 namespace {

@@ -7,12 +7,14 @@
 namespace dresslife::pipeline {
 void describe(Fields& f, PlainPart& part) {
   f.place(part.where);
-  f.choice("kind", part.kind, "filler or optical fibre, both solid, or a hose with a bore");
+  f.choice("kind", part.kind,
+           "The kind of the part: a filler, a hose with a bore, or an optical fibre. Fillers and fibres are "
+           "solid.");
   f.maybe_number("bore_mm", part.bore, above(0),
-                 "inner diameter of a hose; without it two thirds of the outer");
-  f.choice("filled_with", part.medium, "what flows in a hose: air, which weighs nothing here, or water");
+                 "The inner diameter of a hose. Default: two thirds of the outer one.");
+  f.choice("filled_with", part.medium, "The content of a hose: water, or air of no weight.");
   f.maybe_number("bending_stiffness_Nm2", part.bending_stiffness, above(0),
-                 "E I of the part; without it that of polymer of 50 MPa. E A goes with it");
+                 "E I of the part. Default: of polymer of 50 MPa. E A follows from it.");
 }
 
 void check_plain_part(const PlainPart& part, double radius, std::string_view name) {

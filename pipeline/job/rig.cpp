@@ -83,34 +83,37 @@ void describe(Fields& f, Rig& rig) {
   f.place(rig.where);
   f.choice(
       "kind", rig.kind,
-      "torsion: twisted to and fro between two grips; rolling_flex: a bend of 180 deg rolls along the cable "
-      "and back, also in an energy chain (C-track); two_pulley: a carriage with two pulleys runs along it, an "
-      "S (EN 50396); tick_tock: bent over two mandrels to either side; swivel: bent to either side where "
-      "it leaves a clip; axial: pulled and let go, the material's own test");
-  f.maybe_number("length_m", rig.length, between(1e-3, 1000), "torsion: between the grips; without it 1");
-  f.maybe_number("twist_deg_per_m", rig.twist, between(1e-3, 1e5), "torsion: to either side");
+      "The kind of test. torsion: twist to and fro between two grips. rolling_flex: a bend of 180 deg rolls "
+      "along the cable and back, also in an energy chain (C-track). two_pulley: a carriage with two pulleys "
+      "runs along the cable, an S (EN 50396). tick_tock: bending over two mandrels to either side. swivel: "
+      "bending to either side at a clip. axial: pull and release, the test of the material itself.");
+  f.maybe_number("length_m", rig.length, between(1e-3, 1000),
+                 "torsion: the length between the grips. Default: 1.");
+  f.maybe_number("twist_deg_per_m", rig.twist, between(1e-3, 1e5), "torsion: the twist to either side.");
   f.maybe_number("radius_mm", rig.radius, between(1e-3, 1e5),
-                 "rolling_flex: of the cable's axis; tick_tock: of the mandrels; swivel: of the clip's edge, "
-                 "without it sharp");
+                 "rolling_flex: the bend radius of the cable's axis. tick_tock: the radius of the mandrels. "
+                 "swivel: the radius of the clip's edge, by default sharp.");
   f.maybe_number("radius_diameters", rig.radius_diameters, between(1e-2, 1e4),
-                 "the same in diameters of the cable");
+                 "The same radius in diameters of the cable.");
   f.maybe_number("pulley_diameter_mm", rig.pulley_diameter, between(1, 1e5),
-                 "two_pulley: at the groove's ground");
+                 "two_pulley: the diameter at the ground of the groove.");
   f.maybe_number("travel_m", rig.travel, between(1e-3, 1000),
-                 "one way, of the moving end (rolling_flex) or of the carriage (two_pulley, without it 1)");
+                 "The one-way travel of the moving end (rolling_flex) or of the carriage (two_pulley, "
+                 "default 1).");
   f.maybe_number(
       "angle_deg", rig.angle, between(1e-2, 180),
-      "to either side (tick_tock, without it 90; swivel), or wrapped around each pulley (two_pulley, "
-      "without it 180)");
+      "The angle to either side (swivel; tick_tock, default 90), or the angle of contact at each pulley "
+      "(two_pulley, default 180).");
   f.maybe_number(
       "weight_kg", rig.weight, at_least(0),
-      "that pulls on the cable. torsion: hung on its lower end, which is free to rise; without it both "
-      "ends are held at their distance. tick_tock, two_pulley: without it 0");
+      "The mass that pulls on the cable. torsion: its lower end is then free to rise, and without it both "
+      "ends keep their distance. tick_tock, two_pulley: default 0.");
   f.maybe_number("elongation_percent", rig.elongation, between(1e-6, 10),
-                 "axial: to either side of the mean");
-  f.maybe_number("mean_elongation_percent", rig.mean_elongation, between(-10, 10), "axial: without it 0");
+                 "axial: the elongation to either side of the mean.");
+  f.maybe_number("mean_elongation_percent", rig.mean_elongation, between(-10, 10),
+                 "axial: the mean elongation. Default: 0.");
   f.number("cycles_per_minute", rig.cycles_per_minute, Need::optional, between(1e-3, 1e5),
-           "turns cycles into hours; nothing else hangs on it");
+           "The rate of the test. It converts cycles into hours and has no other effect.");
 }
 
 void check_rig(Rig& rig) {

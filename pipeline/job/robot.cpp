@@ -13,85 +13,92 @@ std::size_t Robot::axes() const {
 
 void describe(Fields& f, Joint& joint) {
   f.place(joint.where);
-  f.text("name", joint.name, Need::required, "name of the joint");
+  f.text("name", joint.name, Need::required, "The name of the joint.");
   f.vector("origin_m", joint.origin, Need::required,
-           "origin of the joint frame in the frame of the link before");
+           "The origin of the joint frame in the frame of the previous link.");
   f.vector("rpy_deg", joint.orientation, Need::optional,
-           "roll, pitch, yaw of the joint frame, fixed axes x, y, z");
-  f.vector("axis", joint.axis, Need::required, "axis of rotation in the joint frame");
+           "Roll, pitch and yaw of the joint frame about the fixed axes x, y, z.");
+  f.vector("axis", joint.axis, Need::required, "The axis of rotation in the joint frame.");
   f.text("follows", joint.follows, Need::optional,
-         "name of the joint that moves this one through a rod; it has then no limits and drive of its own");
+         "The name of the joint that moves this one through a rod. This joint then has no limits and no "
+         "drive.");
   f.number("ratio", joint.ratio, Need::optional, any_number(),
-           "of a joint that follows: its angle over the other's");
+           "The angle of a following joint over the angle of the other.");
   f.number("offset_deg", joint.offset, Need::optional, any_number(),
-           "of a joint that follows: its angle at 0");
+           "The angle of a following joint where the other is at 0.");
   if (!joint.follows.empty()) return;
-  f.number("lower_deg", joint.lower, Need::required, any_number(), "lowest angle");
-  f.number("upper_deg", joint.upper, Need::required, any_number(), "highest angle");
-  f.number("speed_deg_per_s", joint.speed, Need::required, above(0), "highest speed");
-  f.number("acceleration_deg_per_s2", joint.acceleration, Need::required, above(0), "highest acceleration");
+  f.number("lower_deg", joint.lower, Need::required, any_number(), "The lowest angle.");
+  f.number("upper_deg", joint.upper, Need::required, any_number(), "The highest angle.");
+  f.number("speed_deg_per_s", joint.speed, Need::required, above(0), "The highest speed.");
+  f.number("acceleration_deg_per_s2", joint.acceleration, Need::required, above(0),
+           "The highest acceleration.");
 }
 
 void describe(Fields& f, ExternalAxis& axis) {
   f.place(axis.where);
-  f.text("name", axis.name, Need::required, "name of the axis");
-  f.choice("kind", axis.kind, "slides along, or turns about its axis");
+  f.text("name", axis.name, Need::required, "The name of the axis.");
+  f.choice("kind", axis.kind, "The kind of the axis: linear or rotary.");
   f.choice("carries", axis.carries,
-           "what it moves: the robot's base, or nothing that matters here but the time that it takes");
+           "The load of the axis: the robot's base, or nothing. The latter affects only the time of a move.");
   f.vector("origin_m", axis.origin, Need::optional,
-           "of its frame in the world, or on the axis before that carries");
-  f.vector("rpy_deg", axis.orientation, Need::optional, "roll, pitch, yaw of its frame");
-  f.vector("axis", axis.axis, Need::optional, "its direction in its frame");
+           "The origin of its frame in the world, or on the previous axis that carries the robot.");
+  f.vector("rpy_deg", axis.orientation, Need::optional, "Roll, pitch and yaw of its frame.");
+  f.vector("axis", axis.axis, Need::optional, "The direction of the axis in its frame.");
   const bool manual = axis.name.empty();
   if (axis.kind == ExternalAxis::Kind::linear) {
-    f.number("lower_mm", axis.lower, Need::required, any_number(), "lowest position");
-    f.number("upper_mm", axis.upper, Need::required, any_number(), "highest position");
-    f.number("speed_mm_per_s", axis.speed, Need::required, above(0), "highest speed");
-    f.number("acceleration_mm_per_s2", axis.acceleration, Need::required, above(0), "highest acceleration");
+    f.number("lower_mm", axis.lower, Need::required, any_number(), "The lowest position.");
+    f.number("upper_mm", axis.upper, Need::required, any_number(), "The highest position.");
+    f.number("speed_mm_per_s", axis.speed, Need::required, above(0), "The highest speed.");
+    f.number("acceleration_mm_per_s2", axis.acceleration, Need::required, above(0),
+             "The highest acceleration.");
   }
   if (axis.kind == ExternalAxis::Kind::linear && !manual) return;
   const Need need = manual ? Need::optional : Need::required;
-  f.number("lower_deg", axis.lower, need, any_number(), "of a rotary axis, likewise");
-  f.number("upper_deg", axis.upper, need, any_number(), "likewise");
-  f.number("speed_deg_per_s", axis.speed, need, above(0), "likewise");
-  f.number("acceleration_deg_per_s2", axis.acceleration, need, above(0), "likewise");
+  f.number("lower_deg", axis.lower, need, any_number(), "The lowest angle of a rotary axis.");
+  f.number("upper_deg", axis.upper, need, any_number(), "The highest angle of a rotary axis.");
+  f.number("speed_deg_per_s", axis.speed, need, above(0), "The highest speed of a rotary axis.");
+  f.number("acceleration_deg_per_s2", axis.acceleration, need, above(0),
+           "The highest acceleration of a rotary axis.");
 }
 
 void describe(Fields& f, MountingPoint& point) {
-  f.text("name", point.name, Need::required, "by which clamps refer to it");
-  f.text("link", point.link, Need::required, "link of the robot that carries it");
-  f.vector("position_m", point.position, Need::required, "in the link's frame");
+  f.text("name", point.name, Need::required, "The name by which clamps refer to the place.");
+  f.text("link", point.link, Need::required, "The link of the robot at this place.");
+  f.vector("position_m", point.position, Need::required, "The position in the link's frame.");
   f.vector("direction", point.direction, Need::required,
-           "of the dresspack there, from base to tool, in the link's frame");
+           "The direction of the dresspack there, from base to tool, in the link's frame.");
 }
 
 void describe(Fields& f, Link& link) {
-  f.text("name", link.name, Need::required, "name of the link, by which clamps refer to it");
-  f.list("capsules", link.capsules, Need::optional, "shape of the link for contact with the dresspack");
-  f.list("boxes", link.boxes, Need::optional, "more of its shape, in the link's frame");
-  f.list("meshes", link.meshes, Need::optional, "more of its shape, in the link's frame");
+  f.text("name", link.name, Need::required, "The name of the link. Clamps refer to it.");
+  f.list("capsules", link.capsules, Need::optional,
+         "Capsules that form the link for contact with the dresspack.");
+  f.list("boxes", link.boxes, Need::optional, "Boxes that form the link, in its frame.");
+  f.list("meshes", link.meshes, Need::optional, "Meshes that form the link, in its frame.");
 }
 
 void describe(Fields& f, Robot& robot) {
-  f.text("name", robot.name, Need::required, "type designation");
-  f.text("source", robot.source, Need::required, "where the numbers come from");
-  f.vector("base_position_m", robot.base_position, Need::optional, "of the base link in the world");
+  f.text("name", robot.name, Need::required, "The type designation.");
+  f.text("source", robot.source, Need::required, "The source of the numbers.");
+  f.vector("base_position_m", robot.base_position, Need::optional,
+           "The position of the base link in the world.");
   f.vector("base_rpy_deg", robot.base_orientation, Need::optional,
-           "roll, pitch, yaw of the base link in the world");
+           "Roll, pitch and yaw of the base link in the world.");
   f.vector("program_base_m", robot.program_base, Need::optional,
-           "origin of the frame that robot programs are written in, in the base link (Fanuc: at the height "
-           "of axis 2)");
+           "The origin of the frame of robot programs in the base link. For Fanuc it is at the height of "
+           "axis 2.");
   f.vector("program_base_rpy_deg", robot.program_orientation, Need::optional,
-           "roll, pitch, yaw of that frame in the base link (Universal Robots in ROS: 0, 0, 180)");
+           "Roll, pitch and yaw of that frame in the base link. For Universal Robots in ROS: 0, 0, 180.");
   f.vector("flange_position_m", robot.flange_position, Need::optional,
-           "of the flange frame (tool0) in the last link");
+           "The position of the flange frame (tool0) in the last link.");
   f.vector("flange_rpy_deg", robot.flange_orientation, Need::optional,
-           "its roll, pitch, yaw; z leaves the flange");
+           "Roll, pitch and yaw of the flange frame. Its z axis points away from the flange.");
   f.list("external_axes", robot.external_axes, Need::optional,
-         "drives besides the robot's own; tracks under it from the world on");
-  f.list("joints", robot.joints, Need::required, "the axes, from the base to the flange");
-  f.list("links", robot.links, Need::required, "base link first, then the link that each joint moves");
-  f.list("mounting_points", robot.mounting_points, Need::optional, "places to which dresspacks are clamped");
+         "Drives beside the robot's own. Tracks under the robot come first, from the world upwards.");
+  f.list("joints", robot.joints, Need::required, "The axes from the base to the flange.");
+  f.list("links", robot.links, Need::required, "The base link, then the link behind each joint.");
+  f.list("mounting_points", robot.mounting_points, Need::optional,
+         "The places at which dresspacks can be clamped.");
 }
 
 namespace {

@@ -9,74 +9,79 @@ namespace dresslife::pipeline {
 void describe(Fields& f, Clamp& clamp) {
   f.place(clamp.where);
   f.text("mounting_point", clamp.mounting_point, Need::optional,
-         "name of one of the robot's, instead of link, position_m and direction");
+         "The name of a mounting point of the robot, instead of link, position_m and direction.");
   const Need need = clamp.mounting_point.empty() ? Need::required : Need::optional;
-  f.text("link", clamp.link, need, "link of the robot that carries the clamp");
-  f.vector("position_m", clamp.position, need, "of the clamp in the link's frame");
+  f.text("link", clamp.link, need, "The link of the robot with the clamp.");
+  f.vector("position_m", clamp.position, need, "The position of the clamp in the link's frame.");
   f.vector("direction", clamp.direction, need,
-           "of the dresspack there, from base to tool, in the link's frame");
+           "The direction of the dresspack there, from base to tool, in the link's frame.");
   f.maybe_number("roll_deg", clamp.roll, between(-360, 360),
-                 "about the direction; without it 0 at the base clamp and free of twist at the others");
+                 "The angle of the clamp about the direction. Default: 0 at the base clamp, and the angle "
+                 "without twist at the others.");
 }
 
 void describe(Fields& f, IntermediateClamp& between) {
   describe(f, between.clamp);
   f.number("at_length_m", between.at_length, Need::required, above(0),
-           "of the dresspack from the base clamp to this one, unstretched");
+           "The unstretched length of the dresspack from the base clamp to this one.");
 }
 
 void describe(Fields& f, GuideRing& ring) {
   f.place(ring.where);
-  f.text("link", ring.link, Need::required, "link of the robot that carries the ring");
-  f.vector("position_m", ring.position, Need::required, "of the ring's centre in the link's frame");
+  f.text("link", ring.link, Need::required, "The link of the robot with the ring.");
+  f.vector("position_m", ring.position, Need::required,
+           "The position of the ring's centre in the link's frame.");
   f.vector("direction", ring.direction, Need::required,
-           "of the ring's axis, from base to tool, in the link's frame");
-  f.number("radius_mm", ring.radius, Need::required, above(0), "clear inner radius");
+           "The direction of the ring's axis, from base to tool, in the link's frame.");
+  f.number("radius_mm", ring.radius, Need::required, above(0), "The clear inner radius.");
   f.number("friction_coefficient", ring.friction, Need::optional, between(0, 2),
-           "Coulomb, dresspack against ring");
+           "The Coulomb friction of the dresspack on the ring.");
   f.number("width_mm", ring.width, Need::optional, at_least(0),
-           "of the ring along its axis: it guides at both edges");
+           "The width of the ring along its axis. Both edges guide the dresspack.");
   f.maybe_number(
       "at_length_m", ring.at_length, above(0),
-      "of dresspack from the base clamp to the ring when mounted; without it so that all pieces have slack "
-      "alike");
+      "The length of dresspack from the base clamp to the ring when mounted. Default: all pieces have the "
+      "same relative slack.");
 }
 
 void describe(Fields& f, Retraction& retraction) {
   f.place(retraction.where);
   f.number("force_N", retraction.force, Need::required, at_least(0),
-           "pulls the base clamp back against its direction, where it is not pulled out");
-  f.number("spring_N_per_m", retraction.spring, Need::optional, at_least(0), "more force per way pulled out");
-  f.number("stroke_m", retraction.stroke, Need::required, above(0), "largest way along its direction");
-  f.number("damping_Ns_per_m", retraction.damping, Need::optional, at_least(0), "of the sliding clamp");
-  f.number("friction_N", retraction.friction, Need::optional, at_least(0), "Coulomb, of the sliding clamp");
+           "The force that pulls the base clamp back against its direction in the retracted position.");
+  f.number("spring_N_per_m", retraction.spring, Need::optional, at_least(0),
+           "The additional force per distance.");
+  f.number("stroke_m", retraction.stroke, Need::required, above(0),
+           "The largest distance along the direction of the clamp.");
+  f.number("damping_Ns_per_m", retraction.damping, Need::optional, at_least(0),
+           "The viscous damping of the sliding clamp.");
+  f.number("friction_N", retraction.friction, Need::optional, at_least(0),
+           "The Coulomb friction of the sliding clamp.");
   f.number("mass_kg", retraction.mass, Need::optional, above(0),
-           "of what slides with the clamp, without the dresspack between the clamps");
+           "The mass that slides with the clamp, without the dresspack between the clamps.");
 }
 
 void describe(Fields& f, Routing& routing) {
   f.place(routing.where);
   f.number("free_length_m", routing.free_length, Need::required, above(0),
-           "free length of dresspack between the clamps");
-  f.maybe_group("base_clamp", routing.base_clamp, "the clamp nearer to the robot's base");
-  f.maybe_group("tool_clamp", routing.tool_clamp, "the clamp nearer to the tool");
+           "The free length of the dresspack between the clamps.");
+  f.maybe_group("base_clamp", routing.base_clamp, "The clamp nearer to the robot's base.");
+  f.maybe_group("tool_clamp", routing.tool_clamp, "The clamp nearer to the tool.");
   f.list("clamps", routing.clamps, Need::optional,
-         "further clamps between the two, in their order along the dresspack, which grip it in place, "
-         "direction and "
-         "twist");
+         "Further clamps between the two, in their order along the dresspack. They fix its place, direction "
+         "and twist.");
   f.list("rings", routing.rings, Need::optional,
-         "guide rings in which the dresspack slides and turns, in their order along it");
+         "Guide rings in which the dresspack slides and turns, in their order along it.");
   f.maybe_group("retraction", routing.retraction,
-                "spring-returned slack: the base clamp slides along its direction and is pulled back");
+                "A spring return: the base clamp slides along its direction and a spring pulls it back.");
   f.number("pre_twist_deg", routing.pre_twist, Need::optional, between(-36000, 36000),
-           "by which the tool clamp is turned when it is mounted, on top of what its roll_deg says");
+           "The angle by which the tool clamp is turned when it is mounted, in addition to its roll_deg.");
   f.choice("tool_end", routing.tool_end,
-           "free: the dresspack hangs from its last clamp, without a tool_clamp");
+           "The end at the tool. free: the dresspack hangs from its last clamp, without a tool_clamp.");
   f.number("tool_mass_kg", routing.tool_mass, Need::optional, at_least(0),
-           "hung at the end of a dresspack whose tool_end is free");
+           "The mass at the end of a dresspack whose tool_end is free.");
   f.numbers("mounting_pose_deg", routing.mounting_pose, Need::optional,
-            "joint angles at which the dresspack was clamped free of twist; without it the first target; of "
-            "several dresspacks all that give one give the same, and all are clamped in it");
+            "The joint angles at which the dresspack was clamped without twist. Default: the first target. "
+            "It is one pose for all dresspacks.");
 }
 
 namespace {

@@ -6,10 +6,10 @@ namespace dresslife::pipeline {
 
 void describe(Fields& f, MountedDresspack& mounted) {
   f.place(mounted.where);
-  f.text("name", mounted.name, Need::required, "a name that tells it from the others, without '/'");
+  f.text("name", mounted.name, Need::required, "A unique name without '/'.");
   f.group("dresspack", mounted.dresspack, Need::required,
-          "a name of config/dresspacks, a file, or the entry itself");
-  f.group("routing", mounted.routing, Need::required, "clamps and free length");
+          "The dresspack: a name of config/dresspacks, a file, or the keys themselves.");
+  f.group("routing", mounted.routing, Need::required, "The clamps and the free length.");
 }
 
 std::vector<double> free_lengths(const Setup& setup) {

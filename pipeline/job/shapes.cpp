@@ -10,29 +10,30 @@ Eigen::Quaterniond from_roll_pitch_yaw(const Vector3d& angles) {
 }
 
 void describe(Fields& f, Capsule& capsule) {
-  f.vector("from_m", capsule.from, Need::required, "one end of the capsule's axis, in the link's frame");
-  f.vector("to_m", capsule.to, Need::required, "the other end");
-  f.number("radius_mm", capsule.radius, Need::required, above(0), "radius of the capsule");
+  f.vector("from_m", capsule.from, Need::required,
+           "One end of the capsule's axis, in the frame of the link or the world.");
+  f.vector("to_m", capsule.to, Need::required, "The other end of the capsule's axis.");
+  f.number("radius_mm", capsule.radius, Need::required, above(0), "The radius of the capsule.");
 }
 
 void describe(Fields& f, Box& box) {
-  f.vector("position_m", box.position, Need::optional, "of the box's centre");
-  f.vector("rpy_deg", box.orientation, Need::optional, "roll, pitch, yaw of the box");
-  f.vector("sides_m", box.sides, Need::required, "its full lengths along its own axes");
+  f.vector("position_m", box.position, Need::optional, "The position of the box's centre.");
+  f.vector("rpy_deg", box.orientation, Need::optional, "Roll, pitch and yaw of the box.");
+  f.vector("sides_m", box.sides, Need::required, "The full lengths of the box along its own axes.");
 }
 
 void describe(Fields& f, MeshFile& mesh) {
-  f.path("file", mesh.file, Need::required, "triangles as STL or OBJ");
+  f.path("file", mesh.file, Need::required, "A file of triangles as STL or OBJ.");
   f.number("scale", mesh.scale, Need::optional, above(0),
-           "metres per unit of the file: 0.001 for millimetres");
-  f.vector("position_m", mesh.position, Need::optional, "of the file's origin");
-  f.vector("rpy_deg", mesh.orientation, Need::optional, "roll, pitch, yaw of the file's axes");
+           "The metres per unit of the file: 0.001 for millimetres.");
+  f.vector("position_m", mesh.position, Need::optional, "The position of the file's origin.");
+  f.vector("rpy_deg", mesh.orientation, Need::optional, "Roll, pitch and yaw of the file's axes.");
 }
 
 void describe(Fields& f, Cell& cell) {
-  f.list("capsules", cell.capsules, Need::optional, "posts, pipes and round edges, in the world's frame");
-  f.list("boxes", cell.boxes, Need::optional, "tables and cabinets, in the world's frame");
-  f.list("meshes", cell.meshes, Need::optional, "fixtures, in the world's frame");
+  f.list("capsules", cell.capsules, Need::optional, "Posts, pipes and round edges, in the world's frame.");
+  f.list("boxes", cell.boxes, Need::optional, "Tables and cabinets, in the world's frame.");
+  f.list("meshes", cell.meshes, Need::optional, "Fixtures, in the world's frame.");
 }
 
 void check_boxes(const std::vector<Box>& boxes, const Where& where) {

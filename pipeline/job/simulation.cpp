@@ -8,26 +8,27 @@ namespace dresslife::pipeline {
 
 void describe(Fields& f, Simulation& simulation) {
   f.integer("segments", simulation.segments, Need::optional, between(4, 2000),
-            "rigid segments of each dresspack's chain");
+            "The number of rigid segments of each dresspack.");
   f.number_or_word(
       "time_step_ms", simulation.time_step, simulation.choose_time_step, "auto", Need::optional,
       between(0.01, 20),
-      "integration step; auto: the first repeat chooses the one that keeps to curvature_error_percent");
+      "The integration step. auto: the first repeat chooses the step by curvature_error_percent.");
   f.number(
       "curvature_error_percent", simulation.curvature_error, Need::optional, above(0),
-      "largest estimated rms error of the curvature that a chosen step may leave in the liveliest seconds");
+      "The largest estimated rms error of the curvature in the fastest seconds, for an automatic step.");
   f.number("sample_rate_Hz", simulation.sample_rate, Need::optional, between(0.1, 10000),
-           "of motion.h5; a whole number of steps lies between samples");
-  f.vector("gravity_m_per_s2", simulation.gravity, Need::optional, "acceleration of free fall in the world");
-  f.boolean("contact", simulation.contact, Need::optional, "whether the dresspack touches the robot's links");
+           "The sample rate of motion.h5. The time between samples is a whole number of steps.");
+  f.vector("gravity_m_per_s2", simulation.gravity, Need::optional, "The gravity in the world.");
+  f.boolean("contact", simulation.contact, Need::optional,
+            "Whether the dresspack touches the robot's links.");
   f.boolean("self_contact", simulation.self_contact, Need::optional,
-            "whether dresspacks touch themselves and each other");
-  f.boolean("floor", simulation.floor, Need::optional, "whether the plane z = 0 is a floor");
+            "Whether dresspacks touch themselves and each other.");
+  f.boolean("floor", simulation.floor, Need::optional, "Whether the plane z = 0 is a floor.");
   f.number("periodic_tolerance_mm", simulation.periodic_tolerance, Need::optional, above(0),
-           "a motion that returns is repeated until the dresspack begins two repeats this much alike; the "
-           "last one counts");
+           "The largest difference of the dresspack at the beginning of two repeats. A periodic motion is "
+           "repeated until it is met, and the last repeat counts.");
   f.integer("most_repeats", simulation.most_repeats, Need::optional, between(1, 1000),
-            "of the motion, also when they do not begin alike");
+            "The largest number of repeats of the motion.");
 }
 
 void check_simulation(const Simulation& simulation, const Where& where) {

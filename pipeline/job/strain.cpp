@@ -6,42 +6,43 @@ namespace dresslife::pipeline {
 
 void describe(Fields& f, Probe& probe) {
   f.integer("segment_from_tool", probe.segment_from_tool, Need::required, at_least(1),
-            "segment, counted from the tool");
-  f.text("component", probe.component, Need::required, "path of a wire, as in /site/component");
+            "The number of the segment, from the tool.");
+  f.text("component", probe.component, Need::required, "The path of a wire, as in /site/component.");
 }
 
 void describe(Fields& f, Strain& strain) {
-  f.choice("deformation", strain.deformation, "how curvature and twist are measured");
-  f.choice("kinematics", strain.kinematics, "nested helices: the geometry itself, or (12)..(23)");
+  f.choice("deformation", strain.deformation, "The measure of curvature and twist.");
+  f.choice("kinematics", strain.kinematics,
+           "The model of nested helices: the exact geometry, or equations (12) to (23) of the thesis.");
   f.choices("slip", strain.slip,
-            "between a part and its parent; one word, or one per level, outermost first");
+            "The slip between a part and its parent: one word, or one per level from the outermost. "
+            "friction is the best estimate; free and stick are its bounds.");
   f.choice(
       "equivalent", strain.equivalent,
-      "strain that is counted: along the fibre; with the shear of the wire's torsion, signed "
-      "sqrt(eps^2 + gamma^2/3); or the latter and, for the likely worst wires, that across the plane that it "
-      "damages most");
+      "The strain that is counted. axial: along the fibre. shear_included: with the shear of the wire's "
+      "torsion, signed sqrt(eps^2 + gamma^2/3). critical_plane: for the likely worst wires the strain "
+      "across the plane with the largest damage.");
   f.integer("surface_fibres", strain.surface_fibres, Need::optional, between(0, 64),
-            "fibres on each wire's surface: 1 the outward one, more equally spaced, 0 the axis");
+            "The number of fibres on each wire's surface. 1: the outer one. 0: the axis.");
   f.number("gate", strain.gate, Need::optional, between(0, 0.1),
-           "turning points of smaller strain ranges are dropped");
+           "The strain range below which turning points are dropped.");
   f.integer(
       "cable_elements_per_segment", strain.cable_elements, Need::optional, between(0, most_cable_elements),
-      "pieces into which loose cables are cut, which lie in shorter waves than a segment resolves; 0: as many as their "
-      "slack and room ask for, at least 2, and 64 in all. Twice as many cost them twice the time and leave a quarter of "
-      "the error (loose_mesh_error of strain.h5)");
+      "The number of pieces per segment of loose cables, which bend in shorter waves than the hose. 0: by "
+      "their slack and room, at least 2 per segment and 64 in all. Twice as many take twice the time and "
+      "leave a quarter of the error (loose_mesh_error of strain.h5).");
   const auto factor = [&](const char* key, double& value, const char* meaning) {
     f.number(key, value, Need::optional, between(1e-3, 1e3), meaning);
   };
   factor(
       "friction_factor", strain.factors.friction,
-      "of friction times pressure inside the cables, also where a measured stiffness sets it; to try what is "
-      "not known");
+      "A factor on friction times pressure inside the cables, for trials. It also holds where a measured stiffness sets them.");
   factor("hose_friction_factor", strain.factors.hose_friction,
-         "of the friction of cables in a hose; likewise");
-  factor("slack_factor", strain.factors.slack, "of slack_percent; likewise");
-  factor("play_factor", strain.factors.play, "of how far loose cables can leave their places; likewise");
-  factor("grip_factor", strain.factors.grip, "of base_grip_N and tool_grip_N; likewise");
-  f.list("probes", strain.probes, Need::optional, "wires whose whole strain history is kept");
+         "A factor on the friction of cables in a hose, for trials.");
+  factor("slack_factor", strain.factors.slack, "A factor on slack_percent, for trials.");
+  factor("play_factor", strain.factors.play, "A factor on the distance that loose cables can move, for trials.");
+  factor("grip_factor", strain.factors.grip, "A factor on base_grip_N and tool_grip_N, for trials.");
+  f.list("probes", strain.probes, Need::optional, "The wires whose whole strain history is kept.");
 }
 
 }  // namespace dresslife::pipeline

@@ -2,7 +2,7 @@
 //
 // Every parameter has a standardised variable z, before anything is measured standard normal and independent
 // of the others. It acts on a job through one ordinary key, whose default changes nothing:
-//     logarithmic   key = exp(deviation z), a factor;   else   key = deviation z, an addend.
+//     logarithmic   key = step^z, a factor;   else   key = step z, an addend.
 // So `--set strain.friction_factor=2.5` is friction at z = 1. A job's own spread (section `uncertainty`)
 // makes the prior of z narrower or wider and leaves what z means alone: z of a calibration holds for every
 // job.
@@ -38,16 +38,16 @@ struct UncertainParameter {
   std::string_view name;  ///< as in calibrations and tables: "friction_inside"
   std::string_view key;   ///< of the job: "strain.friction_factor"
   bool logarithmic;       ///< the key is a factor; else an addend
-  double deviation;       ///< of ln(key), or of the key, at z = 1
+  double step;            ///< the key at z = 1: a factor, or an addend
   bool of_strain;         ///< moves what dresslife-strain works out; else only what dresslife-fatigue does
   SharedBy shared;
-  std::string_view meaning;  ///< "friction times pressure inside the cables"
   std::string_view source;   ///< of the deviation
   std::string_view measure;  ///< what a user would measure to know it better
   std::string_view cause;    ///< as the subject of a sentence: "the friction inside the cables"
   std::string_view test;     ///< that would tell it, and how long that takes: "One bending test of a cable (one hour)"
   double test_deviation;     ///< error of that test: one deviation of ln(key), or of the key. ESTIMATE
 
+  double deviation() const;      ///< of ln(key), or of the key
   double value(double z) const;  ///< of the key
   double z_of(double value) const;
 };

@@ -297,7 +297,7 @@ std::array<double, cause_count> shares_of(const FailureModes& modes, const std::
 ParameterKnowledge tested(const ParameterKnowledge& known, std::size_t parameter) {
   const UncertainParameter& of = uncertain_parameters()[parameter];
   const auto at = static_cast<Eigen::Index>(parameter);
-  const double error = of.test_deviation / of.deviation;  // of z
+  const double error = of.test_deviation / of.deviation();  // of z
   ParameterKnowledge after = known;
   const Eigen::VectorXd column = known.covariance.col(at);
   after.covariance -= column * column.transpose() / (known.covariance(at, at) + error * error);

@@ -377,35 +377,40 @@ Node sheet_from_line(const Node& line) {
 void describe(Fields& f, DataSheet& sheet) {
   f.place(sheet.where);
   f.integer("cores", sheet.cores, Need::required, between(1, 200),
-            "in the cable, or groups of them: the 7 of 7 x 0.5 mm2");
+            "The number of cores in the cable, or of their groups: the 7 of 7 x 0.5 mm2.");
   f.integer("cores_per_group", sheet.cores_per_group, Need::optional, between(1, 8),
-            "twisted together first: 2 of a cable of pairs, the second number of 4 x 2 x 0.25 mm2");
+            "The number of cores that are first twisted together: 2 in a cable of pairs, the second number "
+            "of 4 x 2 x 0.25 mm2.");
   f.number("cross_section_mm2", sheet.cross_section, Need::required, above(0),
-           "nominal, of the metal of one core");
+           "The nominal cross-section of the metal of one core.");
   f.integer("conductor_class", sheet.conductor_class, Need::optional, between(0, fine_class),
-            "5 or 6 of IEC 60228, 0: not given; by it the standards' rules stand in for lengths that are not given, as ESTIMATES");
+            "The class 5 or 6 of IEC 60228. With it the rules of the standards estimate the lengths that "
+            "are not given. 0: not given.");
   f.maybe_number("wire_diameter_mm", sheet.wire_diameter, above(0),
-                 "of the core's single wires; without it by the class: 0.15 of class 6 from 0.5 to 4 mm2");
+                 "The diameter of the single wires of a core. Default: by the class, 0.15 of class 6 from "
+                 "0.5 to 4 mm2.");
   f.maybe_number("outer_diameter_mm", sheet.outer_diameter, above(0),
-                 "of the cable; without it, and with a class, from the cores outwards");
+                 "The diameter of the cable. Default: with a class, the sum from the cores outwards.");
   f.maybe_number(
       "jacket_thickness_mm", sheet.jacket_thickness, at_least(0),
-      "with tapes and screens; what it leaves is filled by the cores if core_diameter_mm is not given; without both, and "
-      "with a class, 1 mm and 3.5 % of the width of the cores (IEC 60502-1)");
+      "The thickness of the jacket with tapes and screens. The cores fill the rest if core_diameter_mm is "
+      "not given. Default: with a class, 1 mm and 3.5 % of the width of the cores (IEC 60502-1).");
   f.maybe_number("core_diameter_mm", sheet.core_diameter, above(0),
-                 "of a core over its insulation; without it, with a class and without outer_diameter_mm by EN 50525");
+                 "The diameter of a core over its insulation. Default: with a class and without "
+                 "outer_diameter_mm, by EN 50525.");
   f.maybe_number("lay_length_mm", sheet.lay_length, above(0),
-                 "of the cores, or groups; without it 12 times their width");
+                 "The lay length of the cores or groups. Default: 12 times their width.");
   f.maybe_number("group_lay_length_mm", sheet.group_lay_length, above(0),
-                 "of the cores in a group; without it 12 times the group's width");
+                 "The lay length of the cores in a group. Default: 12 times the group's width.");
   f.maybe_number("wire_lay_length_mm", sheet.wire_lay_length, above(0),
-                 "of the wires in a core; without it 16 times the conductor's width");
-  f.text("material", sheet.material, Need::optional, "of the wires, a name of config/materials");
+                 "The lay length of the wires in a core. Default: 16 times the conductor's width.");
+  f.text("material", sheet.material, Need::optional,
+         "The material of the wires: a name of config/materials.");
   f.maybe_number("friction_coefficient", sheet.friction, between(0, 1e6),
-                 "Coulomb, of cores and wires; without it 0.3, an ESTIMATE");
+                 "The Coulomb friction of cores and wires. Default: 0.3, an ESTIMATE.");
   f.maybe_number("jacket_pressure_MPa", sheet.jacket_pressure, at_least(0),
-                 "on cores and wires, each by its width; without it 0.17, an ESTIMATE by the friction of published cables; "
-                 "measured_bending_stiffness_Nm2 beside data_sheet sets its level");
+                 "The pressure of the jacket on cores and wires. Default: 0.17, an ESTIMATE by the friction "
+                 "of published cables. measured_bending_stiffness_Nm2 beside data_sheet sets its level.");
 }
 
 std::vector<Ring> packed(int count, double diameter, double lay_length, Fillers fillers, const Where& where) {

@@ -115,13 +115,16 @@ Dresspack read_dresspack(const std::filesystem::path& file, std::string& faults)
   return dresspack;
 }
 
-std::string job_manual() {
+std::vector<KeyRow> job_keys() {
   const Describe both_forms = [](Fields& f) {
     Job job;
     describe_keys(f, job, {true, true});
   };
-  return field_manual("job", both_forms) + field_manual<UrdfRequest>("job.robot from a URDF") +
-         field_manual<DataSheet>("dresspack.components from a data sheet (key data_sheet)");
+  std::vector<KeyRow> rows = key_rows("job", both_forms);
+  for (const std::vector<KeyRow>& more : {key_rows<UrdfRequest>("robot from a URDF"),
+                                          key_rows<DataSheet>("dresspack.components[].data_sheet")})
+    rows.insert(rows.end(), more.begin(), more.end());
+  return rows;
 }
 
 }  // namespace dresslife::pipeline

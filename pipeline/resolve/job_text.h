@@ -10,6 +10,8 @@
 
 namespace dresslife::pipeline {
 
+struct KeyRow;  // settings/fields.h
+
 struct Dresspack;
 struct Job;
 struct Setup;
@@ -43,7 +45,7 @@ Dresspack read_dresspack(const std::filesystem::path& file);
 /// line each; then what is taken from the construction stays 0.
 Dresspack read_dresspack(const std::filesystem::path& file, std::string& faults);
 
-/// Every key of a job, as Markdown tables.
-std::string job_manual();
+/// Every key of a job.
+std::vector<KeyRow> job_keys();
 
 }  // namespace dresslife::pipeline

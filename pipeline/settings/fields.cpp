@@ -37,10 +37,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::string default_or(Need need, const std::string& fallback) {
-  return need == Need::required ? "required" : fallback;
-}
-
 std::string unit_note(Fields::Key key) {
   const Unit& unit = unit_of_key(key);
   return unit.name.empty() ? "" : fmt::format(" {}", unit.name);
@@ -237,7 +233,17 @@ class FieldReader final : public Fields {
   };
 
   [[noreturn]] static void refuse(const Node& node, const std::string& what, std::string_view meaning) {
-    throw InputError(node.where, what, fmt::format("give {}", meaning));
+    throw InputError(node.where, what, "give " + named(meaning));
+  }
+
+  /// The first sentence, within another one: "the outer diameter of the hose".
+  static std::string named(std::string_view meaning) {
+    const std::size_t end = meaning.find(". ");
+    std::string first(meaning.substr(0, end));
+    if (first.ends_with('.')) first.pop_back();
+    if (first.size() > 1 && std::islower(static_cast<unsigned char>(first[1])))  // else a symbol, such as E
+      first[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(first[0])));
+    return first;
   }
 
   /// Hands the key's value to `take`, where the map has one that nobody has refused; what take throws is a
@@ -274,22 +280,22 @@ class FieldReader final : public Fields {
                                    node.is_scalar() ? fmt::format("'{}'", node.text) : "not one value",
                                    word.empty() ? "" : fmt::format(" or {}", word),
                                    unit.empty() ? "" : fmt::format(", the unit is in the key:{}", unit)),
-                       fmt::format("give {}", meaning));
+                       "give " + named(meaning));
     }
     if (!std::isfinite(*value))
       throw InputError(node.where, fmt::format("{} is {} (must be finite)", name_of(key), node.text),
-                       fmt::format("give {}", meaning));
+                       "give " + named(meaning));
     if (!range.holds(*value))
       throw InputError(
           node.where,
           fmt::format("{} is {} (must be {}{})", name_of(key), node.text, range.text(), unit_note(key)),
-          fmt::format("give {}", meaning));
+          "give " + named(meaning));
     const Unit& unit = unit_of_key(key);
     if (std::abs(*value) > unit.most || (range.low_excluded && range.low == 0 && *value < unit.least()))
       throw InputError(node.where,
                        fmt::format("{} is {} (its size must be {} .. {}{})", name_of(key), node.text,
                                    range.low_excluded ? unit.least() : 0.0, unit.most, unit_note(key)),
-                       fmt::format("give {}", meaning));
+                       "give " + named(meaning));
     return *value;
   }
 
@@ -299,7 +305,7 @@ class FieldReader final : public Fields {
         if (node.text == words[i]) return static_cast<int>(i);
     throw InputError(node.where,
                      fmt::format("{} is '{}' (must be {})", name_of(key), node.text, joined(words)),
-                     fmt::format("give {}", meaning));
+                     "give " + named(meaning));
   }
 
   std::string likely_key(const Level& level, const std::string& unknown, std::string& remedy) const {
@@ -334,7 +340,7 @@ class FieldReader final : public Fields {
     for (const auto& [key, meaning] : level.missing)
       if (std::find(misnamed.begin(), misnamed.end(), key) == misnamed.end())
         problems_.add(level.map->where, fmt::format("{} is missing", path_of(key)),
-                      fmt::format("add '{}: ...': {}", key, meaning), path_of(key));
+                      fmt::format("add '{}: ...': {}", key, named(meaning)), path_of(key));
   }
 
   Problems& problems_;
@@ -455,138 +461,125 @@ class FieldEcho final : public Fields {
 };
 // ---- manual -----------------------------------------------------------------------------------------------
 
-class FieldManual final : public Fields {
+class KeyLister final : public Fields {
  public:
-  /// One Markdown table per map, each under a heading; `title` heads the root.
-  std::string finish() {
-    done_[0] = open_[0];
-    std::string text;
-    for (const Table& table : done_)
-      text +=
-          fmt::format("### {}\n\n| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n{}\n",
-                      table.path, table.rows);
-    return text;
-  }
+  explicit KeyLister(std::string title) { open(std::move(title), ""); }
 
-  explicit FieldManual(std::string title) {
-    open_.push_back({std::move(title), "", ""});
-    slots_.push_back(0);
-    done_.emplace_back();
+  std::vector<KeyRow> finish() {
+    std::vector<KeyRow> rows;
+    for (Map& map : maps_) std::move(map.rows.begin(), map.rows.end(), std::back_inserter(rows));
+    return rows;
   }
 
   void text(Key key, std::string& value, Need need, std::string_view meaning) override {
-    row(key, "text", default_or(need, value.empty() ? "none" : value), meaning);
+    row(key, need, "text", value.empty() ? "none" : value, meaning);
   }
 
   void number(Key key, double& value, Need need, Range range, std::string_view meaning) override {
-    row(key, range.text(), default_or(need, text_in_unit(value, unit_of_key(key))), meaning);
+    row(key, need, range.text(), text_in_unit(value, unit_of_key(key)), meaning);
   }
 
   void maybe_number(Key key, std::optional<double>&, Range range, std::string_view meaning) override {
-    row(key, range.text(), "none", meaning);
+    row(key, Need::optional, range.text(), "none", meaning);
   }
 
   void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need, Range range,
                       std::string_view meaning) override {
-    row(key, fmt::format("{} \\| {}", range.text(), word),
-        default_or(need, by_word ? std::string(word) : text_in_unit(value, unit_of_key(key))), meaning);
+    row(key, need, fmt::format("{} | {}", range.text(), word),
+        by_word ? std::string(word) : text_in_unit(value, unit_of_key(key)), meaning);
   }
 
   void integer(Key key, int& value, Need need, Range range, std::string_view meaning) override {
-    row(key, "whole, " + range.text(), default_or(need, std::to_string(value)), meaning);
+    row(key, need, "whole, " + range.text(), std::to_string(value), meaning);
   }
 
   void boolean(Key key, bool& value, Need need, std::string_view meaning) override {
-    row(key, "true \\| false", default_or(need, value ? "true" : "false"), meaning);
+    row(key, need, "true | false", value ? "true" : "false", meaning);
   }
 
   void vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) override {
     const Unit& unit = unit_of_key(key);
-    row(key, "[x, y, z]",
-        default_or(need, fmt::format("[{}, {}, {}]", text_in_unit(value[0], unit),
-                                     text_in_unit(value[1], unit), text_in_unit(value[2], unit))),
+    row(key, need, "[x, y, z]",
+        fmt::format("[{}, {}, {}]", text_in_unit(value[0], unit), text_in_unit(value[1], unit),
+                    text_in_unit(value[2], unit)),
         meaning);
   }
 
   void numbers(Key key, std::vector<double>&, Need need, std::string_view meaning) override {
-    row(key, "list of numbers", default_or(need, "none"), meaning);
+    row(key, need, "list of numbers", "none", meaning);
   }
 
   void path(Key key, std::filesystem::path&, Need need, std::string_view meaning) override {
-    row(key, "file", default_or(need, "none"), meaning);
+    row(key, need, "file", "none", meaning);
   }
 
   void place(Where&) override {}
 
  protected:
   void choose(Key key, int& index, const Words& words, std::string_view meaning) override {
-    row(key, fmt::format("{}", fmt::join(words, " \\| ")), std::string(words[index]), meaning);
+    row(key, Need::optional, fmt::format("{}", fmt::join(words, " | ")), std::string(words[index]), meaning);
   }
 
-  void choose_some(Key key, std::vector<int>& indices, const Words& words,
-                   std::string_view meaning) override {
-    row(key, fmt::format("{}; one, or a list", fmt::join(words, " \\| ")),
+  void choose_some(Key key, std::vector<int>& indices, const Words& words, std::string_view meaning) override {
+    row(key, Need::optional, fmt::format("{}; one, or a list", fmt::join(words, " | ")),
         indices.empty() ? "none" : std::string(words[indices[0]]), meaning);
   }
 
   bool enter(Key key, Need need, bool, std::string_view meaning, const char* type) override {
-    const bool above = stands_above(key, type);
-    row(key, "map", need == Need::required ? "required" : "see below",
-        fmt::format("{}{}", meaning, above ? "; its keys are those above" : ""));
-    return !above && open(key, "", type);
+    // A written map is a file that a user may name: its key stays in the manual, and its keys do not.
+    const bool listed = need != Need::written && map_of(type).empty();
+    row(key, need == Need::required ? Need::required : Need::optional, "map", "none",
+        std::string(meaning) + reference(type));
+    if (listed) open(path_of(key, ""), type);
+    return listed;
   }
+  void leave() override { open_.pop_back(); }
 
-  void leave() override {
-    if (open_.back().path.ends_with("[]")) return;  // the list closes it
-    done_[slots_.back()] = open_.back();
-    slots_.pop_back();
-    open_.pop_back();
+  std::size_t enter_list(Key key, std::size_t, Need need, std::string_view meaning, const char* type) override {
+    const bool listed = map_of(type).empty();
+    row(key, need, "list of maps", "none", std::string(meaning) + reference(type));
+    if (listed) open(path_of(key, "[]"), type);
+    return listed ? 1 : 0;
   }
-
-  std::size_t enter_list(Key key, std::size_t, Need need, std::string_view meaning,
-                         const char* type) override {
-    row(key, "list of maps", default_or(need, "none"), meaning);
-    if (open(key, "[]", type)) return 1;
-    open_.push_back({"", "", ""});
-    slots_.push_back(done_.size());
-    return 0;
-  }
-
+  // The one item of a list leaves the map that enter_list() has opened.
   void enter_item(std::size_t) override {}
-  void leave_list() override {
-    if (!open_.back().path.empty()) done_[slots_.back()] = open_.back();
-    slots_.pop_back();
-    open_.pop_back();
-  }
+  void leave_list() override {}
 
  private:
-  struct Table {
-    std::string path, type, rows;
+  struct Map {
+    std::string path, type;
+    std::vector<KeyRow> rows;
   };
-  void row(Key key, const std::string& allowed, const std::string& fallback, std::string_view meaning) {
-    open_.back().rows +=
-        fmt::format("| `{}` | {} | {} | {} | {} |\n", key, unit_of_key(key).name, allowed, fallback, meaning);
+
+  void row(Key key, Need need, const std::string& allowed, const std::string& fallback, std::string_view meaning) {
+    if (need == Need::written) return;
+    Map& map = maps_[open_.back()];
+    map.rows.push_back({map.path, std::string(key), std::string(unit_of_key(key).name), allowed,
+                        need == Need::required ? "required" : fallback, std::string(meaning)});
   }
 
-  /// Whether a key of the root has this name and type.
-  bool stands_above(Key key, const char* type) const {
-    return std::any_of(done_.begin(), done_.end(),
-                       [&](const Table& table) { return table.path == key && table.type == type; });
+  /// The map that lists the keys of this type; empty: none yet.
+  std::string map_of(const std::string& type) const {
+    const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const Map& map) { return map.type == type; });
+    return found == maps_.end() ? "" : found->path;
   }
 
-  bool open(Key key, const std::string& suffix, const char* type) {
-    for (const Table& table : open_)
-      if (table.type == type) return false;  // a struct within itself: its table stands already
-    const std::string parent = open_.size() == 1 ? "" : open_.back().path + ".";
-    slots_.push_back(done_.size());
-    done_.emplace_back();
-    open_.push_back({fmt::format("{}{}{}", parent, key, suffix), type, ""});
-    return true;
+  std::string reference(const char* type) const {
+    const std::string map = map_of(type);
+    return map.empty() ? "" : fmt::format(" Its keys are those of `{}`.", map);
   }
 
-  std::vector<Table> open_;
-  std::vector<std::size_t> slots_;
-  std::vector<Table> done_;  ///< in the order of opening
+  std::string path_of(Key key, const char* suffix) const {
+    return fmt::format("{}{}{}", open_.size() == 1 ? "" : maps_[open_.back()].path + ".", key, suffix);
+  }
+
+  void open(std::string path, const char* type) {
+    open_.push_back(maps_.size());
+    maps_.push_back({std::move(path), type, {}});
+  }
+
+  std::vector<Map> maps_;          ///< in the order of opening
+  std::vector<std::size_t> open_;  ///< their places, outermost first
 };
 
 }  // namespace
@@ -611,10 +604,28 @@ Node echo_fields(const Describe& described, const PathText& path_text) {
   return echo.finish();
 }
 
-std::string field_manual(const std::string& title, const Describe& described) {
-  FieldManual manual(title);
-  described(manual);
-  return manual.finish();
+std::vector<KeyRow> key_rows(const std::string& title, const Describe& described) {
+  KeyLister lister(title);
+  described(lister);
+  return lister.finish();
+}
+
+std::string key_tables(const std::vector<KeyRow>& rows) {
+  const auto cell = [](const std::string& text) {  // a bar would end the cell
+    std::string escaped;
+    for (const char c : text) escaped += c == '|' ? "\\|" : std::string(1, c);
+    return escaped;
+  };
+  std::string text, map;
+  for (const KeyRow& row : rows) {
+    if (row.map != map)
+      text += fmt::format("{}### {}\n\n| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n",
+                          map.empty() ? "" : "\n", row.map);
+    map = row.map;
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.key, row.unit, cell(row.allowed), row.fallback,
+                        cell(row.meaning));
+  }
+  return text;
 }
 
 }  // namespace dresslife::pipeline

@@ -1,13 +1,14 @@
 // Describe a settings struct once; read, check, echo and document it from that.
 //
 //   void describe(Fields& f, Hose& hose) {
-//     f.number("diameter_mm", hose.diameter, Need::required, above(0), "outer diameter");
+//     f.number("diameter_mm", hose.diameter, Need::required, above(0), "The outer diameter.");
 //   }
 //
 // The unit is the end of the key (units.h). What a struct holds before it is described is its default. Three
-// visitors walk the same describe(): read_fields() from a document, echo_fields() to one, field_manual() to
-// Markdown. A key that nobody describes, a missing or non-finite value and a value outside its range are
-// problems that name the place, the reason and the remedy; a reader goes on behind each and tells of all.
+// visitors walk the same describe(): read_fields() from a document, echo_fields() to one, key_rows() to the
+// manual. A meaning is made of whole sentences. Its first sentence names the value, and messages print it after
+// "give". A key without a description, a missing or non-finite value and a value outside its range are problems
+// with place, reason and remedy. A reader continues after a problem and reports all of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +26,8 @@
 
 namespace dresslife::pipeline {
 
-enum class Need { required, optional };
+/// written: optional, and only our programs write it. The manual leaves out the key, or the keys of a map.
+enum class Need { required, optional, written };
 
 /// Allowed values, in the unit of the key.
 struct Range {
@@ -94,8 +96,8 @@ class Fields {
     leave();
   }
   template <class T>
-  void maybe_group(Key key, std::optional<T>& value, std::string_view meaning) {
-    if (!enter(key, Need::optional, value.has_value(), meaning, typeid(T).name())) return;
+  void maybe_group(Key key, std::optional<T>& value, std::string_view meaning, Need need = Need::optional) {
+    if (!enter(key, need, value.has_value(), meaning, typeid(T).name())) return;
     if (!value) value.emplace();
     describe(*this, *value);
     leave();
@@ -135,8 +137,16 @@ void read_fields(const Node& node, const Describe& described, Problems& problems
 using PathText = std::function<std::string(const std::filesystem::path&)>;
 /// To a map, with defaults filled in.
 Node echo_fields(const Describe& described, const PathText& path_text = {});
-/// One Markdown table per map, each under a heading; `title` heads the root.
-std::string field_manual(const std::string& title, const Describe& described);
+/// One key in the manual.
+struct KeyRow {
+  std::string map;  ///< that holds the key: "routing.base_clamp", "motion.steps[]"; of the root its title
+  std::string key, unit, allowed, fallback, meaning;
+};
+/// All keys, map by map in the order of their description; `title` names the root. The keys of a struct that stands in
+/// several places are in the first of them, and the other places refer to it.
+std::vector<KeyRow> key_rows(const std::string& title, const Describe& described);
+/// A Markdown table per map, each under a heading.
+std::string key_tables(const std::vector<KeyRow>& rows);
 
 template <class T>
 void read_fields(const Node& node, T& value) {
@@ -149,9 +159,9 @@ Node echo_fields(T value) {
 }
 
 template <class T>
-std::string field_manual(const std::string& title) {
+std::vector<KeyRow> key_rows(const std::string& title) {
   T value{};
-  return field_manual(title, Describe([&](Fields& f) { describe(f, value); }));
+  return key_rows(title, Describe([&](Fields& f) { describe(f, value); }));
 }
 
 /// The word nearest to `word` by edit distance; empty when none is near.

@@ -69,7 +69,7 @@ void add_options(CLI::App& app, const std::vector<Option>& options) {
     CLI::Option* const added = std::visit(Adder{app, option}, option.target);
     if (!std::holds_alternative<bool*>(option.target)) added->type_name(option.value);
     added->required(option.rules.required)->default_str(default_text(option));
-    if (!option.rules.choices.empty()) added->check(CLI::IsMember(option.rules.choices));
+    if (!option.rules.choices.empty() && !option.rules.other_values) added->check(CLI::IsMember(option.rules.choices));
     if (!option.rules.needs.empty()) added->needs(option.rules.needs);
   }
 }

@@ -25,6 +25,7 @@ struct OptionRules {
   bool required = false;
   std::optional<std::array<double, 2>> range = {};  ///< smallest and largest value of a number
   std::vector<std::string> choices = {};            ///< the values that are allowed; empty: any
+  bool other_values = false;                        ///< beside the choices, which completions offer
   std::string needs = {};                           ///< another option, which must be given as well
   std::optional<std::string> shown_default = {};    ///< absent: the value of the variable before the line is read
 };

@@ -38,12 +38,12 @@ struct Sample {
 };
 
 void describe(Fields& f, Sample& sample) {
-  f.integer("jobs", sample.jobs, Need::required, between(1, most_jobs), "draws");
-  f.integer("seed", sample.seed, Need::optional, between(0, 1e9), "another one gives other draws");
+  f.integer("jobs", sample.jobs, Need::required, between(1, most_jobs), "The number of samples.");
+  f.integer("seed", sample.seed, Need::optional, between(0, 1e9), "The seed of the random numbers.");
   f.choice(
       "method", sample.method,
-      "latin_hypercube: each nth of a distribution once; random: each draw by itself, so that more `jobs` leave those "
-      "before as they were");
+      "The method of sampling. latin_hypercube: each nth of a distribution once. random: independent "
+      "samples, so that more `jobs` keep the previous ones.");
 }
 
 }  // namespace
@@ -149,9 +149,6 @@ std::vector<Variant> sampled_variants(const Node& section) {
   return variants;
 }
 
-std::string sampling_manual() {
-  return field_manual<Sample>(
-      "study.sample (beside its `keys`: key paths with `!normal`, `!uniform` or `!choice`)");
-}
+std::vector<KeyRow> sampling_keys() { return key_rows<Sample>("study.sample"); }
 
 }  // namespace dresslife::pipeline

@@ -27,6 +27,8 @@
 
 namespace dresslife::pipeline {
 
+struct KeyRow;  // settings/fields.h
+
 class Fields;
 
 class Distribution {
@@ -64,7 +66,7 @@ std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, cons
 /// The section `sample` of a study as variants draw_1, draw_2, ... Errors: InputError.
 std::vector<Variant> sampled_variants(const Node& section);
 
-/// Its keys, as Markdown.
-std::string sampling_manual();
+/// Its keys beside its `keys`.
+std::vector<KeyRow> sampling_keys();
 
 }  // namespace dresslife::pipeline

@@ -233,27 +233,33 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
   return study;
 }
 
-std::string study_manual() {
-  return "### study\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n"
-         "| `name` | text | name of the file | folder of the results under `runs/` |\n"
-         "| `base` | a name of config/jobs, a file, or the job itself | required | the job from which all "
-         "others deviate |\n"
-         "| `vary` | map of key paths to lists of values | none | every combination of the values becomes a "
-         "job |\n"
-         "| `jobs` | map of names to maps of key paths and values | none | named deviations from the base; "
-         "with `vary`, each of them is varied |\n"
-         "| `table` | a CSV file | none | a fleet, one job per row: `name`, and a key path as the title of every other "
-         "column (`program` stands for `motion`); an empty cell leaves the base as it is; further rows run alone |\n"
-         "| `keep` | `all`, `histories`, `lives` | `all` | what stays of a job that is done: all its files; strain.h5 and "
-         "life.h5; what the ranking says, and no result's file. Nothing is to do for lack of the others; a job whose settings "
-         "change is then made from its beginning |\n"
-         "| `free` | map of key paths to what they may be | none | what `dresslife improve` may change: `LOW .. HIGH`, `SPREAD "
-         "around` (the job's own value), `ANGLE deg around` (a direction), `LOW .. HIGH along LINK` (a position), or a list; "
-         "`dresslife run` leaves it alone |\n"
-         "| `limits` | `contact_force_N`, `tension_N` | none | what `dresslife improve` keeps besides the checks |\n"
-         "| `sample` | map | none | keys whose values are drawn, for each of the jobs that the other "
-         "sections make |\n\n" +
-         sampling_manual();
+std::vector<KeyRow> study_keys() {
+  std::vector<KeyRow> rows{
+      {"study", "name", "", "text", "name of the file", "The folder of the results under `runs/`."},
+      {"study", "base", "", "a name of config/jobs, a file, or the job itself", "required",
+       "The job. All jobs of the study are variants of it."},
+      {"study", "vary", "", "map of key paths to lists of values", "none",
+       "The values of keys. Every combination of the values becomes a job."},
+      {"study", "jobs", "", "map of names to maps of key paths and values", "none",
+       "The changes of single named jobs. With `vary`, each of them is varied."},
+      {"study", "table", "", "a CSV file", "none",
+       "A table with one job per row, such as a fleet. It has a column `name`. The title of every other column is a key "
+       "path, and `program` stands for `motion`. An empty cell leaves the base as it is. Appended rows do not change "
+       "the others."},
+      {"study", "keep", "", "all | histories | lives", "all",
+       "The files that stay after a job is done. histories: strain.h5 and life.h5. lives: only the rows of the ranking. "
+       "Missing files alone do not start a job again. A job with changed settings starts from its beginning."},
+      {"study", "free", "", "map of key paths to ranges", "none",
+       "The keys that `dresslife improve` may change: `LOW .. HIGH`, `SPREAD around` the job's own value, `ANGLE deg "
+       "around` a direction, `LOW .. HIGH along LINK` for a position, or a list. `dresslife run` does not read it."},
+      {"study", "limits", "", "contact_force_N, tension_N", "none",
+       "Further limits of `dresslife improve`."},
+      {"study", "sample", "", "map", "none",
+       "The keys that are sampled at random for each of the other jobs: its `keys` are key paths with `!normal`, "
+       "`!uniform` or `!choice`."}};
+  const std::vector<KeyRow> sampling = sampling_keys();
+  rows.insert(rows.end(), sampling.begin(), sampling.end());
+  return rows;
 }
 
 }  // namespace dresslife::pipeline

@@ -22,6 +22,8 @@
 
 namespace dresslife::pipeline {
 
+struct KeyRow;  // settings/fields.h
+
 struct Job;
 
 struct StudyJob {
@@ -54,7 +56,7 @@ std::string study_name(const std::filesystem::path& file);
 /// `failure`.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
 
-/// The keys of a study file, as Markdown.
-std::string study_manual();
+/// The keys of a study file.
+std::vector<KeyRow> study_keys();
 
 }  // namespace dresslife::pipeline

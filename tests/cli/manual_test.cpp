@@ -1,5 +1,5 @@
 // The generated pages are what the code says.
-#include <cmath>
+#include <sstream>
 
 #include "tests/catch.h"
 #include "tests/cli/process.h"
@@ -19,4 +19,29 @@ TEST_CASE("the key and file references in the READMEs are fresh") {
     INFO("run scripts/manual to refresh " << page);
     CHECK(text.substr(at + marker.size()) == "\n" + manual.out);
   }
+}
+
+TEST_CASE("manual prints one key, by its path, the end of its path or its name") {
+  Scratch scratch;
+  const auto paths = [&](const std::string& key) {
+    const Outcome manual = run(scratch, "dresslife", "manual " + key);
+    REQUIRE(manual.status == 0);
+    std::string found;
+    std::istringstream lines(manual.out);
+    for (std::string line; std::getline(lines, line);)
+      if (!line.empty() && line[0] != ' ') found += line + " ";
+    return found;
+  };
+  CHECK(paths("motion") == "motion ");
+  CHECK(paths("job.fatigue.scatter_log10") == "fatigue.scatter_log10 ");
+  CHECK(paths("dresspack.components.2.count") == "dresspack.components[].count ");  // as --set names it
+  CHECK(paths("base_clamp.link") == "routing.base_clamp.link ");
+  CHECK(paths("routing.tool_clamp.link").find("routing.base_clamp.link ") != std::string::npos);  // the same keys
+  const Outcome text = run(scratch, "dresslife", "manual free_length_m");
+  CHECK(text.out ==
+        "routing.free_length_m\n  The free length of the dresspack between the clamps.\n  allowed: > 0, unit m\n  default: "
+        "required\n");
+  const Outcome unknown = run(scratch, "dresslife", "manual slack_procent");
+  CHECK(unknown.status == 1);
+  CHECK(unknown.err.find("did you mean 'slack_percent'?") != std::string::npos);
 }

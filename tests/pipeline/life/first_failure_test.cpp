@@ -17,7 +17,7 @@ constexpr double decile = 1.2815515655446004;  // of the normal distribution
 // Of a percentile's place among 10,000 samples that are spread evenly over each cause: measured 0.004 at worst
 // over 20 names.
 constexpr double sampling_error = 0.02;
-const double model_decades = uncertain_parameters()[model].deviation / std::log(10.0);
+const double model_decades = uncertain_parameters()[model].deviation() / std::log(10.0);
 
 double normal(double z) { return std::erfc(-z / std::sqrt(2.0)) / 2; }
 
@@ -136,7 +136,7 @@ TEST_CASE("the best test is that of the cause that spreads most, and its range i
   const FirstFailures lives = summary_of({straight(a, 0, c)}, "job");
   REQUIRE(lives.best_test == friction);
   const UncertainParameter& of = uncertain_parameters()[friction];
-  const double error = of.test_deviation / of.deviation, left = error * error / (1 + error * error);
+  const double error = of.test_deviation / of.deviation(), left = error * error / (1 + error * error);
   const double deviation =
       std::sqrt(a * a * left + c * c + model_decades * model_decades + by_scatter * by_scatter);
   CHECK(std::log10(lives.after_test[0]) == Approx(5 - decile * deviation).margin(sampling_error));

@@ -13,7 +13,7 @@ constexpr double rounding = 1e-12;
 constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = index_of(Uncertain::slack),
                       strength = index_of(Uncertain::strength), scatter = index_of(Uncertain::scatter),
                       model = index_of(Uncertain::model);
-const double model_decades = uncertain_parameters()[model].deviation / std::log(10.0);
+const double model_decades = uncertain_parameters()[model].deviation() / std::log(10.0);
 
 /// log10 life 5 +- 0.1 (10 and 90 %) by scatter, -a friction - b slack + c strength, all straight.
 LifeResponse straight(double a, double b, double c) {

@@ -1,10 +1,13 @@
 #include "pipeline/job/job.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/settings/fields.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
@@ -524,18 +527,28 @@ TEST_CASE("job: the time step is a number or left to the run") {
 }
 
 TEST_CASE("job: the manual lists every key once with unit, range, default and meaning") {
-  const std::string manual = job_manual();
+  const std::vector<KeyRow> rows = job_keys();
+  const std::string manual = key_tables(rows);
   CHECK(manual.find("### job\n") == 0);
-  CHECK(manual.find(
-            "| `free_length_m` | m | > 0 | required | free length of dresspack between the clamps |\n") !=
+  CHECK(manual.find("| `free_length_m` | m | > 0 | required | The free length of the dresspack between the clamps. |\n") !=
         std::string::npos);
-  CHECK(manual.find("| `time_step_ms` | ms | 0.01 .. 20 \\| auto | 5 | integration step; auto: ") !=
+  CHECK(manual.find("| `time_step_ms` | ms | 0.01 .. 20 \\| auto | 5 | The integration step. ") != std::string::npos);
+  CHECK(manual.find("| `hand` |  | right \\| left | right | The direction of the helix: right (Z) or left (S). |\n") !=
         std::string::npos);
-  CHECK(manual.find("| `hand` |  | right \\| left | right | of the helix: right (Z) or left (S) |\n") !=
-        std::string::npos);
-  CHECK(manual.find("### motion.steps[]\n") != std::string::npos);
-  CHECK(manual.find("### motion.steps[].steps[]") ==
-        std::string::npos);  // a struct within itself stands once
+  std::set<std::string> paths;
+  for (const KeyRow& row : rows) {
+    INFO(row.map << "." << row.key << ": " << row.meaning);
+    CHECK(paths.insert(row.map + "." + row.key).second);
+    CHECK((row.meaning.ends_with('.') || row.meaning.ends_with(".`")));
+    // Whole sentences begin with a capital letter, but where they begin with a choice: "torsion: the length ...".
+    CHECK((std::isupper(static_cast<unsigned char>(row.meaning[0])) != 0 || row.meaning.find(": ") < 20));
+    CHECK(std::count_if(row.fallback.begin(), row.fallback.end(), [](char c) { return std::isdigit(c) != 0; }) < 8);
+    CHECK(row.map.find("calibration") == std::string::npos);
+  }
+  // A struct within itself, or in a second place, refers to the first one.
+  CHECK(manual.find("### motion.steps[].steps[]") == std::string::npos);
+  CHECK(manual.find("### routing.tool_clamp") == std::string::npos);
+  CHECK(manual.find("The clamp nearer to the tool. Its keys are those of `routing.base_clamp`.") != std::string::npos);
 }
 
 }  // namespace
