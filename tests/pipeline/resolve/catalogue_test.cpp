@@ -233,13 +233,13 @@ TEST_CASE("set: mistakes are shown as they were typed") {
         "--set simulation.segments.more=3: error: 'more' of simulation.segments.more lies inside a single "
         "value; shorten the path");
   CHECK(set_error("simulation.segments=-1") ==
-        "--set simulation.segments=-1: error: simulation.segments is -1 (must be 4 .. 2000); give rigid "
-        "segments of each dresspack's chain");
+        "--set simulation.segments=-1: error: simulation.segments is -1 (must be 4 .. 2000); give the number of "
+        "rigid segments of each dresspack");
   CHECK(set_error("simulation.segmens=5") ==
         "--set simulation.segmens=5: error: unknown key 'simulation.segmens'; did you mean 'segments'?");
   CHECK(set_error("simulation.segments=") ==
-        "--set simulation.segments=: error: simulation.segments has no value; give rigid segments of "
-        "each dresspack's chain");
+        "--set simulation.segments=: error: simulation.segments has no value; give the number of rigid segments of "
+        "each dresspack");
   CHECK(set_error("simulation.segments=[1").find("--set simulation.segments=[1") == 0);
 }
 

@@ -141,7 +141,7 @@ TEST_CASE("dresspacks: what is wrong with the list is told where it stands") {
   check(edited(list, "sensor cable", "a/b"), "name: a/b",
         "name 'a/b' holds a '/'; choose another: it begins the paths of the dresspack's wires");
   check(edited(list, "sensor cable", "''"), "''",
-        "dresspacks[2].name must be text; give a name that tells it from the others, without '/'");
+        "dresspacks[2].name must be text; give A unique name without '/'");
   CHECK(
       message_of([&] { job_of_text(list, {"motion={clamp_poses: poses.csv}"}); })
           .find(

@@ -109,32 +109,30 @@ TEST_CASE("job: duplicate keys are refused") {
 TEST_CASE("job: missing keys are named with their meaning") {
   check_case(
       {"  damping_source: guessed\n", "", "name: test hose",
-       "dresspack.damping_source is missing; add 'damping_source: ...': where the damping comes from: life "
-       "depends on it"});
+       "dresspack.damping_source is missing; add 'damping_source: ...': the source of the damping"});
   check_case(
       {"link: arm, ", "", "{position_m: [0.4",
-       "routing.tool_clamp.link is missing; add 'link: ...': link of the robot that carries the clamp"});
+       "routing.tool_clamp.link is missing; add 'link: ...': the link of the robot with the clamp"});
   check_case({"  tool_clamp: {link: arm, position_m: [0.4, 0, 0], direction: [1, 0, 0], roll_deg: 12}\n", "",
               "free_length_m",
               "routing.tool_clamp is missing; give link, position_m and direction of the clamp"});
   check_case({"free_length_m: 1.2", "free_length_m:", "free_length_m:",
-              "routing.free_length_m has no value; give free length of dresspack between the clamps"});
+              "routing.free_length_m has no value; give the free length of the dresspack between the clamps"});
 }
 
 TEST_CASE("job: numbers out of range are refused with the range and its unit") {
   check_case(
       {"free_length_m: 1.2", "free_length_m: -1.2", "-1.2",
-       "routing.free_length_m is -1.2 (must be > 0 m); give free length of dresspack between the clamps"});
+       "routing.free_length_m is -1.2 (must be > 0 m); give the free length of the dresspack between the clamps"});
   check_case({"segments: 20", "segments: 3", "3, time_step",
-              "simulation.segments is 3 (must be 4 .. 2000); give rigid segments of each dresspack's chain"});
+              "simulation.segments is 3 (must be 4 .. 2000); give the number of rigid segments of each dresspack"});
   check_case({"damping_time_ms: 10", "damping_time_ms: -1", "-1\n",
-              "dresspack.damping_time_ms is -1 (must be >= 0 ms); give Kelvin-Voigt time of bending and "
-              "twist, from a "
-              "decay test"});
+              "dresspack.damping_time_ms is -1 (must be >= 0 ms); give the Kelvin-Voigt time of bending and twist, "
+              "from a decay test"});
   check_case(
       {"lay_angle_deg: 25", "lay_angle_deg: 61", "61, hand",
-       "dresspack.components[1].components[1].lay_angle_deg is 61 (must be 0 .. 60 deg); give angle to the "
-       "parent's axis (alpha)"});
+       "dresspack.components[1].components[1].lay_angle_deg is 61 (must be 0 .. 60 deg); give the angle between the "
+       "part and the parent's axis (alpha)"});
 }
 
 TEST_CASE("job: numbers that are not finite are refused") {
@@ -142,23 +140,23 @@ TEST_CASE("job: numbers that are not finite are refused") {
     check_case({"free_length_m: 1.2", std::string("free_length_m: ") + word,
                 std::string(word) + "\n  base_clamp",
                 std::string("routing.free_length_m is ") + word +
-                    " (must be finite); give free length of dresspack between the clamps"});
+                    " (must be finite); give the free length of the dresspack between the clamps"});
   check_case(
       {"position_m: [0, 0, 0.2]", "position_m: [0, .nan, 0.2]", ".nan",
-       "routing.base_clamp.position_m is .nan (must be finite); give of the clamp in the link's frame"});
+       "routing.base_clamp.position_m is .nan (must be finite); give the position of the clamp in the link's frame"});
 }
 
 TEST_CASE("job: what is not a number is refused with a reminder of the unit") {
   check_case(
       {"free_length_m: 1.2", "free_length_m: 1.2 m", "1.2 m\n",
-       "routing.free_length_m is '1.2 m' (must be a number, the unit is in the key: m); give free length of "
+       "routing.free_length_m is '1.2 m' (must be a number, the unit is in the key: m); give the free length of the "
        "dresspack between the clamps"});
   check_case(
       {"segments: 20", "segments: many", "many",
-       "simulation.segments is 'many' (must be a number); give rigid segments of each dresspack's chain"});
+       "simulation.segments is 'many' (must be a number); give the number of rigid segments of each dresspack"});
   check_case({"segments: 20", "segments: [20]", "[20]",
-              "simulation.segments is not one value (must be a number); give rigid segments of each "
-              "dresspack's chain"});
+              "simulation.segments is not one value (must be a number); give the number of rigid segments of each "
+              "dresspack"});
   for (const char* word : {"0x10", "1_000", "1,5", "+-5", "1e", "--1", "1.2.3"}) {
     const std::string text = edited(sample_job, "gate: 1e-4", std::string("gate: '") + word + "'");
     CHECK(message_of([&] { job_of_text(text); }).find("must be a number") != std::string::npos);
@@ -178,40 +176,37 @@ TEST_CASE("job: numbers may be written in every usual way") {
 
 TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are told apart") {
   check_case({"segments: 20", "segments: 20.5", "20.5",
-              "simulation.segments is 20.5 (must be a whole number); give rigid segments of each dresspack's "
-              "chain"});
+              "simulation.segments is 20.5 (must be a whole number); give the number of rigid segments of each "
+              "dresspack"});
   check_case(
       {"mean_stress: swt", "mean_stress: goodman", "goodman",
-       "fatigue.mean_stress is 'goodman' (must be none | morrow | swt | walker); give correction of the "
-       "strain-life curve"});
+       "fatigue.mean_stress is 'goodman' (must be none | morrow | swt | walker); give the correction of the "
+       "strain-life curve for mean stress"});
   check_case({"slip: [stick, free]", "slip: [stick, glued]", "glued",
-              "strain.slip is 'glued' (must be free | stick | friction); give between a part and its parent; "
-              "one word, "
-              "or one per "
-              "level, outermost first"});
+              "strain.slip is 'glued' (must be free | stick | friction); give the slip between a part and its "
+              "parent: one word, or one per level from the outermost"});
   check_case({"slip: [stick, free]", "slip: []", "[], gate",
-              "strain.slip is an empty list; give between a part and its parent; one word, or one per level, "
-              "outermost "
-              "first"});
+              "strain.slip is an empty list; give the slip between a part and its parent: one word, or one per "
+              "level from the outermost"});
   check_case({"contact: false", "contact: no", "no}",
               "simulation.contact is 'no' (must be true or false); give whether the dresspack touches the "
               "robot's links"});
   check_case({"name: test hose", "name: [a, b]", "[a, b]",
-              "dresspack.name must be text; give name of the dresspack"});
+              "dresspack.name must be text; give the name of the dresspack"});
   check_case(
       {"routing:\n", "routing: 3\nunused:\n", "3\nunused",
-       "routing must be a map of settings; give clamps and free length\n"
-       "job.yaml:45:1: error: unknown key 'unused'; keys here: motion, robot, dresspack, routing, cell, "
-       "simulation, strain, fatigue, uncertainty, calibration"});
+       "routing must be a map of settings; give the clamps and the free length\njob.yaml:45:1: error: unknown key "
+       "'unused'; keys here: motion, robot, dresspack, routing, cell, simulation, strain, fatigue, uncertainty, "
+       "calibration"});
   check_case({"probes: [{segment_from_tool: 2, component: cable 1/wire 1}]", "probes: all", "all}",
-              "strain.probes must be a list; give wires whose whole strain history is kept"});
+              "strain.probes must be a list; give the wires whose whole strain history is kept"});
   check_case({"probes: [{segment_from_tool: 2, component: cable 1/wire 1}]", "probes: [cable 1]", "cable 1]",
               "strain.probes[1] must be a map of settings; write {key: value, ...}"});
 }
 
 TEST_CASE("job: lists have the length that they must have") {
   check_case({"position_m: [0, 0, 0.2]", "position_m: [0, 0]", "[0, 0], direction",
-              "routing.base_clamp.position_m must be three numbers [x, y, z]; give of the clamp in the "
+              "routing.base_clamp.position_m must be three numbers [x, y, z]; give the position of the clamp in the "
               "link's frame"});
   check_case({"joints_deg: [10.7, -5]", "joints_deg: [10.7]", "{joints_deg: [10.7]",
               "joints_deg has 1 angles (the robot has 2 axes); give one angle per axis"});
@@ -224,9 +219,8 @@ TEST_CASE("job: lists have the length that they must have") {
       {"    - name: arm\n", "", "name: two axes",
        "robot has 2 joints and 2 links (must be one link more); list the base link and one link per joint"});
   check_case({"joints_deg: [10.7, -5]", "joints_deg: []", "[], speed",
-              "motion.steps[2].steps[1].joints_deg must be a list of numbers; give target of a joint move, "
-              "one angle per "
-              "axis"});
+              "motion.steps[2].steps[1].joints_deg must be a list of numbers; give the target of a move: one angle "
+              "per axis"});
 }
 
 TEST_CASE("job: a material may be a table of measured lives instead of a metal's constants") {
@@ -359,7 +353,7 @@ TEST_CASE("job: a dresspack may have limits of its maker") {
   CHECK(job.dresspacks[0].dresspack.most_twist.value() == Approx(90 * degree));
   CHECK_FALSE(job_of_text(sample_job).dresspacks[0].dresspack.most_twist);
   CHECK_THAT(message_of([&] { job_of_text(with("most_twist_deg_per_m: 0")); }),
-             Catch::Contains("dresspack.most_twist_deg_per_m is 0 (must be > 0 deg/m); give that"));
+             Catch::Contains("dresspack.most_twist_deg_per_m is 0 (must be > 0 deg/m); give the"));
 }
 
 TEST_CASE("job: what contradicts itself is refused") {

@@ -83,8 +83,8 @@ TEST_CASE("study: a job that cannot be run is told with its place, the others st
   CHECK(study.jobs[0].failure.empty());
   CHECK(study.jobs[2].failure.empty());
   CHECK(study.jobs[1].failure == place_of(text, "3, 40", (scratch / "my study.yaml").string()) +
-                                     ": error: simulation.segments is 3 (must be 4 .. 2000); give rigid "
-                                     "segments of each dresspack's chain");
+                                     ": error: simulation.segments is 3 (must be 4 .. 2000); give the number of "
+                                     "rigid segments of each dresspack");
 }
 
 TEST_CASE("study: --set comes after the study's own changes") {

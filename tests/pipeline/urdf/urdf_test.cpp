@@ -180,7 +180,7 @@ TEST_CASE("urdf: what is wrong is told with its line") {
           "<joint name=\"j4\"", "joint 'j4' does not turn (only the base may slide); choose another tip");
   refused("lower=\"-6\" upper=\"6\" effort=\"0\" velocity=\"6\"",
           "lower=\"-6\" upper=\"6\" effort=\"0\" velocity=\"0\"", "<joint name=\"j4\"",
-          "joints[5].speed_deg_per_s is 0 (must be > 0 deg/s); give highest speed");
+          "joints[5].speed_deg_per_s is 0 (must be > 0 deg/s); give the highest speed");
   UrdfRequest slow = request();
   slow.accelerations.pop_back();
   told(palletizer, "<joint name=\"j4\"", "joints[5].acceleration_deg_per_s2 is missing", slow);
