@@ -195,6 +195,12 @@ TEST_CASE("stiffness: the mass of a construction is that of wires, polymer and w
   pack.inner_diameter = 0.011;
   CHECK(mass_of_construction(pack) ==
         Approx(metal + left + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
+  Dresspack laid = pack;
+  laid.components[0].lay_angle = 0.3;  // a metre of hose holds more than a metre of a laid part
+  laid.components[0].laying.mass = 0.5;
+  Dresspack straight = laid;
+  straight.components[0].lay_angle = 0;
+  CHECK(mass_of_construction(laid) - mass_of_construction(straight) == Approx(0.5 / std::cos(0.3) - 0.5).epsilon(1e-12));
   pack.components[0].laying.mass = 0.5;
   CHECK(mass_of_construction(pack) == Approx(0.5 + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
 }

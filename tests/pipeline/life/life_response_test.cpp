@@ -55,6 +55,13 @@ TEST_CASE("a straight response is straight between its points and beyond them") 
   CHECK(response.log10_life({}, 1.2815515655446004) == Approx(5.1));
 }
 
+TEST_CASE("each side of the median has the spread of its own percentile") {
+  LifeResponse response = straight(0, 0, 0);
+  response.planned = {{2, 3, 3.4}};
+  for (const auto& [tenths, life] : {std::pair{-1, 2.0}, std::pair{0, 3.0}, std::pair{1, 3.4}})
+    CHECK(response.log10_life({}, tenths * 1.2815515655446004) == Approx(life));
+}
+
 TEST_CASE("a parameter by itself adds to the crossed ones, whatever they are") {
   LifeResponse response = straight(0.6, 0.2, 0);
   response.points.push_back({}), response.points.back()[index_of(Uncertain::play)] = 1.5;

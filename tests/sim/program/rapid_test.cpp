@@ -102,6 +102,12 @@ TEST_CASE("rapid: Offs shifts in the work object, RelTool in the tool") {
   CHECK(r.move(0).target.pose.orientation.isApprox(Quaternion(0, 1, 0, 0) * rotation({0, 0, 90 * degree}),
                                                    rounding));
   CHECK((r.move(1).target.pose.position - Vector3(0.1, 0.2, 0.31)).norm() < rounding);
+  // About x, then about the y and z axes that the turn before has moved.
+  const Reading turned = run("MoveL RelTool(p1,0,0,0\\Rx:=30\\Ry:=20\\Rz:=40),v100,fine,tool0;");
+  const Quaternion expected = Quaternion(0, 1, 0, 0) * Eigen::AngleAxisd(30 * degree, Vector3::UnitX()) *
+                              Eigen::AngleAxisd(20 * degree, Vector3::UnitY()) *
+                              Eigen::AngleAxisd(40 * degree, Vector3::UnitZ());
+  CHECK(turned.move(0).target.pose.orientation.isApprox(expected, rounding));
 }
 
 TEST_CASE("rapid: loops, procedures with arguments, functions, arrays and records") {

@@ -301,6 +301,50 @@ pipeline::Robot on_track(pipeline::ExternalAxis::Carries carries) {
 
 }  // namespace
 
+TEST_CASE("legs: behind a corner between unequal lines the tool is on the second line within its zone") {
+  constexpr double zone = 0.05, near = 1e-3;  // [m] a line's share of a longer line would end 11 mm off
+  pipeline::MotionStep first = to(PathKind::joint, corner - Vector3(0, 0.1, 0), 0.25, 0);
+  first.tool_speed.reset();
+  const JointMotion motion_of_it(
+      motion({first, to(PathKind::linear, corner, 0.25, zone), to(PathKind::linear, corner + Vector3(0, 0, 0.4), 0.25, 0)}),
+      arm());
+  const InverseKinematics kinematics(arm());
+  int behind = 0, before = 0;
+  for (double t = 0; t < motion_of_it.duration(); t += 1e-3) {
+    const Vector3 off = kinematics.flange(motion_of_it.position(t)).position - corner;
+    if (off.z() > 1.1 * zone) CHECK((++behind, std::hypot(off.x(), off.y())) < near);
+    if (off.y() < -1.1 * zone) CHECK((++before, std::hypot(off.x(), off.z())) < near);
+  }
+  CHECK(behind > 100);
+  CHECK(before > 50);
+}
+
+TEST_CASE("legs: a stop zone cuts a corner by its share of the way in which the robot would stop") {
+  const auto cornering = [](std::optional<double> percent, double zone) {
+    pipeline::MotionStep first = to(PathKind::joint, corner - Vector3(0, 0.3, 0), 0.5, 0),
+                         line = to(PathKind::linear, corner, 0.5, zone);
+    first.tool_speed.reset();
+    if (percent) line.tool_zone.reset(), line.stop_zone = percent;
+    return JointMotion(motion({first, line, to(PathKind::linear, corner + Vector3(0, 0, 0.3), 0.5, 0)}), arm()).duration();
+  };
+  // What the axes can brake along the line's chord in joint space, in m/s2 of the tool.
+  const InverseKinematics kinematics(arm());
+  const double half = std::sqrt(0.5);
+  const Quaternion forward(half, 0, half, 0);
+  const VectorXd middle = VectorXd::Zero(6);
+  std::string reason;
+  const auto from = kinematics.solve({corner - Vector3(0, 0.3, 0), forward}, {}, middle, reason);
+  const auto until = kinematics.solve({corner, forward}, {}, middle, reason);
+  REQUIRE((from && until));
+  double brake = std::numeric_limits<double>::infinity();
+  for (long i = 0; i < 6; ++i)
+    brake = std::min(brake, arm().joints[static_cast<std::size_t>(i)].acceleration / std::abs((*until - *from)[i]) * 0.3);
+  const double way = 0.5 * 0.5 / (2 * brake);
+  CHECK(cornering(100, 0) == Approx(cornering({}, way)).epsilon(1e-6));
+  CHECK(cornering(50, 0) == Approx(cornering({}, way / 2)).epsilon(1e-6));
+  CHECK(cornering({}, way) < 0.999 * cornering({}, way / 2));  // the zone matters for the time
+}
+
 TEST_CASE("legs: a track carries the robot along while its tool keeps to the line in the cell") {
   const pipeline::Robot robot = on_track(pipeline::ExternalAxis::Carries::robot);
   const InverseKinematics kinematics(robot);

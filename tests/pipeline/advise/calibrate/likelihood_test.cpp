@@ -28,6 +28,14 @@ TEST_CASE("likelihood: one specimen that broke, that has not, and that had by th
   CHECK(value(life(LifeEnd::at_most, 2, 3, 0.5)) == Approx(log_normal_share(-2)));
 }
 
+TEST_CASE("likelihood: the unshared spread of one specimen widens run-outs and upper bounds, too") {
+  for (const auto& [end, sign] : {std::pair{LifeEnd::at_least, 1}, std::pair{LifeEnd::at_most, -1}}) {
+    ObservedLife one = life(end, 2, 2.3, 0.4);
+    one.unshared_spread = 0.3;  // with 0.4 a spread of 0.5
+    CHECK(value(one) == Approx(log_normal_share(sign * 0.6)));
+  }
+}
+
 TEST_CASE("likelihood: several specimens share what their spool does to them") {
   const ObservedLife apart = life(LifeEnd::at_least, 2, 2.3, 0.5, 3);
   CHECK(value(apart) == Approx(3 * log_normal_share(0.6)).epsilon(1e-9));
