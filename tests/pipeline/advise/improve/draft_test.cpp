@@ -8,8 +8,12 @@
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/scaled.h"
 #include "pipeline/base/errors.h"
+#include "pipeline/files/check_names.h"
+#include "pipeline/files/receipt.h"
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/study/build_graph.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -84,6 +88,41 @@ TEST_CASE("the worst of several jobs has the least life and the most of each lim
   RankingRow lost;  // done, it says, but what its simulation noted is gone
   lost.planned_hours = {1, 2, 3};
   CHECK(outcome_of(lost, "nowhere").failure == "nowhere/.stage/sim.receipt cannot be read; run again");
+}
+
+TEST_CASE("a check counts as passed on the far side of its limit, and as kept on the near side") {
+  struct {
+    const char* name;
+    double value, limit, beyond;  // its limit alone is passed by that much; 0: kept
+  } const cases[] = {
+      {check_name::bend_radius, 0.2, 0.25, std::log(1.25)}, {check_name::bend_radius, 0.3, 0.25, 0},
+      {check_name::twist, 3.6, 3, 0.2},                     {check_name::twist, -3.6, 3, 0.2},
+      {check_name::twist, -2.4, 3, 0},                      {check_name::tension, 50, 40, std::log(1.25)},
+      {check_name::tension, 30, 40, 0},                     {check_name::contact_force, 50, 40, std::log(50 / 45.0)},
+      {check_name::contact_force, 43, 40, 0},               {check_name::travel, 0.5, 0.4, 0.25},
+      {check_name::travel, 0.39, 0.4, 0},
+  };
+  const RankingRow done = [] {
+    RankingRow row;
+    row.planned_hours = {1, 2, 3};
+    return row;
+  }();
+  for (const auto& one : cases) {
+    INFO(one.name << " " << one.value << " of " << one.limit);
+    Scratch scratch;
+    const std::filesystem::path output = scratch.write("job/motion.h5", "what the receipt is of"), folder = output.parent_path();
+    const std::filesystem::path receipt = folder / files_of_stage(0).receipt;
+    std::filesystem::create_directories(receipt.parent_path());
+    Receipt made;
+    made.recipe = "recipe", made.input = "-", made.output = "output";
+    made.told = {{"checks", fmt::format("{} {} {}\n", one.value, one.limit, one.name)}};
+    write_receipt(receipt, made, output);
+    AskedLimits asked;
+    asked.contact_force = 45;
+    const Outcome outcome = outcome_of(done, folder, asked);
+    CHECK(outcome.failure == "");
+    CHECK(outcome.violation() == Approx(one.beyond).margin(1e-8));  // a full stroke counts by 1e-9
+  }
 }
 
 }  // namespace dresslife::pipeline
