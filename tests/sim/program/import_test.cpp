@@ -1,8 +1,11 @@
 #include <numbers>
 #include <random>
 
+#include "pipeline/job/job.h"
 #include "pipeline/job/motion.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
+#include "sim/robot/motion.h"
 #include "tests/catch.h"
 #include "tests/sim/program/fuzz_target.h"
 #include "tests/sim/program/reading.h"
@@ -192,5 +195,24 @@ TEST_CASE("import: the example programs read without a problem") {
     pipeline::Motion motion;
     motion.program = folder + name;
     CHECK(read_program(motion).instructions.size() == count);
+  }
+}
+
+TEST_CASE("import: the cycle times of the example programs") {
+  // Anchors: motion_cycle_time_test derives times by hand. A fault in a corner, a zone or a wait shows here; in one
+  // program such a fault moved the life by 40 %.
+  struct {
+    const char *program, *robot;
+    double duration;  // [s]
+  } const examples[] = {{"side_panel.mod", "abb_irb6640_185_280", 23.56},
+                        {"pick_and_place.src", "kuka_kr16_2", 15.53},
+                        {"frame_weld.ls", "fanuc_m20ia", 123.83}};
+  for (const auto& [program, robot, duration] : examples) {
+    INFO(program);
+    pipeline::Motion motion;
+    motion.program = std::string(DRESSLIFE_SOURCE_DIR "/config/programs/") + program;
+    const pipeline::Job job = pipeline::read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml",
+                                                 {std::string("robot=") + robot});
+    CHECK(JointMotion(resolved_motion(motion), job.robot).duration() == Approx(duration).epsilon(1e-3));
   }
 }
