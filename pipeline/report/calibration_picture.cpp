@@ -103,7 +103,7 @@ std::string calibration_picture(const Learned& learned) {
     parameters.add(std::string(parameter.name), before, axis.learned ? &after : nullptr,
                    axis.learned ? fmt::format("{} ({} .. {})", readable(axis.after[1]),
                                               readable(axis.after[0]), readable(axis.after[2]))
-                                : "no test hangs on it");
+                                : "no test depends on it");
   }
   if (tests > 0) {
     picture.text(left, second - 10, "dot: observed; arrow to the right: at least, to the left: at most",

@@ -63,7 +63,7 @@ TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job 
   INFO(outcome.err);
   REQUIRE(outcome.status == 0);
   CHECK(outcome.out.find("friction_inside") != std::string::npos);
-  CHECK(outcome.out.find("no test hangs on it") != std::string::npos);
+  CHECK(outcome.out.find("no test depends on it") != std::string::npos);
   const std::string file = unmarked_content(scratch / "runs/calibrate_o/calibration.yaml");
   CHECK(file.starts_with("format: dresslife-calibration\nformat_version: 2\n"));
   CHECK(learned(file, "strength", "value") > 1.05);

@@ -38,7 +38,7 @@ std::string parameter_lines(const Learned& learned) {
     const LearnedAxis& axis = learned.axes[p];
     text += fmt::format("{:<17} {:>24} {:>24}  {}\n", uncertain_parameters()[p].name, range(axis.before),
                         axis.learned ? range(axis.after) : "-",
-                        axis.learned ? fmt::format("{:.0f} %", 100 * axis.narrowed) : "no test hangs on it");
+                        axis.learned ? fmt::format("{:.0f} %", 100 * axis.narrowed) : "no test depends on it");
   }
   return text;
 }
@@ -96,15 +96,16 @@ std::string learned_table(const Learned& learned) {
   std::string text = parameter_lines(learned);
   std::size_t name = 22;
   for (const LearnedTest& test : learned.tests) name = std::max(name, columns_of(test.observation.name));
-  text += fmt::format("\n{:<{}} {:>20} {:>34} {:>34}  {}\n", "observation", name, "observed", "predicted before",
-                      "predicted after", "fails first");
+  constexpr const char* columns = "{:<{}} {:>20} {:>31} {:>31} {:>31}  {}\n";
+  text += "\n" + fmt::format(fmt::runtime(columns), "observation", name, "observed", "predicted before", "predicted by the others",
+                             "predicted after", "fails first");
   for (const LearnedTest& test : learned.tests)
-    text += fmt::format("{:<{}} {:>20} {:>34} {:>34}  {}\n", test.observation.name, name, seen(test),
-                        words_of(test.before), words_of(test.after), test.fails_first);
+    text += fmt::format(fmt::runtime(columns), test.observation.name, name, seen(test), words_of(test.before),
+                        words_of(test.by_others), words_of(test.after), test.fails_first);
   text +=
-      "\nParameters: factors of the job's keys (slope: added to b), median and 80 % of what is likely.\nPredicted: the "
-      "life by which 10 % of such specimens have failed (half, 90 %), over the parameters, what is not known of the test, "
-      "and\nscatter; of a bending test its largest moment.\n"
+      "\nParameters: factors of the job's keys (slope: added to b), median and 80 % range.\nPredicted: the life after which 10 % "
+      "of such specimens have failed (half, 90 %), over the uncertain parameters, the unknowns of the test and scatter;\nof a "
+      "bending test its largest moment. Before: from the prior. By the others: without this observation.\n"
       "Fails first: in which share of the samples.\n";
   if (!learned.settled)
     text += fmt::format("warning: after {} rounds the centre still moves; the draws rest on runs beside it\n",

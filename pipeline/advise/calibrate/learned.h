@@ -9,7 +9,7 @@
 
 namespace dresslife::pipeline {
 
-/// What was learned of one parameter; nothing: no test hangs on it.
+/// What was learned of one parameter; nothing: no test depends on it.
 struct LearnedAxis {
   bool learned = false;
   Foretold before{}, after{};  ///< of its key
@@ -19,6 +19,7 @@ struct LearnedAxis {
 struct LearnedTest {
   Observation observation;
   Foretold before{}, after{};  ///< over all variants, over each as likely as it then is
+  Foretold by_others{};        ///< over all variants, from the posterior of all tests but this one
   double measured = 0;         ///< the same as it was measured; 0 for a life
   std::string fails_first{};   ///< EmulatedTest
 };
