@@ -77,12 +77,15 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
 TEST_CASE("route finds clamps for a shipped hose that keep all limits in the whole chain") {
   Scratch scratch;
   const Outcome told = run(scratch, "dresslife",
-                           "route abb_irb4600_60_205 --scale 0.5 --tried 100 --rehearsals 40 --quiet "
+                           "route abb_irb4600_60_205 --scale 0.5 --tried 100 --rehearsals 40 --quiet --bracket 145 "
                            "--set simulation.segments=20 --set strain.surface_fibres=0");
   INFO(told.err + told.out);
   CHECK(told.status == 0);
   CHECK(told.out.find("one of the same make at 50 % of its size, 30 mm wide") != std::string::npos);
   CHECK(told.out.find("It keeps all limits in a run") != std::string::npos);
+  // The bracket's limit stays with the job, and its preview judges by it.
+  CHECK_THAT(content(scratch / "abb_irb4600_60_205_routed.yaml"), Catch::Contains("longest_bracket_mm: 145\n"));
+  CHECK_THAT(content(scratch / "abb_irb4600_60_205_routed_preview.html"), Catch::Contains("\"most_bracket\":0.145"));
 }
 
 TEST_CASE("route refuses what it cannot route") {
