@@ -10,6 +10,7 @@
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
+#include "pipeline/cable/bend_limit.h"
 #include "pipeline/cable/cable_pulls.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/job/parts_room.h"
@@ -103,7 +104,11 @@ Cure held_cure(const CableFacts& facts, bool known_bore, double least, double mo
                             1e3 * pipeline::usual_bore_share * facts.dresspack->diameter)};
 }
 
-constexpr double most_slack = 0.05;  // 10 cm in 2 m: what a user can lay into a hose
+/// Room for excess that is wound. Excess s in a room c makes a helix of curvature 2 s/c (excess.h), which must keep the bend
+/// radius that the usual rule asks of the cable itself.
+double room_per_excess(const CableFacts& facts) {
+  return 2 * pipeline::least_bend_diameters * 2 * facts.component->radius;
+}
 
 /// Slack that makes no force beyond the limit: by the gains of its path, and by what a helix in its room keeps.
 Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed) {
@@ -124,10 +129,12 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
     return {room + ", which fit its path; friction, its weight and the hose's motion pull it",
             fmt::format("motion.acceleration_percent: less than now, or friction_coefficient of '{}' as measured",
                         facts.component->name)};
-  if (least <= std::min(most, most_slack))
+  const double proposed = std::min(most, facts.least_gain + facts.room / room_per_excess(facts));
+  if (least <= proposed)
     return {cause, fmt::format("{}: {} .. {} (now {:.3g})", slack_key(facts), pipeline::percent_above(least),
-                               pipeline::percent_below(std::min(most, most_slack)), 100 * slack)};
-  const double needed = pipeline::room_of_excess(cable, least - facts.least_gain, limit);
+                               pipeline::percent_below(proposed), 100 * slack)};
+  const double excess = least - facts.least_gain;
+  const double needed = std::max(pipeline::room_of_excess(cable, excess, limit), excess * room_per_excess(facts));
   return {cause, fmt::format("no slack fits this room: place it where it has {:.2g} mm of room (helix_radius_mm, "
                              "inner_diameter_mm; play_mm: {:.2g} where it has that already), or nearer to the axis",
                              1e3 * needed, 1e3 * needed)};

@@ -1,4 +1,4 @@
-// dresslife-import: a robot program in, the same motion as YAML out.
+// dresslife-import: a robot program in, the same motion as YAML out; or what its lines could do instead.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,10 +8,13 @@
 
 #include "pipeline/base/limits.h"
 #include "pipeline/base/whole_file.h"
+#include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/stage/stage.h"
 #include "sim/program/answers.h"
 #include "sim/program/explain.h"
 #include "sim/program/import.h"
+#include "sim/reprogram/ways_file.h"
 
 namespace {
 
@@ -23,6 +26,8 @@ struct Request {
   std::vector<std::string> assume, modules, values;
   std::optional<int> passes;
   bool explain = false;
+  std::string ways;  ///< life.h5 of the job; empty: not asked
+  int lines = 4;
 };
 
 /// "NAME=VALUE" cut at its first or last '='.
@@ -100,6 +105,17 @@ sim::Program program_of(const pipeline::Motion& asked, const std::filesystem::pa
   }
 }
 
+/// What the lines of a job's program could do instead.
+void note_ways(const Request& request, const pipeline::StageCall& call) {
+  if (call.output.empty())
+    throw pipeline::InputError({"--ways"}, "has no file to write to", "name one with -o ways.h5");
+  const pipeline::Job job = pipeline::read_job(call.input, call.sets);
+  pipeline::FileWriter file(call.output, pipeline::ways_format());
+  sim::write_ways(job, request.ways, static_cast<std::size_t>(request.lines), file);
+  pipeline::stamp(file, call, job, "");
+  file.commit();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -109,35 +125,49 @@ int main(int argc, char** argv) {
       .purpose =
           "Reads a robot program (RAPID, KRL, Fanuc, INFORM, URScript, joint columns, ROS), or the folder of a "
           "controller's backup, and writes its motion as YAML.",
-      .input = "PROGRAM or FOLDER",
-      .output = "motion.yaml",
+      .input = "PROGRAM or FOLDER; with --ways JOB.yaml",
+      .output = "motion.yaml; with --ways ways.h5",
       .example = "dresslife-import config/programs/side_panel.mod -o motion.yaml",
       .input_is_job = true,
       .may_lack_output = true,
-      .options = {{"--routine", "NAME",
-                   "where to start, with arguments where it takes some: 'name(1, p20)'; without it "
-                   "main, or the first routine",
-                   &request.routine},
-                  {"--answers", "FILE.yaml",
-                   "what the program asks: written there to be filled in, read where the file exists",
-                   &request.answers},
-                  {"--assume", "LINE=then|else|VALUE",
-                   "one answer: how a branch goes that hangs on inputs, or the value by which a "
-                   "choice of several goes; LINE may be FILE:LINE",
-                   &request.assume},
-                  {"--module", "FILE", "a further module, data file or called program", &request.modules},
-                  {"--frames", "FILE.yaml", "answers: tools and work_objects that lie in the controller",
-                   &request.frames},
-                  {"--value", "NAME=VALUE",
-                   "one answer: an input, register, variable or position that only the running robot knows",
-                   &request.values},
-                  {"--passes", "N", "of an endless main loop; without it until the program repeats itself",
-                   &request.passes, {.range = {{1, 1'000'000'000}}}},
-                  {"--explain", "",
-                   "print each move with tool, work object, speed and zone, and where each comes from",
-                   &request.explain}}};
+      .options = {
+          {"--routine", "NAME",
+           "where to start, with arguments where it takes some: 'name(1, p20)'; without it "
+           "main, or the first routine",
+           &request.routine},
+          {"--answers", "FILE.yaml",
+           "what the program asks: written there to be filled in, read where the file exists",
+           &request.answers},
+          {"--assume", "LINE=then|else|VALUE",
+           "one answer: how a branch goes that hangs on inputs, or the value by which a "
+           "choice of several goes; LINE may be FILE:LINE",
+           &request.assume},
+          {"--module", "FILE", "a further module, data file or called program", &request.modules},
+          {"--frames", "FILE.yaml", "answers: tools and work_objects that lie in the controller",
+           &request.frames},
+          {"--value", "NAME=VALUE",
+           "one answer: an input, register, variable or position that only the running robot knows",
+           &request.values},
+          {"--passes",
+           "N",
+           "of an endless main loop; without it until the program repeats itself",
+           &request.passes,
+           {.range = {{1, 1'000'000'000}}}},
+          {"--explain", "",
+           "print each move with tool, work object, speed and zone, and where each comes from",
+           &request.explain},
+          {"--ways", "life.h5",
+           "instead: what the lines of the job's program could do instead, as its dresspack's life says what each "
+           "costs, with patches",
+           &request.ways},
+          {"--lines",
+           "COUNT",
+           "with --ways: those that cost most",
+           &request.lines,
+           {.range = {{0, 1000}}, .needs = "--ways"}}}};
   return pipeline::run_stage(
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
+        if (!request.ways.empty()) return note_ways(request, call);
         if (call.output.empty() && !request.explain)
           throw pipeline::InputError({call.input.string()}, "would be read for nothing",
                                      "name a file with -o, or ask for --explain");

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "pipeline/files/checks.h"
-#include "pipeline/job/bracket.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/stage/stage.h"
@@ -26,7 +25,7 @@ struct Request {
   std::string screen;  ///< a list of changes; empty: not asked
   std::optional<int> propose;
   sim::ProposalSettings proposals;
-  double bracket_mm = 1e3 * pipeline::longest_bracket;
+  std::optional<double> bracket_mm;
 };
 
 /// What is asked for without a run. Returns false when it is the run that is asked for.
@@ -38,16 +37,17 @@ bool told_at_rest(const Request& request, const pipeline::StageCall& call, pipel
                                "a prescribed deformation has no cell to preview (nothing moves)",
                                "run it, and look at its page");
   if (request.exercise) job.motion = sim::exercise(job.robot);
+  if (request.bracket_mm)
+    for (pipeline::MountedDresspack& mounted : job.dresspacks) mounted.routing.longest_bracket = *request.bracket_mm / 1e3;
   pipeline::FileWriter file(call.output,
                             request.preview ? pipeline::preview_format() : pipeline::screening_format());
   if (request.preview) {
     sim::write_preview(job, file);
   } else if (!request.screen.empty()) {
-    sim::write_screening(job, request.screen, request.rehearse, request.bracket_mm / 1e3, file);
+    sim::write_screening(job, request.screen, request.rehearse, file);
   } else {
     sim::ProposalSettings settings = request.proposals;
     settings.count = *request.propose;
-    settings.longest_bracket = request.bracket_mm / 1e3;
     settings.progress = [&](double share, const std::string& words) { progress.show(share, words); };
     sim::write_proposals(job, settings, file);
   }
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
             &request.proposals.rehearsals, {.range = {{0, 100'000}}}},
            {"--seed", "NUMBER", "with --propose: of the search's chances", &request.proposals.seed,
             {.range = {{0, 1'000'000'000}}}},
-           {"--bracket", "MM", "with --screen or --propose: longest bracket between a link's surface and a clamp",
+           {"--bracket", "MM", "instead of the job's routing.longest_bracket_mm",
             &request.bracket_mm, {.range = {{0, 10'000}}}},
            {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about",
             &request.exercise}},

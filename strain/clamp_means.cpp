@@ -118,7 +118,9 @@ Shortened ClampMeans::shorten(double bend_wave) {
 
 ClampMeans ClampMeans::rubbing(double factor) const {
   ClampMeans means = *this;
-  for (LayerSlip& slip : means.plan_) slip.cap.constant *= factor, slip.cap.per_mean *= factor;
+  for (LayerSlip& slip : means.plan_)
+    slip.cap = factor == glued ? FrictionCap{glued, 0}
+                               : FrictionCap{slip.cap.constant * factor, slip.cap.per_mean * factor};
   return means;
 }
 

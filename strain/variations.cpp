@@ -96,9 +96,8 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Bui
 }
 
 double Variations::Friction::factor() const {
-  constexpr double none = 0, endless = 1e6;  // of the shipped friction: glued to 1e-9 of the strain
-  if (inside == Inside::free) return none;
-  if (inside == Inside::glued) return endless;
+  if (inside == Inside::free) return 0;
+  if (inside == Inside::glued) return ClampMeans::glued;
   return pipeline::uncertain_parameters()[index_of(Uncertain::friction_inside)].value(z);
 }
 

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 struct Options : RunOptions {
   ImproveRequest request;
-  double off_mm = 10, bracket_mm = 1e3 * longest_bracket;
+  double off_mm = 10;
+  std::optional<double> bracket_mm;
 };
 
 /// Short runs come before the first trial; the remaining time is told of trials.
@@ -41,7 +42,7 @@ void show(Progress& progress, const Improvement& so_far, int trials) {
 int improve_study(Options options) {
   options.request.file = named_study(options.study);
   options.request.sets = options.sets;
-  options.request.longest_bracket = options.bracket_mm / 1000;
+  if (options.bracket_mm) options.request.longest_bracket = *options.bracket_mm / 1000;
   const std::string name = study_name(options.request.file);
   const StudyPlaces places{fs::path(options.out) / (name + "_improve"), program_folder()};
   const FolderLock lock(places.folder);
@@ -99,7 +100,7 @@ Command improve_command() {
              "mounting tolerance of clamps and length: that job wins which lives longest within it; 0: not asked",
              &options->off_mm, {.range = {{0, 1000}}}},
             {"--bracket", "MM",
-             "longest bracket between a link's surface and a clamp; one that the job has already may be longer",
+             "instead of routing.longest_bracket_mm; a bracket that the job has already may be longer",
              &options->bracket_mm, {.range = {{0, 10'000}}}}},
            run_options(*options),
            {launcher_option(*options)},

@@ -51,15 +51,27 @@ Option launcher_option(RunOptions& options) {
 
 namespace {
 
-/// shelves: the first that has one counts.
+/// The shipped file of this entry; empty: there is none.
+fs::path shipped_file(const fs::path& entry) {
+  const fs::path shipped = shipped_catalogue() / (entry.string() + ".yaml");
+  return kind_of(shipped) == FileKind::file ? fs::proximate(shipped) : fs::path();
+}
+
+/// shelves: the first that has the entry counts. "studies/NAME" is the entry of one shelf.
 fs::path file_or_entry(const std::string& name, const std::vector<std::string>& shelves) {
-  const bool is_name = fs::path(name).parent_path().empty() && fs::path(name).extension() != ".yaml";
+  const std::string shelf_of_name = fs::path(name).parent_path().string();
+  const bool on_shelf = std::find(shelves.begin(), shelves.end(), shelf_of_name) != shelves.end();
+  const bool is_name = (shelf_of_name.empty() || on_shelf) && fs::path(name).extension() != ".yaml";
   if (!is_name || kind_of(name) == FileKind::file) return name;
   std::string looked_for;
-  for (const std::string& shelf : shelves) {
-    const fs::path entry = fs::path(shelf) / (name + ".yaml"), shipped = shipped_catalogue() / entry;
-    if (kind_of(shipped) == FileKind::file) return fs::proximate(shipped);
-    looked_for += (looked_for.empty() ? "" : " or ") + entry.string();
+  for (const std::string& shelf : on_shelf ? std::vector<std::string>{""} : shelves) {
+    const fs::path entry = fs::path(shelf) / name, shipped = shipped_file(entry);
+    if (!shipped.empty()) {
+      if (shelf == "jobs" && !shipped_file(fs::path("studies") / name).empty())
+        tell(fmt::format("{}: note: is a job and a study; the job is taken. The study is studies/{}\n", name, name));
+      return shipped;
+    }
+    looked_for += (looked_for.empty() ? "" : " or ") + entry.string() + ".yaml";
   }
   throw InputError({name},
                    fmt::format("is no file, and {} holds no {}", shipped_catalogue().string(), looked_for),
@@ -78,7 +90,7 @@ fs::path named_file(const std::string& name, const std::string& shelf) {
   return input(file_or_entry(name, {shelf}));
 }
 
-fs::path named_study(const std::string& name) { return input(file_or_entry(name, {"studies", "jobs"})); }
+fs::path named_study(const std::string& name) { return input(file_or_entry(name, {"jobs", "studies"})); }
 
 StudyRequest request_of(const StudyOptions& options) {
   return {named_study(options.study), options.sets, options.out, program_folder()};

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <tuple>
 
 #include "pipeline/advise/improve/improvement.h"
 #include "pipeline/advise/improve/other_ways.h"
 #include "pipeline/advise/improve/set_text.h"
-#include "pipeline/advise/reprogram/patched_program.h"
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
@@ -18,10 +18,13 @@
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
+#include "pipeline/files/files.h"
+#include "pipeline/job/job.h"
 #include "pipeline/report/life_charts.h"
-#include "pipeline/settings/fields.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/units.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -98,33 +101,50 @@ TriedWay seen(const RankingRow& row, const StudyPlaces& places) {
   return {{}, outcome_of(row, places.job(row.job)), row.done() ? row.repeat_seconds : 0, {}, {}};
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream all(text);
+  for (std::string line; std::getline(all, line);) lines.push_back(line);
+  return lines;
+}
+
 /// The ways of a job whose motion is a program, as its patched text reads; how many cannot be written in it.
-std::vector<TriedWay> program_ways_of(const Job& job, const std::vector<double>& cost, const Options& options) {
-  const ReadProgram read = read_job_program(job);
+std::vector<TriedWay> program_ways_of(const Job& job, const fs::path& life_file, const Options& options) {
+  const PassingFile described("job.yaml"), noted("ways.h5");
+  write_text_if_changed(described.path(), with_mark(job_text(job), Mark::yaml), Sync::never);
+  if (run_stage_program("dresslife-import",
+                        {described.path().string(), "--ways", fs::absolute(life_file).string(), "--lines",
+                         std::to_string(options.lines), "-o", noted.path().string(), "--quiet"}) != 0)
+    throw InputError({job.motion.program.string()}, "has no other ways (see above)",
+                     "mend what stands there");
+  const FileReader file(noted.path(), ways_format());
+  const auto what = file.read<std::string>("/way/what"), lines = file.read<std::string>("/way/lines"),
+             motions = file.read<std::string>("/way/motion"), patches = file.read<std::string>("/way/patch");
   std::vector<TriedWay> ways;
+  for (std::size_t k = 0; k < what.size(); ++k)
+    ways.push_back(
+        {{what[k], lines_of(lines[k]), {"motion=" + set_text(parse_yaml(motions[k], noted.path()))}},
+         {},
+         0,
+         patches[k],
+         {}});
   std::map<std::string, int> refused;
-  for (const ProgramWay& way : program_ways(job, read, cost, static_cast<std::size_t>(options.lines))) {
-    try {
-      PatchedProgram made = patched(job, read, way);
-      ways.push_back({{way.what, way.lines, {"motion=" + set_text(echo_fields(made.motion))}}, {}, 0, std::move(made.patch), {}});
-    } catch (const InputError& error) {
-      ++refused[error.what()];
-    }
-  }
+  for (const std::string& why : file.read<std::string>("/refusal/words")) ++refused[why];
   for (const auto& [why, count] : refused) tell(fmt::format("{} ({} ways are not tried)\n", why, count));
   return ways;
 }
 
-std::vector<TriedWay> ways_of(const Job& job, const std::vector<double>& cost, const Options& options) {
-  if (!job.motion.program.empty()) return program_ways_of(job, cost, options);
+std::vector<TriedWay> ways_of(const Job& job, const fs::path& life_file, const Options& options) {
+  if (!job.motion.program.empty()) return program_ways_of(job, life_file, options);
   std::vector<TriedWay> ways;
-  for (OtherWay& way : other_ways(job, cost, static_cast<std::size_t>(options.lines)))
+  for (OtherWay& way : other_ways(job, cost_of_lines(life_file), static_cast<std::size_t>(options.lines)))
     ways.push_back({std::move(way), {}, 0, {}, {}});
   return ways;
 }
 
 /// A patch for each way that helps, beside the table; those of an earlier run go.
-void write_patches(const StudyPlaces& places, const std::string& job, const TriedWay& before, std::vector<TriedWay>& ways) {
+void write_patches(const StudyPlaces& places, const std::string& job, const TriedWay& before,
+                   std::vector<TriedWay>& ways) {
   constexpr double helps = 1.01;  // times as long; less is rounding of a simulation
   const auto name = [&](int number) { return places.folder / fmt::format("{}_{:02}.patch", job, number); };
   int number = 0;
@@ -140,7 +160,7 @@ void write_patches(const StudyPlaces& places, const std::string& job, const Trie
 /// Of one job of the study: what it could do instead, best first.
 std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job, const StudyJob& base,
                                  const StudyPlaces& places, const Options& options) {
-  const std::vector<TriedWay> ways = ways_of(*base.job, cost_of_lines(places.life(base.name)), options);
+  const std::vector<TriedWay> ways = ways_of(*base.job, places.life(base.name), options);
   Study study{base.name, {}};
   std::map<std::string, std::size_t> way_of;
   for (std::size_t k = 0; k < ways.size(); ++k) {
@@ -198,16 +218,20 @@ int reprogram(const Options& options) {
 
 Command reprogram_command() {
   const auto options = std::make_shared<Options>();
-  return {"reprogram",
-          "try what the program could do instead: the lines that cost most by other turns of wrist and arm, by "
-          "a point, or slower; of a robot program, patches in its own language are written for the ways that help",
-          joined({{study_or_job(*options),
-                   {"--lines", "COUNT", "of the program that are tried, those first that cost most",
-                    &options->lines, {.range = {{0, 1000}}}}},
-                  run_options(*options),
-                  {launcher_option(*options)},
-                  study_options(*options)}),
-          [options] { return reprogram(*options); }};
+  return {
+      "reprogram",
+      "try what the program could do instead: the lines that cost most by other turns of wrist and arm, by "
+      "a point, or slower; of a robot program, patches in its own language are written for the ways that help",
+      joined({{study_or_job(*options),
+               {"--lines",
+                "COUNT",
+                "of the program that are tried, those first that cost most",
+                &options->lines,
+                {.range = {{0, 1000}}}}},
+              run_options(*options),
+              {launcher_option(*options)},
+              study_options(*options)}),
+      [options] { return reprogram(*options); }};
 }
 
 }  // namespace dresslife::pipeline

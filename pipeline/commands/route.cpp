@@ -22,7 +22,6 @@
 #include "pipeline/commands/pictures.h"
 #include "pipeline/commands/results.h"
 #include "pipeline/base/digest.h"
-#include "pipeline/job/bracket.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/resolve/catalogue.h"
@@ -44,7 +43,8 @@ struct Options : RunOptions {
   std::string ring, job, scale = "1";
   bool keep = false;
   int tried = 400, rehearsals = 160, seed = 1;
-  double off_mm = 10, bracket_mm = 1e3 * longest_bracket;
+  double off_mm = 10;
+  std::optional<double> bracket_mm;
 };
 
 /// One search and what became of its routings.
@@ -81,8 +81,6 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
                                      std::to_string(options.rehearsals),
                                      "--seed",
                                      std::to_string(options.seed),
-                                     "--bracket",
-                                     fmt::format("{:.6g}", options.bracket_mm),
                                      "-o",
                                      told.path().string()};
   if (options.quiet) arguments.push_back("--quiet");
@@ -216,7 +214,9 @@ void remove_others(const fs::path& folder, const std::string& winner) {
 }
 
 int route(const Options& options) {
-  const Draft draft = draft_of(options.request);
+  RouteRequest request = options.request;
+  if (options.bracket_mm) request.sets.push_back(fmt::format("routing.longest_bracket_mm={:.6g}", *options.bracket_mm));
+  const Draft draft = draft_of(request);
   for (const Warning& fault : dresspack_faults(draft.job, true)) tell(fault.line() + "\n");
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
   const fs::path page = job.parent_path() / (job.stem().string() + "_preview.html");
@@ -282,7 +282,7 @@ Command route_command() {
                     "short runs that the best of them are tried in and changed by, of each size",
                     &options->rehearsals, {.range = {{1, 100'000}}}},
                    {"--seed", "NUMBER", "of the search's chances", &options->seed, {.range = {{0, 1'000'000'000}}}},
-                   {"--bracket", "MM", "longest bracket between a link's surface and a clamp or ring",
+                   {"--bracket", "MM", "longest bracket, written into the job as routing.longest_bracket_mm; else the job's",
                     &options->bracket_mm, {.range = {{0, 10'000}}}},
                    {"--off", "MM",
                     "mounting tolerance of clamps and length: that routing wins which lives longest within it; 0: not "

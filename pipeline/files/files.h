@@ -57,6 +57,7 @@ const Format& strain_format();
 const Format& life_format();
 const Format& preview_format();
 const Format& screening_format();
+const Format& ways_format();
 
 /// All formats as Markdown.
 std::string file_manual();

@@ -503,6 +503,18 @@ Format make_screening_format() {
   return format;
 }
 
+Format make_ways_format() {
+  Format format{"dresslife-ways", 1, "dresslife-import --ways", "what the lines of a robot program could do instead", {}, {}};
+  add(format, {
+    {"/way/what",      text, "way",     "1", always, "\"axis 6 +360 deg\""},
+    {"/way/lines",     text, "way",     "1", always, "the lines that it changes, one below the other: side_panel.mod:54; empty: all"},
+    {"/way/motion",    text, "way",     "1", always, "YAML: the motion of the patched program"},
+    {"/way/patch",     text, "way",     "1", always, "unified diff of the program's files, with names below its folder"},
+    {"/refusal/words", text, "refusal", "1", always, "why a way cannot be written in the program's language, one for each such way"},
+  });
+  return format;
+}
+
 // clang-format on
 
 std::string shape_text(const Dataset& dataset) {
@@ -548,10 +560,15 @@ const Format& screening_format() {
   return format;
 }
 
+const Format& ways_format() {
+  static const Format format = make_ways_format();
+  return format;
+}
+
 std::string file_manual() {
   std::string text;
   for (const Format* format :
-       {&motion_format(), &strain_format(), &life_format(), &preview_format(), &screening_format()}) {
+       {&motion_format(), &strain_format(), &life_format(), &preview_format(), &screening_format(), &ways_format()}) {
     text += fmt::format("### {} version {}: {} (written by {})\n\n", format->name, format->version,
                         format->purpose, format->made_by);
     text += "| dataset | type | shape | unit | meaning |\n|---|---|---|---|---|\n";

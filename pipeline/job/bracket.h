@@ -4,7 +4,7 @@
 namespace dresslife::pipeline {
 
 /// Between the link's surface and the dresspack's [m]. ESTIMATE: as far as plants let a bracket reach that is bolted to
-/// a link and must not swing. `route` and `improve` take another by --bracket.
-inline constexpr double longest_bracket = 0.15;
+/// a link and must not swing. A job says another by routing.longest_bracket_mm.
+inline constexpr double usual_longest_bracket = 0.15;
 
 }  // namespace dresslife::pipeline

@@ -82,6 +82,9 @@ void describe(Fields& f, Routing& routing) {
   f.numbers("mounting_pose_deg", routing.mounting_pose, Need::optional,
             "The joint angles at which the dresspack was clamped without twist. Default: the first target. "
             "It is one pose for all dresspacks.");
+  f.maybe_number("longest_bracket_mm", routing.longest_bracket, between(0, 10'000),
+                 "The longest bracket that can be built between a link's surface and a clamp or ring. Default: 150. route and "
+                 "improve keep it, and the preview draws longer ones red.");
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/base/words.h"
+#include "pipeline/job/bracket.h"
 #include "pipeline/job/robot.h"
 #include "pipeline/settings/document.h"
 
@@ -69,8 +70,11 @@ struct Routing {
   double tool_mass = 0;                         ///< at a free end [kg]
   std::vector<double>
       mounting_pose;  ///< joints when the dresspack was clamped free of twist [rad]; empty: start
+  std::optional<double> longest_bracket;  ///< see longest_bracket_of()
   Where where;
 };
+/// Longest bracket between a link's surface and a clamp or ring [m].
+inline double longest_bracket_of(const Routing& routing) { return routing.longest_bracket.value_or(usual_longest_bracket); }
 
 void describe(Fields& f, Clamp& clamp);
 void describe(Fields& f, IntermediateClamp& between);

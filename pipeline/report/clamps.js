@@ -184,7 +184,7 @@ class Clamps {
     const foot = nearestOf(this.solids[clamp.link] || [], clamp.position);
     clamp.bracket = foot.nearest ? Math.max(0, foot.distance) : NaN;
     if (!foot.nearest || !(clamp.bracket > 1e-4)) return;
-    const tooLong = clamp.bracket - clamp.radius > this.scene.bracket;
+    const tooLong = clamp.bracket - clamp.radius > clamp.most_bracket;
     const length = foot.nearest.distanceTo(clamp.position);
     const rod = new THREE.Mesh(
         new THREE.CylinderBufferGeometry(.012, .012, length, 10),
@@ -236,7 +236,7 @@ class Clamps {
     const lines = [];
     const bracket = clamp.bracket - clamp.radius;
     if (bracket > .001)
-      lines.push([`bracket of ${(1000 * bracket).toFixed(0)} mm (at most ${(1000 * this.scene.bracket).toFixed(0)})`, bracket > this.scene.bracket]);
+      lines.push([`bracket of ${(1000 * bracket).toFixed(0)} mm (at most ${(1000 * clamp.most_bracket).toFixed(0)})`, bracket > clamp.most_bracket]);
     for (const piece of this.lengths(clamp)) {
       const short = piece.length < piece.low, long = piece.length > piece.high;
       lines.push([

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "pipeline/job/bracket.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/simple_mesh.h"
 
@@ -67,8 +66,7 @@ class Scene {
             {"clamps", clamps},
             {"rings", rings},
             {"mounting_points", points},
-            {"hoses", hoses},
-            {"bracket", longest_bracket}};
+            {"hoses", hoses}};
   }
 
  private:
@@ -90,6 +88,7 @@ class Scene {
                             {"key", key},
                             {"dresspack", dresspack},
                             {"at", at},
+                            {"most_bracket", longest_bracket_of(routing)},
                             {"radius", mounted.dresspack.diameter / 2}}
                            .add(place(one.link, one.position, one.direction)));
     };
@@ -98,7 +97,7 @@ class Scene {
       clamp(fmt::format("clamp at {:.2f} m", between.at_length), "clamp", between.at_length, between.clamp);
     if (routing.tool_clamp) clamp("tool clamp", "tool_clamp", routing.free_length, *routing.tool_clamp);
     for (const GuideRing& ring : routing.rings)
-      rings.push_back(Json{{"name", before + "ring"}, {"radius", ring.radius}, {"width", ring.width}}.add(
+      rings.push_back(Json{{"name", before + "ring"}, {"most_bracket", longest_bracket_of(routing)}, {"radius", ring.radius}, {"width", ring.width}}.add(
           place(ring.link, ring.position, ring.direction)));
   }
 

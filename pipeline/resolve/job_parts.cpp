@@ -106,6 +106,7 @@ void describe_sim(Fields& echo, Job copy) {
   const JobForms forms = forms_of(copy);
   for (MountedDresspack& mounted : copy.dresspacks) {
     drop_ratings(mounted.dresspack);
+    mounted.routing.longest_bracket.reset();
     Dresspack& dresspack = mounted.dresspack;
     dresspack.estimates.clear();
     count_as_numbers(dresspack);

@@ -75,7 +75,7 @@ class Search {
   Search(const pipeline::Setup& setup, const ProposalSettings& settings)
       : setup_(setup),
         settings_(settings),
-        screener_(setup, settings.longest_bracket),
+        screener_(setup, true),
         chance_(settings.seed) {
     const pipeline::Routing& given = setup.dresspacks.front().routing;
     if (!given.base_clamp || !given.tool_clamp)
@@ -302,7 +302,7 @@ class Search {
     for (int k = 0; k < drawn_places; ++k) {
       const Vector3 position = rounded(drawn_beside(link_[place]), millimetre);
       const BracketFit fit = bracket(place, position);
-      const double beyond = fit.beyond(settings_.longest_bracket, diameter_);
+      const double beyond = fit.beyond(longest_bracket(), diameter_);
       if (beyond <= 0) return position;
       if (beyond < least) least = beyond, nearest = fit;
     }
@@ -321,9 +321,11 @@ class Search {
         fmt::format(
             "no place within {:.0f} mm of the surface of {} stays clear of the other links and the cell: the "
             "nearest of {} places {}",
-            1e3 * settings_.longest_bracket, links_[place], drawn_places, why),
-        "a longer --bracket, another link (--from, --to, --ring), or a program that keeps away from it");
+            1e3 * longest_bracket(), links_[place], drawn_places, why),
+        "a longer bracket (routing.longest_bracket_mm), another link (--from, --to, --ring), or a program that keeps away from it");
   }
+
+  double longest_bracket() const { return longest_bracket_of(setup_.dresspacks.front().routing); }
 
   Vector3 drawn_beside(int link) {
     const std::vector<pipeline::Capsule> shapes = shapes_of(link);
@@ -346,7 +348,7 @@ class Search {
       if (chance_.below(2)) {
         const Vector3 place =
             rounded(candidate.position[k] + size * diameter_ * chance_.normal_vector(), millimetre);
-        if (bracket(k, place).beyond(settings_.longest_bracket, diameter_) <= 0)
+        if (bracket(k, place).beyond(longest_bracket(), diameter_) <= 0)
           candidate.position[k] = place;
       }
       if (chance_.below(2))
@@ -364,6 +366,7 @@ class Search {
     routing.base_clamp = clamp(candidate, base);
     routing.tool_clamp = clamp(candidate, tool);
     routing.mounting_pose = setup_.dresspacks.front().routing.mounting_pose;
+    routing.longest_bracket = setup_.dresspacks.front().routing.longest_bracket;
     routing.rings.clear();
     if (used() > ring) {
       pipeline::GuideRing& guide = routing.rings.emplace_back();

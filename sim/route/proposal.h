@@ -29,7 +29,6 @@ struct ProposalSettings {
       0;  ///< runs with few segments, a tenth of a second each, that try the best and better them; 0: none
   std::uint64_t seed = 1;
   std::string ring_link;                               ///< a guide ring on it; empty: none
-  double longest_bracket = pipeline::longest_bracket;  ///< [m] (V7)
   /// Share of the most work that there may be, and what is tried; may be empty.
   std::function<void(double, const std::string&)> progress{};
 };
@@ -41,7 +40,7 @@ struct Proposal {
   Rehearsal rehearsal;  ///< of the last run, if there were some
 };
 
-/// setup: its first dresspack's clamps name the links; all else of its routing is not read. Errors:
+/// setup: its first dresspack's clamps name the links, its routing says the longest bracket; all else of that is not read. Errors:
 /// InputError as of Screener, for a motion without a robot, and for a link near which no place has a bracket. Where
 /// geometry surely excludes all that was tried nothing is rehearsed, and the proposals' rehearsals say why.
 std::vector<Proposal> propose(const pipeline::Setup& setup, const ProposalSettings& settings);

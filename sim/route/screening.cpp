@@ -205,7 +205,6 @@ struct Screener::Parts {
   std::vector<Moment> moments;     // the first ones: from the mounting pose to the start
   std::size_t first = 0;           // of the program
   std::vector<std::size_t> poses;  // to draw, in order
-  std::optional<double> longest_bracket;
   std::optional<Surfaces> surfaces;  // with brackets of a robot
   std::vector<Frames> carriers;      // (moment, link) likewise
 
@@ -218,13 +217,12 @@ struct Screener::Parts {
   void see_brackets(const pipeline::Setup& setup, Screening& screening) const;
 };
 
-Screener::Screener(const pipeline::Setup& setup, std::optional<double> longest_bracket)
+Screener::Screener(const pipeline::Setup& setup, bool brackets)
     : parts_(std::make_unique<Parts>()) {
   const std::unique_ptr<ClampPath> path = path_of(setup);
   if (const auto* robot = dynamic_cast<const RobotPath*>(path.get())) {
     parts_->add_robot(setup, *robot);
-    if (!longest_bracket) return;
-    parts_->longest_bracket = longest_bracket;
+    if (!brackets) return;
     parts_->surfaces.emplace(setup);
     for (const Moment& moment : parts_->moments) parts_->carriers.push_back(moment.links);
     return;
@@ -382,7 +380,7 @@ void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& scre
     const auto see = [&](const auto& place, double radius) {
       const Carried carried{find_link(setup.robot, place.link, place.where), place.position, radius};
       const BracketFit fit = fit_of(carried, *surfaces, carriers);
-      const double g = fit.beyond(*longest_bracket, diameter);
+      const double g = fit.beyond(longest_bracket_of(mounted.routing), diameter);
       if (g > screening.beyond[limit])
         screening.beyond[limit] = g, screening.time[limit] = moments[fit.moment].time;
     };

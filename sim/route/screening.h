@@ -64,9 +64,9 @@ struct Screening {
 
 class Screener {
  public:
-  /// Computes the motion and looks for the poses that differ most. longest_bracket: [m]; absent: (V7) is not asked.
+  /// Computes the motion and looks for the poses that differ most. brackets: (V7) is asked.
   /// Errors: InputError, as RobotPath, RecordedPath and Surfaces.
-  explicit Screener(const pipeline::Setup& setup, std::optional<double> longest_bracket = {});
+  explicit Screener(const pipeline::Setup& setup, bool brackets = false);
   ~Screener();
 
   /// setup: with the robot and motion that this was made with; dresspacks, their routings and the rest may

@@ -74,7 +74,6 @@ constexpr auto bracket = static_cast<std::size_t>(ScreenedLimit::bracket);
 /// Screeners are kept as long as robot and motion stay.
 class Bench {
  public:
-  explicit Bench(double longest_bracket) : longest_bracket_(longest_bracket) {}
 
   /// (V7) counts from what this job has, where it passes it.
   void accept_brackets_of(const pipeline::Setup& setup, const Node& document) {
@@ -88,7 +87,7 @@ class Bench {
   Screening screen(const pipeline::Setup& setup, const Node& document) {
     const std::string key = text_of(document, "robot") + text_of(document, "motion") + poses_of(setup);
     if (!screener_ || key != key_) {
-      screener_.emplace(setup, longest_bracket_);
+      screener_.emplace(setup, true);
       key_ = key;
     }
     Screening screening = screener_->screen(setup);
@@ -108,7 +107,7 @@ class Bench {
     return text;
   }
 
-  double longest_bracket_, accepted_ = 0;
+  double accepted_ = 0;
   std::optional<Screener> screener_;
   std::string key_;
 };
@@ -186,13 +185,13 @@ std::string routing_text(const pipeline::Routing& routing) {
 }  // namespace
 
 void write_screening(const pipeline::Job& job, const std::filesystem::path& candidates, bool in_runs,
-                     double longest_bracket, pipeline::FileWriter& file) {
+                     pipeline::FileWriter& file) {
   const Node list = pipeline::read_yaml(candidates);
   if (!list.is_list())
     throw InputError(list.where, "holds no list of changes", "write a list of maps {KEY.PATH: VALUE}");
   const Node document = pipeline::parse_yaml(pipeline::job_text(job), candidates.string());
   std::vector<Verdict> verdicts;
-  Bench bench(longest_bracket);
+  Bench bench;
   if (!job.motion.is_prescribed()) bench.accept_brackets_of(job, document);
   for (const Node& changes : list.items) {
     if (!changes.is_map())

@@ -215,6 +215,12 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
               remark};
 }
 
+/// L of a span with least slack.
+double free_length_of(const CheckedMotion& motion, const Check& check) {
+  const int span = check.position < 0 ? motion.rod->first_span(check.dresspack) : span_at(*motion.rod, check);
+  return motion.rod->spans()[static_cast<std::size_t>(span)].properties.length;
+}
+
 /// Net twist lies about `centre`; a pre-twist takes that away, and a longer hose spreads the rest.
 Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
   if (!motion.rod)
@@ -229,16 +235,13 @@ Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
     return {cause, fmt::format("{}: {:.0f}", key_of(motion.setup, broken.dresspack, "routing.pre_twist_deg"),
                                (routing.pre_twist - centre) / degree)};
   const double needed = std::max(half_range / broken.limit, length * std::abs(broken.value) / broken.limit);
-  constexpr double most_longer = 1.5;  // a hose that is half as long again hangs into the robot
+  // Not beyond the length that the check of slack allows: a longer hose hangs into the robot.
+  const Check* slack = find(checks, check_name::too_short, broken.dresspack);
+  const double span = slack ? free_length_of(motion, *slack) : length;
+  const double most_longer = slack ? working_length(span - slack->value).most / span : 1;
   if (needed > most_longer * length) return {cause, "the tool clamp on a link that turns less"};
   return {cause, fmt::format("{}: {} or more (now {:.3f}), or the tool clamp on a link that turns less",
                              key_of(motion.setup, broken.dresspack, "routing.free_length_m"), at_least_metres(needed), length)};
-}
-
-/// L of a span with least slack.
-double free_length_of(const CheckedMotion& motion, const Check& check) {
-  const int span = check.position < 0 ? motion.rod->first_span(check.dresspack) : span_at(*motion.rod, check);
-  return motion.rod->spans()[static_cast<std::size_t>(span)].properties.length;
 }
 
 std::string length_key(const CheckedMotion& motion, const Check& check) {

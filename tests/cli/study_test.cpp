@@ -251,3 +251,19 @@ TEST_CASE("clean removes what a study does not keep and jobs that it has no more
   CHECK(again.err.find("nothing to do") != std::string::npos);
   CHECK(again.out.find("no such file") == std::string::npos);
 }
+
+TEST_CASE("a name of a shipped job and a study means the job, in every command, and a note says so") {
+  const Scratch scratch;
+  const std::string note = "bending_cable: note: is a job and a study; the job is taken. The study is studies/bending_cable\n";
+  for (const char* command : {"run -n", "status", "show", "preview"}) {
+    const Outcome told = run(scratch, "dresslife", std::string(command) + " bending_cable");
+    CAPTURE(command, told.err);
+    CHECK(told.err.find(note) == 0);
+  }
+  CHECK(run(scratch, "dresslife", "status bending_cable").out.find("thesis") == std::string::npos);
+  const Outcome study = run(scratch, "dresslife", "status studies/bending_cable");
+  CHECK(study.out.find("thesis") != std::string::npos);
+  CHECK(study.err.empty());
+  CHECK(run(scratch, "dresslife", "status two_robots").err.empty());
+  CHECK(run(scratch, "dresslife", "status jobs/bending_cable").err.empty());
+}

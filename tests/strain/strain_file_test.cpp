@@ -327,9 +327,11 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
     text.replace(text.find(from), from.size(), to);
   };
   replace("material: copper}", "material: copper, friction_coefficient: 0.3, radial_line_load_N_per_m: 60}");
-  replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 1\n");
+  replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 3\n");
   replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
-  replace("slip: [stick, free]", "slip: [free, friction]");
+  // Without it a job with another slack cuts its cables into other pieces than the variation, and a ring of cables then
+  // rests at another of its many places: strains differ by up to 0.9 of their range.
+  replace("slip: [stick, free]", "slip: [free, friction], cable_elements_per_segment: 4");
   const auto job = [&](std::vector<std::string> sets) {
     return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), std::move(sets));
   };
@@ -355,9 +357,8 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
     std::array<double, pipeline::uncertain_count> at{};
     std::copy_n(z.begin() + v * 5, 5, at.begin());
     std::vector<std::string> sets = pipeline::sets_at(at);
-    // Glued is the job whose friction lets nothing slip. With a slack of 3 % instead of 1 % glued strains differ by up to
-    // 1.3 of their range where the slack is varied: not understood.
-    if (inside[v] != 0) sets.push_back(inside[v] == 1 ? "strain.friction_factor=1000" : "strain.slip=free");
+    // Friction a thousand times as large is not glued: it lets go where compression takes the pressure, 0.37 of the range.
+    if (inside[v] != 0) sets.push_back(inside[v] == 1 ? "strain.slip=[free, stick]" : "strain.slip=free");
     REQUIRE(!sets.empty());
     INFO(sets.front() << (sets.size() > 1 ? sets.back() : ""));
     sets.push_back("uncertainty.enabled=false");

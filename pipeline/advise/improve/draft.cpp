@@ -76,8 +76,13 @@ std::string link_or(const std::string& asked, const Node* routing, const char* c
   return link && link->is_scalar() ? link->text : otherwise;
 }
 
-/// Clamps on the links, at places and of a length that only a reader of jobs looks at; the mounting pose
-/// stays.
+/// What of a routing is no result of a search. given: null: there is none.
+void keep_settings(Node& routing, const Node* given) {
+  for (const char* key : {"mounting_pose_deg", "longest_bracket_mm"})
+    if (const Node* value = given ? given->find(key) : nullptr) routing[key] = *value;
+}
+
+/// Clamps on the links, at places and of a length that only a reader of jobs looks at.
 Node links_only(const RouteRequest& request, const Robot& robot, const Node* given) {
   if (robot.links.size() < 2)
     throw InputError({request.of}, "its robot has fewer than two links", "name a robot that moves");
@@ -89,8 +94,7 @@ Node links_only(const RouteRequest& request, const Robot& robot, const Node* giv
   (*routing.find("base_clamp"))["link"] = named(link_or(request.base_link, given, "base_clamp", base));
   (*routing.find("tool_clamp"))["link"] =
       named(link_or(request.tool_link, given, "tool_clamp", robot.links.back().name));
-  if (const Node* pose = given ? given->find("mounting_pose_deg") : nullptr)
-    routing["mounting_pose_deg"] = *pose;
+  keep_settings(routing, given);
   return routing;
 }
 
@@ -161,9 +165,8 @@ Node routed(const Draft& draft, const std::string& routing, const std::string& m
   else
     replace("dresspacks", "dresspack");
   if (document.find("cell")) document["cell"] = *resolved.find("cell");
-  const Node* pose = document.find("routing") ? document.find("routing")->find("mounting_pose_deg") : nullptr;
   Node found = parse_yaml(routing, std::string(command_line));
-  if (pose) found["mounting_pose_deg"] = *pose;
+  keep_settings(found, document.find("routing"));
   document["routing"] = std::move(found);
   return document;
 }

@@ -40,7 +40,7 @@ struct ImproveRequest {
   std::uint64_t seed = 1;
   SearchMethod method = SearchMethod::surrogate;
   SecondAim second = SecondAim::none;
-  double longest_bracket = pipeline::longest_bracket;  ///< between a link's surface and a clamp [m]
+  std::optional<double> longest_bracket{};  ///< instead of the jobs' [m]
   int rehearsals =
       -1;  ///< short runs before the first trial, at most; 0: none; -1: 40 times as many as variables
 };

@@ -49,14 +49,15 @@ ScreenedList read_screening(const std::filesystem::path& path) {
 }
 
 ScreenedList screening_of(const Job& job, const std::string& candidates, ScreenedBy by,
-                          double longest_bracket, const std::filesystem::path& folder) {
+                          std::optional<double> longest_bracket, const std::filesystem::path& folder) {
   const std::filesystem::path draft = folder / "screened.yaml", list = folder / "candidates.yaml";
   write_text_if_changed(draft, with_mark(job_text(job), Mark::yaml), Sync::never);
   write_text_if_changed(list, with_mark(candidates, Mark::yaml), Sync::never);
   const PassingFile told("screening.h5");
   std::vector<std::string> arguments{
       draft.string(),       "--screen", list.string(), "-o",
-      told.path().string(), "--quiet",  "--bracket",   fmt::format("{:.6g}", 1e3 * longest_bracket)};
+      told.path().string(), "--quiet"};
+  if (longest_bracket) arguments.insert(arguments.end(), {"--bracket", fmt::format("{:.6g}", 1e3 * *longest_bracket)});
   if (by == ScreenedBy::short_runs) arguments.push_back("--rehearse");
   return run_stage_program("dresslife-sim", arguments) == 0 ? read_screening(told.path()) : ScreenedList{};
 }

@@ -94,9 +94,11 @@ TEST_CASE("a shipped routing passes the screening, and what cannot work does not
 TEST_CASE("a clamp in the air or in a neighbour has no bracket (V7)") {
   pipeline::Job job = simple_job();
   const auto g = [&](std::optional<double> longest) {
-    return Screener(job, longest).screen(job).beyond[static_cast<std::size_t>(ScreenedLimit::bracket)];
+    job.dresspacks.front().routing.longest_bracket = longest;
+    return Screener(job, true).screen(job).beyond[static_cast<std::size_t>(ScreenedLimit::bracket)];
   };
-  CHECK(std::isinf(g({})));  // not asked
+  CHECK(g({}) == g(0.15));  // the default
+  CHECK(std::isinf(beyond(job, ScreenedLimit::bracket)));  // not asked
   const double diameter = job.dresspacks.front().dresspack.diameter;
   // A post whose surface is 0.3 m from the base clamp.
   const Vector3 clamp = routing(job).base_clamp->position;
@@ -108,7 +110,7 @@ TEST_CASE("a clamp in the air or in a neighbour has no bracket (V7)") {
       {routing(job).tool_clamp->position, routing(job).tool_clamp->position, 0.01}};
   job.robot.links[base].capsules = {{clamp + Vector3{0, 0, 0.4}, clamp + Vector3{0, 0, 1}, 0.1}};
   CHECK(g(0.15) == Approx((0.3 - diameter / 2 - 0.15) / diameter));
-  CHECK(Screener(job, 0.15).screen(job).rejected());
+  CHECK(Screener(job, true).screen(job).rejected());
   CHECK(g(0.3) < 0);
 }
 
@@ -119,9 +121,9 @@ TEST_CASE(
   settings.tried = 60;
   constexpr auto bracket = static_cast<std::size_t>(ScreenedLimit::bracket);
   for (const double longest : {0.15, 0.06}) {
-    settings.longest_bracket = longest;
+    job.dresspacks.front().routing.longest_bracket = longest;
     job.dresspacks.front().routing = propose(job, settings).front().routing;
-    CHECK(Screener(job, longest).screen(job).beyond[bracket] <= 0);
+    CHECK(Screener(job, true).screen(job).beyond[bracket] <= 0);
   }
   job.cell.boxes = {{{0, 0, 0}, {0, 0, 0}, {20, 20, 20}}};  // everything lies in a block
   try {

@@ -3,7 +3,6 @@
 #include <set>
 
 #include "pipeline/advise/improve/nudges.h"
-#include "pipeline/advise/improve/other_arms.h"
 #include "pipeline/advise/improve/other_ways.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/job/job.h"
@@ -111,41 +110,6 @@ TEST_CASE("a line goes by a point: arm and wrist one after the other, then the l
       CHECK(block.steps[0].joints[k] ==
             Approx(((k < 3) == arm_first ? before : from).joints[k]).margin(1e-12));
   }
-}
-
-TEST_CASE("other configurations of the arm: the same pose of the flange, and all that there are") {
-  Job job = shipped("abb_irb6640_185_280", "hard");
-  Robot& robot = job.robot;
-  REQUIRE(has_wrist(robot));
-  // Without limits an elbow arm with an offset shoulder has four where it reaches back, two where it does
-  // not.
-  constexpr double half_a_turn = 3.14159265;
-  for (Joint& joint : robot.joints) joint.lower = -half_a_turn, joint.upper = half_a_turn;
-  struct Case {
-    std::vector<double> joints;
-    std::size_t others;
-  };
-  std::set<std::string_view> kinds;
-  for (const auto& [joints, others] :
-       {Case{{0.1, -0.2, 0.3, 0.5, 0.6, -0.7}, 3}, Case{{-0.4, 0.1, -0.9, -1, -0.5, 1.2}, 1},
-        Case{{0.3, 0, 0.2, 0, 0, 0.4}, 3}}) {
-    const std::vector<OtherArm> arms = other_arms(robot, joints);
-    CHECK(arms.size() == others);
-    for (const OtherArm& arm : arms) {
-      kinds.insert(arm.what);
-      constexpr double reached = 1e-8;  // the wrist's centre to a millionth of a millimetre
-      CHECK(pose(robot, arm.joints).isApprox(pose(robot, joints), reached));
-      CHECK((Vector3d(arm.joints.data()) - Vector3d(joints.data())).norm() > 0.1);
-    }
-  }
-  CHECK(kinds.size() == 3);
-  // Within the limits fewer remain, and none beyond.
-  robot = shipped("abb_irb6640_185_280", "hard").robot;
-  for (const OtherArm& arm : other_arms(robot, {-0.4, 0.1, -0.9, -1, -0.5, 1.2}))
-    for (std::size_t k = 0; k < 6; ++k) {
-      CHECK(arm.joints[k] >= robot.joints[k].lower);
-      CHECK(arm.joints[k] <= robot.joints[k].upper);
-    }
 }
 
 TEST_CASE("programs without joint targets are refused") {

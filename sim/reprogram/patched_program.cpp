@@ -1,4 +1,4 @@
-#include "pipeline/advise/reprogram/patched_program.h"
+#include "sim/reprogram/patched_program.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "pipeline/settings/document.h"
 
-namespace dresslife::pipeline {
+namespace dresslife::sim {
 namespace {
 
 /// Numbers that were written with six decimals of a millimetre or a degree [m, rad], and Fanuc's three [rad].
@@ -32,22 +32,24 @@ bool same_speed(const std::optional<double>& before, const std::optional<double>
                         (factor == 1 ? 1e-9 * *before : rounded_speed * unit + 1e-6 * *before);
 }
 
-const MotionFrame* frame_of(const std::vector<MotionFrame>& list, const std::string& name) {
-  for (const MotionFrame& frame : list)
+const pipeline::MotionFrame* frame_of(const std::vector<pipeline::MotionFrame>& list,
+                                      const std::string& name) {
+  for (const pipeline::MotionFrame& frame : list)
     if (frame.name == name) return &frame;
   return nullptr;
 }
 
-bool same_frame(const std::vector<MotionFrame>& a, const std::string& name, const std::vector<MotionFrame>& b,
-                const std::string& other) {
-  const MotionFrame *x = frame_of(a, name), *y = frame_of(b, other);
+bool same_frame(const std::vector<pipeline::MotionFrame>& a, const std::string& name,
+                const std::vector<pipeline::MotionFrame>& b, const std::string& other) {
+  const pipeline::MotionFrame *x = frame_of(a, name), *y = frame_of(b, other);
   if (!x || !y) return !x == !y;
   return x->position == y->position && x->quaternion == y->quaternion && x->stationary == y->stationary;
 }
 
 /// In what two steps differ besides a change of the first one's line; empty: in nothing.
-std::string difference(const Motion& before, const MotionStep& a, const Motion& after, const MotionStep& b,
-                       const sim::LineChange* change) {
+std::string difference(const pipeline::Motion& before, const pipeline::MotionStep& a,
+                       const pipeline::Motion& after, const pipeline::MotionStep& b,
+                       const LineChange* change) {
   constexpr double mm_per_s = 1e-3, deg_per_s = 0.0174532925199433;
   const double factor = change && change->speed ? *change->speed : 1;
   if (a.path != b.path || a.is_move() != b.is_move()) return "path";
@@ -75,8 +77,9 @@ std::string difference(const Motion& before, const MotionStep& a, const Motion& 
       !same_speed(a.tool_speed, b.tool_speed, factor, mm_per_s) ||
       !same_speed(a.turn_speed, b.turn_speed, factor, deg_per_s))
     return "speed";
-  if (a.duration != b.duration || a.acceleration_percent != b.acceleration_percent || a.jerk_percent != b.jerk_percent ||
-      a.acceleration != b.acceleration || a.tool_acceleration != b.tool_acceleration)
+  if (a.duration != b.duration || a.acceleration_percent != b.acceleration_percent ||
+      a.jerk_percent != b.jerk_percent || a.acceleration != b.acceleration ||
+      a.tool_acceleration != b.tool_acceleration)
     return "time or acceleration";
   if (a.zone != b.zone || a.tool_zone != b.tool_zone || a.stop_zone != b.stop_zone) return "zone";
   return "";
@@ -84,15 +87,15 @@ std::string difference(const Motion& before, const MotionStep& a, const Motion& 
 
 }  // namespace
 
-std::string other_difference(const Motion& before, const Motion& after,
-                             const std::vector<sim::LineChange>& changes) {
+std::string other_difference(const pipeline::Motion& before, const pipeline::Motion& after,
+                             const std::vector<LineChange>& changes) {
   std::size_t next = 0;
-  for (const MotionStep& step : before.steps) {
-    const auto change = std::find_if(changes.begin(), changes.end(), [&](const sim::LineChange& c) {
+  for (const pipeline::MotionStep& step : before.steps) {
+    const auto change = std::find_if(changes.begin(), changes.end(), [&](const LineChange& c) {
       return c.where.file == step.where.file && c.where.line == step.where.line &&
              c.where.column == step.where.column;
     });
-    const sim::LineChange* own = change == changes.end() ? nullptr : &*change;
+    const LineChange* own = change == changes.end() ? nullptr : &*change;
     if (own && !own->point.empty() && step.is_move()) {
       if (next >= after.steps.size() || largest(own->point, after.steps[next].joints) > written_by_fanuc)
         return fmt::format("{}:{}: the point on the way", step.where.file, step.where.line);
@@ -106,10 +109,10 @@ std::string other_difference(const Motion& before, const Motion& after,
   return next == after.steps.size() ? "" : "it has more moves";
 }
 
-PatchedProgram patched(const Job& job, const ReadProgram& read, const ProgramWay& way) {
+PatchedProgram patched(const pipeline::Job& job, const ReadProgram& read, const ProgramWay& way) {
   namespace fs = std::filesystem;
   std::set<std::string> files;
-  for (const sim::LineChange& change : way.changes) files.insert(change.where.file);
+  for (const LineChange& change : way.changes) files.insert(change.where.file);
   std::map<std::string, std::string> instead;
   PatchedProgram made;
   std::error_code failure;
@@ -117,19 +120,20 @@ PatchedProgram patched(const Job& job, const ReadProgram& read, const ProgramWay
       fs::is_directory(job.motion.program, failure) ? job.motion.program : job.motion.program.parent_path();
   for (const std::string& file : files) {
     const fs::path below = fs::proximate(file, folder.empty() ? "." : folder, failure);
-    const sim::Rewritten changed =
-        sim::rewritten(read.language, file, read_text(file), read.program, way.changes,
-                       failure || below.empty() ? file : below.generic_string());
+    const Rewritten changed =
+        rewritten(read.language, file, pipeline::read_text(file), read.program, way.changes,
+                  failure || below.empty() ? file : below.generic_string());
     instead[file] = changed.text;
     made.patch += changed.patch;
   }
-  made.motion = sim::motion_of(sim::read_program(job.motion, instead), job.motion);
+  made.motion = motion_of(read_program(job.motion, instead), job.motion);
   const std::string other = other_difference(read.motion, made.motion, way.changes);
   if (!other.empty())
-    throw InputError(way.changes.front().where,
-                     fmt::format("cannot be changed by itself: another difference comes with it ({})", other),
-                     "change it by hand");
+    throw pipeline::InputError(
+        way.changes.front().where,
+        fmt::format("cannot be changed by itself: another difference comes with it ({})", other),
+        "change it by hand");
   return made;
 }
 
-}  // namespace dresslife::pipeline
+}  // namespace dresslife::sim

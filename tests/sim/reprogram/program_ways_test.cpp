@@ -1,14 +1,15 @@
-#include "pipeline/advise/reprogram/program_ways.h"
+#include "sim/reprogram/program_ways.h"
 
 #include <filesystem>
 #include <set>
 
-#include "pipeline/advise/reprogram/patched_program.h"
 #include "pipeline/resolve/job_text.h"
+#include "sim/reprogram/patched_program.h"
 #include "tests/catch.h"
 
 using namespace dresslife;
 using namespace dresslife::pipeline;
+using namespace dresslife::sim;
 
 namespace {
 

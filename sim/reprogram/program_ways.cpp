@@ -1,4 +1,4 @@
-#include "pipeline/advise/reprogram/program_ways.h"
+#include "sim/reprogram/program_ways.h"
 
 #include <fmt/format.h>
 
@@ -10,19 +10,19 @@
 #include <optional>
 #include <set>
 
-#include "pipeline/advise/improve/other_ways.h"
+#include "pipeline/arm/other_turns.h"
 #include "sim/robot/inverse_kinematics.h"
 #include "sim/robot/legs.h"
 #include "sim/robot/robot.h"
 
-namespace dresslife::pipeline {
+namespace dresslife::sim {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
 /// A line of the program: all steps that come from one place of a file.
 struct Line {
-  Where where;
+  pipeline::Where where;
   std::string name;
   std::vector<std::size_t> moves;  ///< steps
   double cost = 0;
@@ -35,7 +35,7 @@ class Lines {
     std::set<std::string> numbered;  // as the simulation numbers lines: by place and text
     std::size_t before = 0;
     for (std::size_t k = 0; k < read.motion.steps.size(); ++k) {
-      const MotionStep& step = read.motion.steps[k];
+      const pipeline::MotionStep& step = read.motion.steps[k];
       const std::string key = fmt::format("{}:{}:{}", step.where.file, step.where.line, step.where.column);
       const auto [place, is_new] = of_place.try_emplace(key, lines_.size());
       if (is_new) {
@@ -72,16 +72,16 @@ class Lines {
 
 class Ways {
  public:
-  Ways(const Job& job, const ReadProgram& read, const std::vector<double>& line_damage)
+  Ways(const pipeline::Job& job, const ReadProgram& read, const std::vector<double>& line_damage)
       : robot_(job.robot),
         read_(read),
         lines_(read, line_damage),
         arm_(job.robot),
-        turns_(other_turns(robot_)) {
-    Eigen::VectorXd accelerations = Eigen::VectorXd::Ones(static_cast<long>(sim::axes_of(robot_).size()));
-    const std::vector<Eigen::VectorXd> targets = sim::legs_of(read.motion, robot_, accelerations).targets;
+        turns_(pipeline::other_turns(robot_)) {
+    Eigen::VectorXd accelerations = Eigen::VectorXd::Ones(static_cast<long>(axes_of(robot_).size()));
+    const std::vector<Eigen::VectorXd> targets = legs_of(read.motion, robot_, accelerations).targets;
     std::size_t next = 0;
-    for (const MotionStep& step : read.motion.steps)
+    for (const pipeline::MotionStep& step : read.motion.steps)
       joints_.push_back(step.is_move() && next < targets.size() ? targets[next++] : Eigen::VectorXd());
     find_chains();
   }
@@ -98,14 +98,13 @@ class Ways {
     std::set<std::size_t> every;
     for (std::size_t k = 0; k < chain_of_.size(); ++k)
       if (read_.motion.steps[k].is_move()) every.insert(lines_.of_step(k));
-    using Language = sim::Language;
     const Language language = read_.language;  // what its lines can say
     const bool points = language == Language::rapid || language == Language::krl;
     const bool turns = points || language == Language::fanuc;
-    for (const NamedTurn& turn : turns_)
+    for (const pipeline::NamedTurn& turn : turns_)
       if (turns) add(turned(turn, every, true));
     for (const std::size_t line : lines_.costly(most_lines)) {
-      for (const NamedTurn& turn : turns_)
+      for (const pipeline::NamedTurn& turn : turns_)
         if (turns) add(turned(turn, {line}, false));
       for (const bool arm_first : {true, false})
         if (points) add(by_a_point(line, arm_first));
@@ -116,7 +115,7 @@ class Ways {
 
  private:
   bool is_joint_move(std::size_t step) const {
-    const MotionStep& s = read_.motion.steps[step];
+    const pipeline::MotionStep& s = read_.motion.steps[step];
     return s.is_move() && !leads_tool(s.path);
   }
 
@@ -148,15 +147,16 @@ class Ways {
   }
 
   /// The same places by another turn of wrist or arm; absent: some line has none, or cannot say so.
-  std::optional<ProgramWay> turned(const NamedTurn& turn, const std::set<std::size_t>& from, bool all) const {
+  std::optional<ProgramWay> turned(const pipeline::NamedTurn& turn, const std::set<std::size_t>& from,
+                                   bool all) const {
     const std::set<std::size_t> lines = whole_chains(from);
     ProgramWay way{turn.name, {}, {}};
     if (!all) names(lines, way.lines);
     bool any = false;
     for (const std::size_t line : lines) {
-      std::optional<sim::LineChange> change;
+      std::optional<LineChange> change;
       for (const std::size_t step : lines_.all()[line].moves) {
-        std::optional<sim::LineChange> here = turned(turn, step);
+        std::optional<LineChange> here = turned(turn, step);
         if (!here ||
             (change && (change->configuration != here->configuration || change->joints != here->joints)))
           return {};
@@ -170,20 +170,20 @@ class Ways {
     return any ? std::optional(way) : std::nullopt;
   }
 
-  std::optional<sim::LineChange> turned(const NamedTurn& turn, std::size_t k) const {
-    const MotionStep& step = read_.motion.steps[k];
+  std::optional<LineChange> turned(const pipeline::NamedTurn& turn, std::size_t k) const {
+    const pipeline::MotionStep& step = read_.motion.steps[k];
     const Eigen::VectorXd& now = joints_[k];
     if (now.size() < 6) return {};
     const auto other = turn.turn({now.data(), now.data() + 6});
     if (!other) return {};
-    sim::LineChange change{.where = step.where, .reason = turn.name};
+    LineChange change{.where = step.where, .reason = turn.name};
     if (!step.joints.empty()) {
       change.joints = *other;
       return change;
     }
-    const auto programmed = sim::arm_configuration(step.configuration);
+    const auto programmed = arm_configuration(step.configuration);
     if (!programmed) return {};
-    using Kind = sim::ArmConfiguration::Kind;
+    using Kind = ArmConfiguration::Kind;
     const bool watched = programmed->kind == Kind::abb || programmed->kind == Kind::fanuc;
     if (leads_tool(step.path) && !watched) return change;  // the arm goes on as it came
     if (!watched && programmed->kind != Kind::kuka) return {};
@@ -231,38 +231,38 @@ class Ways {
 
   std::optional<ProgramWay> slower(std::size_t line, double factor) const {
     for (const std::size_t k : lines_.all()[line].moves) {
-      const MotionStep& step = read_.motion.steps[k];
+      const pipeline::MotionStep& step = read_.motion.steps[k];
       if (step.duration || is_process(step.text) || !(step.speed || step.speed_percent || step.tool_speed))
         return {};
-      if (read_.language == sim::Language::krl && (leads_tool(step.path) || !step.speed_percent)) return {};
+      if (read_.language == Language::krl && (leads_tool(step.path) || !step.speed_percent)) return {};
     }
     ProgramWay way{fmt::format("at {:.0f} % of its speed", 100 * factor), {lines_.all()[line].name}, {}};
     way.changes.push_back({.where = lines_.all()[line].where, .speed = factor, .reason = way.what});
     return way;
   }
 
-  const Robot& robot_;
+  const pipeline::Robot& robot_;
   const ReadProgram& read_;
   const Lines lines_;
-  const sim::InverseKinematics arm_;
-  const std::vector<NamedTurn> turns_;
+  const InverseKinematics arm_;
+  const std::vector<pipeline::NamedTurn> turns_;
   std::vector<Eigen::VectorXd> joints_;  // (step) at its end; empty: no move
   std::vector<std::size_t> chain_of_;    // (step)
 };
 
 }  // namespace
 
-ReadProgram read_job_program(const Job& job) {
+ReadProgram read_job_program(const pipeline::Job& job) {
   ReadProgram read;
-  read.language = sim::language_of(job.motion);
-  read.program = sim::read_program(job.motion);
-  read.motion = sim::motion_of(read.program, job.motion);
+  read.language = language_of(job.motion);
+  read.program = read_program(job.motion);
+  read.motion = motion_of(read.program, job.motion);
   return read;
 }
 
-std::vector<ProgramWay> program_ways(const Job& job, const ReadProgram& read,
+std::vector<ProgramWay> program_ways(const pipeline::Job& job, const ReadProgram& read,
                                      const std::vector<double>& line_damage, std::size_t most_lines) {
   return Ways(job, read, line_damage).run(most_lines);
 }
 
-}  // namespace dresslife::pipeline
+}  // namespace dresslife::sim

@@ -1,4 +1,4 @@
-#include "pipeline/advise/improve/other_arms.h"
+#include "pipeline/arm/other_arms.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

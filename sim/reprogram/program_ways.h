@@ -11,27 +11,27 @@
 #include "sim/program/import.h"
 #include "sim/program/rewrite.h"
 
-namespace dresslife::pipeline {
+namespace dresslife::sim {
 
 /// A job's program as it was read.
 struct ReadProgram {
-  sim::Language language = sim::Language::rapid;
-  sim::Program program;
-  Motion motion;  ///< of it: a step for each instruction, in their order
+  Language language = Language::rapid;
+  Program program;
+  pipeline::Motion motion;  ///< of it: a step for each instruction, in their order
 };
 
 /// Errors: those of reading it. Precondition: job.motion.program is set.
-ReadProgram read_job_program(const Job& job);
+ReadProgram read_job_program(const pipeline::Job& job);
 
 struct ProgramWay {
-  std::string what;                 ///< "axis 6 turned by +360 deg"
-  std::vector<std::string> lines;   ///< "side_panel.mod:54"; empty: all
-  std::vector<sim::LineChange> changes;
+  std::string what;                ///< "axis 6 turned by +360 deg"
+  std::vector<std::string> lines;  ///< "side_panel.mod:54"; empty: all
+  std::vector<LineChange> changes;
 };
 
 /// line_damage: (line of the motion, as the simulation numbers them) what each costs. most_lines: of those that cost
 /// most. Errors: InputError where the robot does not reach a target.
-std::vector<ProgramWay> program_ways(const Job& job, const ReadProgram& read, const std::vector<double>& line_damage,
-                                     std::size_t most_lines);
+std::vector<ProgramWay> program_ways(const pipeline::Job& job, const ReadProgram& read,
+                                     const std::vector<double>& line_damage, std::size_t most_lines);
 
-}  // namespace dresslife::pipeline
+}  // namespace dresslife::sim
