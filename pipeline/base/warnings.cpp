@@ -58,6 +58,26 @@ const char* word(WarningKind kind) {
   return "";
 }
 
+bool spoils_plan(WarningKind kind) {
+  switch (kind) {
+    case WarningKind::program:
+    case WarningKind::bend_radius:
+    case WarningKind::twist:
+    case WarningKind::tension:
+    case WarningKind::slack:
+    case WarningKind::periodic:
+    case WarningKind::force:
+    case WarningKind::strain:
+      return true;
+    case WarningKind::overlap:      // of cross-sections as drawn: cables give way
+    case WarningKind::mesh:         // an error of the numerics, whose size it names
+    case WarningKind::material:     // a constant that may be right
+    case WarningKind::calibration:  // the uncertainty is that of the prior there
+      return false;
+  }
+  return false;
+}
+
 const char* title(WarningKind kind) {
   switch (kind) {
     case WarningKind::program:

@@ -25,6 +25,10 @@ enum class WarningKind {
 };
 inline constexpr int warning_kinds_count = static_cast<int>(WarningKind::calibration) + 1;
 
+/// Whether hours beside such a warning are no basis of a plan: the dresspack passes a limit beyond which it fails in ways
+/// that no stage evaluates, or the motion or the strains are not those of the plant.
+bool spoils_plan(WarningKind kind);
+
 /// "bend_radius": in files and names of columns.
 const char* word(WarningKind kind);
 /// "bend radius", "skipped instructions": for people.

@@ -78,7 +78,7 @@ std::string headline(const RankingRow& row) {
                          "without friction. ",
                          printed_hours(row.glued_hours[0]), printed_hours(row.free_hours[0]));
   if (!std::isnan(row.first_wire_hours[0]) && std::isfinite(row.first_wire_hours[0]))
-    lives += fmt::format("By the scatter of wires alone a first wire breaks after {} .. {} h in 10 .. 90 %. ",
+    lives += fmt::format("With the uncertain parameters at their medians a first wire breaks after {} .. {} h in 10 .. 90 %. ",
                          printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
   lives += fmt::format("The median of the worst wire is {}.", printed_hours(row.life_hours));
   text += fmt::format("<p>{}</p>\n", lives) + paragraph(hose_words(row));

@@ -356,7 +356,7 @@ std::string facts(const RankingRow& row) {
   if (!row.life_shares.empty()) fact("its causes", escaped(row.life_shares));
   if (const std::string words = order_words(row); !words.empty()) fact("beside the next job", escaped(words));
   if (!row.failing_mode.empty())
-    fact("fails first", fmt::format("{} ({:.0f} % of the samples)", escaped(row.failing_mode), 100 * row.failing_mode_share));
+    fact("fails first", fmt::format("{}, in {:.0f} % of the samples", escaped(row.failing_mode), 100 * row.failing_mode_share));
   if (row.relative) fact("relative life", escaped(relative_words(*row.relative)));
   const auto bounds = [&](const char* name, double glued, double free) {
     fact(name, fmt::format("{} if everything inside the cables were glued, {} if it slipped without friction",

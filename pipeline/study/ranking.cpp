@@ -252,10 +252,11 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
   if (row.done())
     if (const std::string kinds = warning_kinds(row); !kinds.empty()) all.push_back("WARNING: " + kinds);
   all.push_back(uncapped_words(row));
+  all.push_back(repeat_words(row));
   all.push_back(uncertainty_words(row));
   all.push_back(failure_words(row));
   if (row.planned() && std::isfinite(row.first_wire_hours[0]))
-    all.push_back(fmt::format("By the scatter of wires alone a first wire breaks after {}.",
+    all.push_back(fmt::format("With the uncertain parameters at their medians a first wire breaks after {} (10 .. 90 %).",
                               range_text(row.first_wire_hours[0], row.first_wire_hours[2])));
   all.push_back(hose_words(row));
   if (row.done() && row.relative) all.push_back(relative_words(*row.relative));
@@ -418,6 +419,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   std::string estimates;
   for (const std::string& one : estimate_words(rows)) estimates += wrapped(one_line(one), width, "");
   if (!estimates.empty()) text += '\n' + shown(estimates);
+  if (const std::string repeats = different_repeats_words(rows); !repeats.empty()) text += '\n' + wrapped(repeats, width, "");
   return selected.summary.empty() ? text : text + '\n' + selected.summary;
 }
 

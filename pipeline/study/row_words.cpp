@@ -22,9 +22,7 @@ const UncertainParameter* parameter_of(const std::string& name) {
 /// Warnings that say that the strains themselves are wrong.
 bool is_believable(const RankingRow& row) {
   const std::vector<Warning> warnings = warnings_of(row);
-  return std::none_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
-    return warning.kind == WarningKind::force || warning.kind == WarningKind::strain;
-  });
+  return std::none_of(warnings.begin(), warnings.end(), [](const Warning& warning) { return spoils_plan(warning.kind); });
 }
 
 bool outlives_robot(const RankingRow& row, double hours) {
@@ -112,10 +110,10 @@ std::string failure_words(const RankingRow& row) {
   if (!is_damaged(row)) return "No wire is damaged.";
   const std::string first = row.failing_mode.empty()
                                 ? ""
-                                : fmt::format("Fails first: {} ({:.0f} % of the samples).", row.failing_mode,
+                                : fmt::format("Fails first: {}, in {:.0f} % of the samples.", row.failing_mode,
                                               100 * row.failing_mode_share);
-  const std::string during = row.worst_step.empty() ? "" : " during '" + row.worst_step + "'";
-  return joined_words({first, fmt::format("The worst wire is {}, {:.2f} m from the tool, at {:.1f} s{}.",
+  const std::string during = row.worst_step.empty() ? "" : ", during '" + row.worst_step + "'";
+  return joined_words({first, fmt::format("The worst wire is {}, {:.2f} m from the tool. Its most damaging cycle ends at {:.1f} s{}.",
                                           row.worst_component, row.worst_position_from_tool, row.worst_time, during),
                        joint_words(row)});
 }
@@ -133,8 +131,28 @@ std::string joint_words(const RankingRow& row) {
 std::string hose_words(const RankingRow& row) {
   if (!row.hose) return "";
   return std::isinf(row.hose->hours)
-             ? "Unvalidated, not in the hours above: the hose's wall is not damaged."
-             : fmt::format("Unvalidated, not in the hours above: the hose's wall lasts {}.", hose_life_words(row.hose->hours));
+             ? "The life of the hose's wall is not validated and not in the hours above. By the model it is not damaged."
+             : fmt::format("The life of the hose's wall is not validated and not in the hours above. By the model it is {}.",
+                           hose_life_words(row.hose->hours));
+}
+
+std::string repeat_words(const RankingRow& row) {
+  if (!row.planned() || outlives_robot(row, row.planned_hours[0])) return "";
+  return fmt::format("One repeat of the motion takes {} s: 1 of 10 has failed after {} repeats.", readable(row.repeat_seconds),
+                     readable(row.planned_hours[0] * 3600 / row.repeat_seconds));
+}
+
+std::string different_repeats_words(const std::vector<RankingRow>& rows) {
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  for (const RankingRow& row : rows) {
+    if (!row.done()) continue;
+    shortest = std::min(shortest, row.repeat_seconds);
+    longest = std::max(longest, row.repeat_seconds);
+  }
+  constexpr double alike = 1.02;  // below it hours and repeats give the same order, beside the uncertainty
+  if (!(longest > alike * shortest)) return "";
+  return fmt::format("Repeats take {} .. {} s. Compare jobs that do the same work by repeats, not by hours.", readable(shortest),
+                     readable(longest));
 }
 
 std::string order_words(const RankingRow& row) {
