@@ -54,6 +54,8 @@ const char* word(WarningKind kind) {
       return "strain";
     case WarningKind::calibration:
       return "calibration";
+    case WarningKind::motion:
+      return "motion";
   }
   return "";
 }
@@ -68,6 +70,7 @@ bool spoils_plan(WarningKind kind) {
     case WarningKind::periodic:
     case WarningKind::force:
     case WarningKind::strain:
+    case WarningKind::motion:
       return true;
     case WarningKind::overlap:      // of cross-sections as drawn: cables give way
     case WarningKind::mesh:         // an error of the numerics, whose size it names
@@ -94,6 +97,8 @@ const char* title(WarningKind kind) {
       return "forces";
     case WarningKind::material:
       return "material, stiffness";
+    case WarningKind::motion:
+      return "unusual motion";
     case WarningKind::twist:
     case WarningKind::tension:
     case WarningKind::slack:

@@ -21,9 +21,10 @@ enum class WarningKind {
   force,        ///< strains rest on forces that nobody sees
   material,     ///< constants of a material contradict each other
   strain,       ///< strains that no wire is meant for
-  calibration   ///< the job goes beyond the tests from which its calibration was learned
+  calibration,  ///< the job goes beyond the tests from which its calibration was learned
+  motion        ///< a speed, a wait or an angle that may be in another unit
 };
-inline constexpr int warning_kinds_count = static_cast<int>(WarningKind::calibration) + 1;
+inline constexpr int warning_kinds_count = static_cast<int>(WarningKind::motion) + 1;
 
 /// Whether hours beside such a warning are no basis of a plan: the dresspack passes a limit beyond which it fails in ways
 /// that no stage evaluates, or the motion or the strains are not those of the plant.

@@ -34,7 +34,7 @@ class QuickChecks {
     add_slack(checks);
     add_bend(checks);
     add_twist(checks);
-    std::vector<pipeline::Warning> all = robot_ ? robot_->left_out() : std::vector<pipeline::Warning>{};
+    std::vector<pipeline::Warning> all = robot_ ? robot_->doubts() : std::vector<pipeline::Warning>{};
     add_winding(all);
     return pipeline::joined(
         std::move(all),

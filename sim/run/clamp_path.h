@@ -60,8 +60,8 @@ class RobotPath final : public ClampPath {
   const std::vector<std::string>& step_texts() const override { return motion_.step_texts(); }
 
   const JointMotion& motion() const { return motion_; }
-  /// Of the robot program that was read (Motion::left_out).
-  const std::vector<pipeline::Warning>& left_out() const { return left_out_; }
+  /// Of the robot program (Motion::left_out, external axes that the robot lacks) and of unusual steps.
+  const std::vector<pipeline::Warning>& doubts() const { return doubts_; }
   Pose pose(const Eigen::VectorXd& joints) const;
   /// (end, as ClampFrames counts them) index of the link that carries it; no_link: a free end.
   const std::vector<int>& end_links() const { return end_links_; }
@@ -81,7 +81,7 @@ class RobotPath final : public ClampPath {
 
   RobotKinematics kinematics_;
   JointMotion motion_;
-  std::vector<pipeline::Warning> left_out_;
+  std::vector<pipeline::Warning> doubts_;
   std::vector<int> end_links_, ring_links_;
   std::vector<int> end_clamps_;  // (end) index into clamps_; a free end names the clamp before it
   std::vector<int> clamp_links_;

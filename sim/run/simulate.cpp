@@ -82,8 +82,8 @@ Simulation::Simulation(const pipeline::Setup& setup)
 
 Simulation::~Simulation() = default;
 
-std::vector<pipeline::Warning> Simulation::left_out() const {
-  return robot_ ? robot_->left_out() : std::vector<pipeline::Warning>{};
+std::vector<pipeline::Warning> Simulation::doubts() const {
+  return robot_ ? robot_->doubts() : std::vector<pipeline::Warning>{};
 }
 
 std::string Simulation::moment(double time) const {
@@ -288,7 +288,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
 }
 
 std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary) {
-  std::vector<pipeline::Warning> warnings = simulation.left_out();
+  std::vector<pipeline::Warning> warnings = simulation.doubts();
   const pipeline::Simulation& settings = simulation.setup().simulation;
   if (summary.returns && !summary.periodic)
     warnings.push_back(pipeline::warning_of(

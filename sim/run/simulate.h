@@ -97,7 +97,7 @@ class Simulation {
   const ClampPath& path() const { return *path_; }
   const Rod& rod() const { return rod_; }
   /// Of the robot program that was read (Motion::left_out); nothing without one.
-  std::vector<pipeline::Warning> left_out() const;
+  std::vector<pipeline::Warning> doubts() const;
   /// As given; simulation.time_step is the step that the run begins with.
   const pipeline::Setup& setup() const { return setup_; }
   std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'"

@@ -154,7 +154,7 @@ TEST_CASE("ranking: every column is described, and no column was renamed, moved 
       "rated_cable,scatter_life_hours_p10,scatter_life_hours_p50,scatter_life_hours_p90,outlives_next,"
       "life_shares,measure_next,measure_next_share,warnings,warning_words,program_ok,bend_radius_ok,"
       "twist_ok,tension_ok,slack_ok,periodic_ok,overlap_ok,mesh_ok,material_ok,strain_ok,"
-      "calibration_ok,loose_mesh_error,estimates,rank,failing_mode,failing_mode_share,"
+      "calibration_ok,motion_ok,loose_mesh_error,estimates,rank,failing_mode,failing_mode_share,"
       "life_hours_p10_all_glued,life_hours_p50_all_glued,life_hours_p90_all_glued,"
       "life_hours_p10_all_free,life_hours_p50_all_free,life_hours_p90_all_free,best_test,"
       "best_test_life_hours_p10,best_test_life_hours_p90";

@@ -234,11 +234,11 @@ TEST_CASE("clamp path: the pose of mounting is the first waypoint or what the ro
 
 TEST_CASE("clamp path: external axes that the motion moves and the robot does not have are named") {
   pipeline::Job job = turning_job();
-  CHECK(RobotPath(job).left_out().empty());
+  CHECK(RobotPath(job).doubts().empty());
   for (pipeline::MotionStep& step : job.motion.steps) step.external_axes = {7, 100};
-  CHECK(RobotPath(job).left_out().empty());  // they stand
+  CHECK(RobotPath(job).doubts().empty());  // they stand
   job.motion.steps.back().external_axes = {7, 600};
-  const auto named = RobotPath(job).left_out();
+  const auto named = RobotPath(job).doubts();
   REQUIRE(named.size() == 1);
   CHECK(named[0].words.find("moves external axis 2 from 100 to 600 (mm or deg)") != std::string::npos);
   pipeline::ExternalAxis still, track;
@@ -246,7 +246,7 @@ TEST_CASE("clamp path: external axes that the motion moves and the robot does no
   still.lower = track.lower = -1, still.upper = track.upper = 1;
   still.speed = track.speed = still.acceleration = track.acceleration = 1;
   job.robot.external_axes = {still, track};
-  CHECK(RobotPath(job).left_out().empty());
+  CHECK(RobotPath(job).doubts().empty());
 }
 
 TEST_CASE("clamp path: a clamp on no link is named") {
