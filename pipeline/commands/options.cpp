@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <initializer_list>
 #include <set>
 #include <string_view>
 #include <thread>
@@ -87,61 +85,31 @@ struct OtherKind {
   std::string_view kind, use;
 };
 constexpr OtherKind program_kind{"robot program", "name it in a job: dresslife new --program FILE JOB.yaml"},
-    result_kind{"result", "see it by dresslife show FILE or plot FILE"},
-    study_kind{"study", "give it to dresslife run, status, report or improve"},
-    job_kind{"job", "give it to dresslife check, preview, run, route or improve"},
-    dresspack_kind{"dresspack", "see it by dresslife draw FILE, or name it in a job as dresspack: FILE"},
-    robot_kind{"robot", "name it in a job as robot: FILE"}, motion_kind{"motion", "name it in a job as motion: FILE"},
-    observations_kind{"table of observations", "give it to dresslife validate or calibrate"}, unknown_kind{"", ""};
+    result_kind{"result", "see it by dresslife show FILE or plot FILE"};
 
-/// By the end of the name, or by the keys that begin a line of a YAML file. unknown_kind: none of these.
-OtherKind kind_of_content(const fs::path& file) {
+/// By the end of the name; null: perhaps a YAML file, whose keys tell its kind (resolve/document_kind.h).
+const OtherKind* kind_by_name(const fs::path& file) {
   std::string end = file.extension();
   std::transform(end.begin(), end.end(), end.begin(), [](unsigned char letter) { return std::tolower(letter); });
   static const std::set<std::string> programs{".mod", ".modx", ".prg", ".sys", ".pgf", ".src", ".dat", ".ls", ".jbi", ".script"};
-  if (programs.contains(end)) return program_kind;
-  if (end == ".h5" || end == ".hdf5") return result_kind;
-  if ((end != ".yaml" && end != ".yml") || kind_of(file) != FileKind::file) return unknown_kind;
-  std::set<std::string> keys;
-  constexpr int most_lines = 10'000;  // a hand-written file is shorter, and others are not for these commands
-  std::ifstream lines(file);
-  std::string line;
-  for (int k = 0; k < most_lines && std::getline(lines, line); ++k)
-    if (const std::size_t colon = line.find(':'); colon != line.npos && colon > 0 && line[0] != ' ' && line[0] != '#')
-      keys.insert(line.substr(0, colon));
-  const auto has = [&](const char* key) { return keys.contains(key); };
-  if (has("observations")) return observations_kind;
-  if (has("base")) return study_kind;
-  if (has("motion") || has("dresspack") || has("dresspacks")) return job_kind;
-  if (has("joints") && has("links")) return robot_kind;
-  if (has("components") || has("data_sheet")) return dresspack_kind;
-  if (has("steps")) return motion_kind;
-  return unknown_kind;
+  if (programs.contains(end)) return &program_kind;
+  if (end == ".h5" || end == ".hdf5") return &result_kind;
+  return nullptr;
 }
 
-/// What a user names is read, here or by a stage, and not replaced. wanted: kinds that the command takes.
-fs::path input(fs::path file, std::initializer_list<OtherKind> wanted) {
-  const OtherKind found = kind_of_content(file);
-  const auto same = [&](const OtherKind& one) { return one.kind == found.kind; };
-  if (wanted.size() > 0 && !found.kind.empty() && std::none_of(wanted.begin(), wanted.end(), same))
-    throw InputError({file.string()}, fmt::format("is a {}, not a {}", found.kind, wanted.begin()->kind), std::string(found.use));
+/// What a user names is read, here or by a stage, and not replaced.
+fs::path input(fs::path file) {
+  if (const OtherKind* const other = kind_by_name(file))
+    throw InputError({file.string()}, fmt::format("is a {}, not a YAML file of dresslife", other->kind), std::string(other->use));
   note_input(file);
   return file;
 }
 
 }  // namespace
 
-fs::path named_file(const std::string& name, const std::string& shelf) {
-  const fs::path file = file_or_entry(name, {shelf});
-  if (shelf == "jobs") return input(file, {job_kind});
-  if (shelf == "dresspacks") return input(file, {dresspack_kind});
-  if (shelf == "observations") return input(file, {observations_kind});
-  return input(file, {});
-}
+fs::path named_file(const std::string& name, const std::string& shelf) { return input(file_or_entry(name, {shelf})); }
 
-fs::path named_study(const std::string& name) {
-  return input(file_or_entry(name, {"jobs", "studies"}), {study_kind, job_kind});
-}
+fs::path named_study(const std::string& name) { return input(file_or_entry(name, {"jobs", "studies"})); }
 
 StudyRequest request_of(const StudyOptions& options) {
   return {named_study(options.study), options.sets, options.out, program_folder()};

@@ -40,8 +40,8 @@ std::vector<Option> run_options(RunOptions& options);
 Option launcher_option(RunOptions& options);
 
 /// What a user names: a file, or an entry of the catalogue ("two_robots" or "studies/two_robots"). A name of both a job and
-/// a study means the job in every command, which a note says. shelf: folder of config/. Errors: InputError, neither, or a file
-/// of another kind, such as a dresspack where a job is wanted.
+/// a study means the job in every command, which a note says. shelf: folder of config/. Errors: InputError, neither, or a robot
+/// program or a result.
 std::filesystem::path named_file(const std::string& name, const std::string& shelf);
 
 /// Likewise a study, or a job, which is a study of one.

@@ -6,7 +6,6 @@
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/setup.h"
 #include "sim/program/import.h"
-#include "sim/run/unusual_motion.h"
 
 namespace dresslife::sim {
 
@@ -65,7 +64,7 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const pipeline::Motion& motio
     : kinematics_(setup.robot),
       motion_(motion, setup.robot),
       doubts_(pipeline::joined(pipeline::joined(motion.left_out, missing_external_axes(motion, setup.robot)),
-                               unusual_motion(motion))),
+                               plausibility_of_program(setup.motion, motion))),
       mounting_pose_(motion_.position(0)) {
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const pipeline::Routing& routing = mounted.routing;
