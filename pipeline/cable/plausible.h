@@ -9,8 +9,8 @@
 
 namespace dresslife::pipeline {
 
-/// Mass against solid copper and the dresspack's own wires, damping against any swing that is seen, wires and lay angles
-/// against what is made, parts side by side of one name. Each warning names key, value and limit.
+/// Mass and stiffnesses against solid copper, its own wires and weight, damping against any swing that is seen, wires, lay
+/// angles, pressures and play against what is made, parts side by side of one name. Each warning names key, value and limit.
 std::vector<Warning> plausibility_warnings(const Dresspack& dresspack);
 
 }  // namespace dresslife::pipeline

@@ -104,7 +104,7 @@ struct Motion {
   std::filesystem::path deformation;  ///< CSV with the dresspack's own deformation instead; empty: none
   std::optional<Rig> rig;             ///< that deforms it instead
   /// Of steps that were read from a program: what was left out there and may move the robot. Of any: numbers that another
-  /// unit explains (pipeline/resolve/plausible_motion.h).
+  /// unit explains (pipeline/resolve/plausible_job.h).
   std::vector<Warning> left_out;
   Where where;
 

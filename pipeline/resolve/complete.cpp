@@ -2,7 +2,7 @@
 
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/job/job_forms.h"
-#include "pipeline/resolve/plausible_motion.h"
+#include "pipeline/resolve/plausible_job.h"
 
 namespace dresslife::pipeline {
 
@@ -32,7 +32,7 @@ void complete_job(Job& job, const Node& document, Problems& problems) {
                        [&] { take_stiffnesses(mounted.dresspack, job.strain.slip); });
   }
   if (problems.touch("motion")) return;
-  job.motion.left_out = joined(std::move(job.motion.left_out), plausibility_warnings(job.motion));
+  job.motion.left_out = joined(std::move(job.motion.left_out), plausibility_warnings(job));
   if (!job.motion.rig) return;
   problems.attempt("motion", job.motion.where, [&] { check_rig(*job.motion.rig); });
   const Node* strain = document.find("strain");

@@ -228,6 +228,13 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "radius_mm: 0.1, ", "radius_mm: 0.0001, ", "hose.yaml:18:101", "radius_mm of 'wire' is 0.0001 (limit 0.01 or more for a wire). Likely cause: metres", "radius_mm: 0.1 if that was metres"},
     {"hose.yaml", "lay_angle_deg: 8", "lay_angle_deg: 0.14", "hose.yaml:18:9", "lay_angle_deg of 'core' is 0.14, a turn in 3.86 m (limit 0, or 0.6 deg or more). Likely cause: radians", "lay_angle_deg: 8.02 if that was radians"},
     {"hose.yaml", "components:\n  - name: lead", "components:\n  - {name: lead, radius_mm: 4.1, helix_radius_mm: 0, components: [{name: wire, count: 19, radius_mm: 0.1, helix_radius_mm: 0.8, lay_angle_deg: 5, material: copper}]}\n  - name: lead", "hose.yaml:13:5", "two parts side by side are named 'lead' (the other: line 12)", "another name"},
+    {"hose.yaml", "torsional_stiffness_Nm2: 1.6", "torsional_stiffness_Nm2: 1600000", "hose.yaml:1:1", "torsional_stiffness_Nm2 is 1.6e+06 (limit 2.76e+04 N m2: solid copper of diameter_mm)", "as measured"},
+    {"hose.yaml", "axial_stiffness_N: 50000", "axial_stiffness_N: 50", "hose.yaml:1:1", "axial_stiffness_N is 50 (limit 589 or more: 2 % of stretch by the weight of a metre)", "axial_stiffness_N: 5e+04 if that was kN"},
+    {"hose.yaml", "damping_source: a guess", "damping_source: a guess\nleast_bend_radius_mm: 0.25", "hose.yaml:1:1", "least_bend_radius_mm is 0.25 (limit 25: half of diameter_mm). Likely cause: metres", "least_bend_radius_mm: 250 if that was metres"},
+    {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    play_mm: 400", "hose.yaml:12:5", "play_mm of 'lead' is 400 (limit 25: half of diameter_mm)", "it follows from the bore"},
+    {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 0.3\n    radial_line_load_N_per_m: 5e6", "hose.yaml:12:5", "radial_line_load_N_per_m of 'lead' is 5e+06, 610 MPa on its width (limit 10: jackets yield)", "0.05 MPa times the part's width"},
+    {"job.yaml", "segments: 24", "segments: 24, sample_rate_Hz: 0.5", "", "simulation.sample_rate_Hz is 0.5 (limit 5 or more)", "simulation.sample_rate_Hz: 25"},
+    {"job.yaml", "simulation: {", "strain: {gate: 0.1}\nsimulation: {", "", "strain.gate is 0.1 (limit 0.0005 or less): cycles below it are left out", "strain.gate: 0.001 if"},
     {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack: too long", "routing.free_length_m: 2.857"},
     {"job.yaml", "direction: [1, 0, -0.35]", "direction: [-1, 0, 0.35]", "", "smallest bend radius at rest: 51.9 mm", "direction"},
 };

@@ -1,4 +1,4 @@
-#include "pipeline/resolve/plausible_motion.h"
+#include "pipeline/resolve/plausible_job.h"
 
 #include <fmt/format.h>
 
@@ -16,6 +16,9 @@ constexpr double most_radians = 2 * std::numbers::pi;  // of an axis, if the num
 constexpr double moves = 0.1;          // an axis' way in one of these numbers: less is a robot that stands
 constexpr double least_percent = 1;    // a hundredth of an axis' speed: no program of a plant runs so
 constexpr double longest_dwell = 100;  // [s]: the cycles of lines are shorter
+
+constexpr double least_rate = 5;       // [Hz]: of a hose's swing at 1.8 Hz fewer than three samples
+constexpr double largest_gate = 5e-4;  // 29 MPa of amplitude in copper, half of what annealed copper endures
 
 struct Seen {
   const MotionStep* first = nullptr;
@@ -51,8 +54,22 @@ void look_at(const std::vector<MotionStep>& steps, Seen& seen, std::vector<Warni
 
 }  // namespace
 
-std::vector<Warning> plausibility_warnings(const Motion& motion) {
+std::vector<Warning> plausibility_warnings(const Job& job) {
+  const Motion& motion = job.motion;
   std::vector<Warning> warnings;
+  if (!motion.is_prescribed() && job.simulation.sample_rate < least_rate)
+    warnings.push_back(warning_of(WarningKind::mesh, "",
+                                  fmt::format("simulation.sample_rate_Hz is {:g} (limit {:g} or more)",
+                                              job.simulation.sample_rate, least_rate),
+                                  "seconds instead of 1/s; the samples miss the hose's swing",
+                                  "simulation.sample_rate_Hz: 25"));
+  if (job.strain.gate > largest_gate)
+    warnings.push_back(
+        warning_of(WarningKind::strain, "",
+                   fmt::format("strain.gate is {:g} (limit {:g} or less): cycles below it are left out",
+                               job.strain.gate, largest_gate),
+                   "per cent instead of a share",
+                   fmt::format("strain.gate: {:g} if that was per cent, or no key", job.strain.gate / 100)));
   Seen seen;
   look_at(motion.steps, seen, warnings);
   if (!motion.program.empty() || !seen.first) return warnings;
