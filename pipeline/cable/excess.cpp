@@ -11,6 +11,7 @@
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/overlap.h"
+#include "pipeline/cable/plausible.h"
 #include "pipeline/cable/room.h"
 #include "pipeline/cable/stiffness.h"
 
@@ -91,7 +92,7 @@ std::vector<Warning> slack_warnings(const Dresspack& dresspack) {
 }
 
 std::vector<Warning> construction_warnings(const Dresspack& dresspack, bool may_slide) {
-  std::vector<Warning> all = overlap_warnings(dresspack);
+  std::vector<Warning> all = joined(plausibility_warnings(dresspack), overlap_warnings(dresspack));
   if (may_slide) all = joined(std::move(all), slack_warnings(dresspack));
   return joined(std::move(all), stiffness_warnings(dresspack));
 }

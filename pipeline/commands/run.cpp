@@ -41,16 +41,20 @@ int run_shard(const RunOptions& options) {
 int dry_run(const RunOptions& options) {
   Standing standing = standing_of(request_of(options));
   tell_changes(standing.study, standing.places, standing.states);
-  std::size_t to_make = 0;
+  std::size_t to_make = 0, refused = 0;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
+    if (!job.failure.empty()) {
+      ++refused;
+      print(shown(fmt::format("{:<40} refused: {}\n", job.name, first_problem(job))));
+    }
     if (!job.failure.empty() || standing.states[k].done()) continue;
     ++to_make;
     print(shown(fmt::format("{:<40} {}\n", job.name, standing.states[k].words())));
   }
   print(shown(problem_words(standing.study)));
   print(fmt::format("{} of {} jobs to make; nothing was run\n", to_make, standing.study.jobs.size()));
-  return 0;
+  return refused > 0 ? 1 : 0;
 }
 
 struct Options : RunOptions {

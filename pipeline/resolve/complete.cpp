@@ -2,6 +2,7 @@
 
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/job/job_forms.h"
+#include "pipeline/resolve/plausible_job.h"
 
 namespace dresslife::pipeline {
 
@@ -30,7 +31,9 @@ void complete_job(Job& job, const Node& document, Problems& problems) {
       problems.attempt(path + "dresspack", mounted.dresspack.where,
                        [&] { take_stiffnesses(mounted.dresspack, job.strain.slip); });
   }
-  if (!job.motion.rig || problems.touch("motion")) return;
+  if (problems.touch("motion")) return;
+  job.motion.left_out = joined(std::move(job.motion.left_out), plausibility_warnings(job));
+  if (!job.motion.rig) return;
   problems.attempt("motion", job.motion.where, [&] { check_rig(*job.motion.rig); });
   const Node* strain = document.find("strain");
   // Millions of cycles below the usual gate are what a rig is for, and its few samples cost nothing.

@@ -10,6 +10,7 @@
 #include "pipeline/resolve/check_job.h"
 #include "pipeline/resolve/complete.h"
 #include "pipeline/resolve/data_sheet.h"
+#include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/resolve/urdf_request.h"
 #include "pipeline/settings/fields.h"
@@ -46,6 +47,7 @@ void check_forms(Node& document, Problems& problems) {
 Job job_from(Node document, const std::vector<std::string>& sets) {
   if (!document.is_map())
     throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
+  if (!document.find("robot") && !document.find("motion")) refuse_other_kind(document, DocumentKind::job);
   Problems problems;
   for (const std::string& set : sets)
     problems.attempt("", {"--set " + set}, [&] { apply_set(document, set); });

@@ -97,6 +97,23 @@ std::string meant_command(const Command& program, int argc, char** argv) {
   return nearest_word(argv[1], names);
 }
 
+/// "'--trial' is no option of improve; did you mean '--trials'?" for the first that is like one; empty: none is.
+std::string meant_option(const Command& program, int argc, char** argv) {
+  const auto called = std::find_if(program.commands.begin(), program.commands.end(),
+                                   [&](const Command& command) { return argc > 1 && command.name == argv[1]; });
+  const Command& command = called == program.commands.end() ? program : *called;
+  std::vector<std::string> names{"--help"};
+  for (const Option& option : command.options)
+    if (const std::size_t at = option.names.find("--"); at != std::string::npos) names.push_back(option.names.substr(at));
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = std::string(argv[k]).substr(0, std::string_view(argv[k]).find('='));
+    if (!word.starts_with("--") || std::find(names.begin(), names.end(), word) != names.end()) continue;
+    if (const std::string near = nearest_word(word, names); !near.empty())
+      return fmt::format("'{}' is no option of {}; did you mean '{}'?\n", shown(word), command.name, near);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<Option> joined(std::initializer_list<std::vector<Option>> tables) {
@@ -149,6 +166,8 @@ std::optional<int> read_command_line(const Command& program, int argc, char** ar
   } catch (const CLI::ParseError& problem) {
     if (const std::string meant = meant_command(program, argc, argv); !meant.empty() && problem.get_exit_code() != 0)
       fmt::print(stderr, "'{}' is no command of {}; did you mean '{}'?\n", shown(argv[1]), program.name, meant);
+    else if (problem.get_exit_code() != 0)
+      fmt::print(stderr, "{}", meant_option(program, argc, argv));
     return finish_output(app.exit(problem) == 0 ? 0 : 2);
   }
   for (std::size_t k = 0; k < commands.size(); ++k)

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"
@@ -143,6 +144,7 @@ StudyJob make_job(const Node& base, const Variant& variant, const std::string& f
 
 void check_keys(const Node& study) {
   if (!study.is_map()) throw InputError(study.where, "holds no study", "write base: and vary: or jobs:");
+  refuse_other_kind(study, DocumentKind::study);
   const std::vector<std::string> known{"name",   "base", "vary", "jobs",  "table",
                                        "sample", "keep", "free", "limits"};
   for (const Entry& entry : study.entries) {

@@ -311,7 +311,12 @@ class Search {
 
   [[noreturn]] void refuse_link(int place, const BracketFit& nearest) const {
     const auto& links = setup_.robot.links;
-    std::string why = fmt::format("needs a bracket of {:.0f} mm", 1e3 * nearest.length);
+    // A search draws many places: it needs more than the nearest.
+    constexpr double room_to_search = 1.25;
+    std::string why = fmt::format("needs a bracket of {:.0f} mm", 1e3 * nearest.length), longer;
+    if (nearest.length > longest_bracket())
+      longer = fmt::format("routing.longest_bracket_mm (--bracket): {:.0f} if it can be built, ",
+                           std::ceil(1e3 * room_to_search * nearest.length));
     if (nearest.clearance < 0)
       why = fmt::format("is {:.0f} mm inside {} at {:.3f} s of the program", -1e3 * nearest.clearance,
                         nearest.neighbour < 0 ? "the cell" : links[nearest.neighbour].name,
@@ -322,7 +327,7 @@ class Search {
             "no place within {:.0f} mm of the surface of {} stays clear of the other links and the cell: the "
             "nearest of {} places {}",
             1e3 * longest_bracket(), links_[place], drawn_places, why),
-        "a longer bracket (routing.longest_bracket_mm), another link (--from, --to, --ring), or a program that keeps away from it");
+        longer + "another link (--from, --to, --ring), or a program that keeps away from it");
   }
 
   double longest_bracket() const { return longest_bracket_of(setup_.dresspacks.front().routing); }

@@ -150,6 +150,32 @@ simulation: {segments: 12}
   }
 }
 
+TEST_CASE("a search that ends without a routing names the limit that decides, and a remedy that works") {
+  Scratch scratch;
+  scratch.write("hose.yaml", small_dresspack);
+  const auto routed = [&](const std::string& radius) {
+    return run(scratch, "dresslife",
+               "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 150 --rehearsals 40 --off 0 --quiet "
+               "--set simulation.segments=16 --job found.yaml --set dresspack.least_bend_radius_mm=" + radius);
+  };
+  const Outcome failed = routed("3000");
+  INFO(failed.err);
+  CHECK(failed.status == 1);
+  CHECK_FALSE(fs::exists(scratch / "found.yaml"));
+  CHECK_THAT(failed.err, Catch::Contains("error: no routing was found that runs; the limit that decides: bend radius, ") &&
+                             Catch::Contains(" mm of at least 3000 mm; "));
+  const std::string key = "dresspack.least_bend_radius_mm: ";
+  const std::size_t at = failed.err.find(key);
+  REQUIRE(at != std::string::npos);
+  const std::string proposed = failed.err.substr(at + key.size(), failed.err.find(' ', at + key.size()) - at - key.size());
+  CAPTURE(proposed);
+  CHECK(std::stod(proposed) > 60);
+  const Outcome cured = routed(proposed);
+  INFO(cured.out + cured.err);
+  CHECK(cured.status == 0);
+  CHECK_THAT(cured.out, Catch::Contains("It keeps all limits in a run"));
+}
+
 TEST_CASE("screen grades every change of a job, and says which is no job") {
   Scratch scratch;
   write_small_job(scratch);

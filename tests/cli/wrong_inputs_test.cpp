@@ -63,7 +63,8 @@ struct Wrong {
   int status = 1;
 };
 
-const std::string draw = "dresslife draw hose.yaml", run_study = "dresslife run study.yaml";
+const std::string draw = "dresslife draw hose.yaml", run_study = "dresslife run study.yaml", draw_job = "dresslife draw job.yaml";
+std::string free_as(const std::string& range) { return "dresslife improve job.yaml --trials 2 --free '" + range + "'"; }
 
 const Wrong wrong[] = {
     // A job's names
@@ -126,6 +127,26 @@ const Wrong wrong[] = {
     {"study.yaml", "routing.free_length_m", "routing.free_lenght_m", "study.yaml:3:3: error: ", "free_lenght_m", "free_length_m", run_study},
     {"study.yaml", "base: job.yaml", "base: jobs.yaml", "study.yaml:1:7: error: ", "jobs.yaml", "; ", run_study},
     {"study.yaml", "vary:", "very:", "study.yaml:2:1: error: ", "unknown key 'very'", "did you mean 'vary'?", run_study},
+    {"study.yaml", "[2.0, 2.1]", "2.0 .. 2.1", "study.yaml:3:26: error: ", "vary.routing.free_length_m must be a list of values", "write [A, B, ...]", run_study},
+    {"study.yaml", "[2.0, 2.1]", "[2.0, 2.0]", "study.yaml:1:1: error: ", "two jobs are named 'free_length_m=2.0'", "give each combination another name", run_study},
+    // A file given where another belongs
+    {"", "", "", "study.yaml:1:1: error: ", "is a study (it has the key 'base'), no job", "give it to dresslife run", "dresslife check study.yaml"},
+    {"", "", "", "study.yaml:1:1: error: ", "is a study (it has the key 'base'), no job", "give it to dresslife run", "dresslife-sim study.yaml -o out.h5"},
+    {"", "", "", "hose.yaml:1:1: error: ", "is a dresspack (it has the key 'components'), no job", "after 'dresspack:'", "dresslife preview hose.yaml"},
+    {"", "", "", "hose.yaml:1:1: error: ", "is a dresspack (it has the key 'components'), no study", "after 'dresspack:'", "dresslife run hose.yaml"},
+    {"", "", "", "hose.yaml:1:1: error: ", "is a dresspack (it has the key 'components'), no job", "after 'dresspack:'", "dresslife route hose.yaml"},
+    {"", "", "", "job.yaml: error: ", "holds no dresspack", "name a file of the keys of job.dresspack", draw_job},
+    {"", "", "", "job.yaml:1:1: error: ", "holds no observations", "write 'observations:' and a list", "dresslife calibrate job.yaml"},
+    {"module.yaml", "spot.mod", "hose.yaml", "hose.yaml:1:1: error: ", "holds no trajectory with points", "give a trajectory_msgs/JointTrajectory", "dresslife-sim module.yaml --preview -o out.h5"},
+    {"job.yaml", "link: link_6", "link: link_6_t", "job.yaml:12:15: error: ", "'link_6_t' is not a link of the robot", "one of: base_link, link_1"},
+    {"job.yaml", "dwell_s: 0.5", "dwell_s: -0.5", "job.yaml:8:29: error: ", "motion.steps[3].dwell_s is -0.5 (must be >= 0 s)", "; "},
+    {"hose.yaml", "count: 4", "count: 4.5", "hose.yaml:13:12: error: ", "count is 4.5 (must be a whole number)", "; ", draw},
+    {"hose.yaml", "count: 4\n", "count: 400\n", "hose.yaml:12:5: error: ", "the 400 parts 'lead' are 0.2199 mm apart", "give count: 10 or less", draw},
+    // What a search may change
+    {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.lenght=2.05: error: unknown key 'routing.lenght'", "mend `free`, or --free", free_as("routing.lenght=2 .. 2.1")},
+    {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.free_length_m=2050: error: ", "mend `free`, or --free", free_as("routing.free_length_m=2000 .. 2100")},
+    {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: ", "items count from 1 to 1", free_as("dresspack.components.9.slack_percent=0.1 .. 2")},
+    {"", "", "", "--free routing.free_length_m=2.1 .. 2.0: error: ", "which holds nothing", "write the smaller number first", free_as("routing.free_length_m=2.1 .. 2.0")},
     // Command lines
     {"", "", "", "none.yaml: error: ", "cannot be read (No such file or directory)", "; ", "dresslife run none.yaml"},
     {"", "", "", "--set segments: error: ", "is not key.path=value", "; ", "dresslife-sim job.yaml -o out.h5 --set segments"},
@@ -180,8 +201,82 @@ TEST_CASE("45 and more plausible wrong inputs: each answer names file, line, pro
     CHECK((outcome.out.empty() || one.command == run_study));  // a study prints its table
     CHECK_THAT(outcome.err, Catch::StartsWith(one.place));
     CHECK_THAT(outcome.err, Contains(one.problem) && Contains(one.remedy) && Contains(": error: ") && Contains("; "));
-    // Nothing is cut off. "add 'KEY: ...'" stands for a value.
-    CHECK((outcome.err.find("...") == std::string::npos || outcome.err.find("...'") != std::string::npos));
+    // Nothing is cut off. "add 'KEY: ...'" and "[A, B, ...]" stand for values.
+    CHECK((outcome.err.find("...") == std::string::npos || outcome.err.find("...'") != std::string::npos ||
+           outcome.err.find("...]") != std::string::npos));
     CHECK_FALSE(fs::exists(scratch / "out.h5"));
   }
+}
+
+namespace {
+
+/// Accepted, as there may be such a thing, and warned of with place, value, limit and remedy.
+struct Doubtful {
+  std::string in, from, to;
+  std::string place, problem, remedy;
+};
+
+const Doubtful doubtful[] = {
+    {"job.yaml", "30, 0]}\n    - {text: nod, joints_deg: [20, 0, 0, 0, 60, 90]", "0.52, 0]}\n    - {text: nod, joints_deg: [0.35, 0, 0, 0, 1.05, 1.57]", "job.yaml:6:7", "no joint angle of the motion is larger than 1.57 deg (limit 6.28 or more). Likely cause: radians", "joints_deg in degrees"},
+    {"job.yaml", "speed_percent: 50", "speed_percent: 0.5", "job.yaml:7:7", "speed_percent is 0.5 (limit 1 or more). Likely cause: a share", "speed_percent: 50 if that was a share"},
+    {"job.yaml", "dwell_s: 0.5", "dwell_s: 500", "job.yaml:8:7", "dwell_s is 500 (limit 100 or less). Likely cause: milliseconds", "dwell_s: 0.5 if"},
+    {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 120", "hose.yaml:1:1", "mass_kg_per_m is 120 (limit 17.6: solid copper of diameter_mm)", "mass_kg_per_m: 0.12 if that was g/m"},
+    {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 0.0012", "hose.yaml:1:1", "mass_kg_per_m is 0.0012 (limit 0.0196: its wires", "from_construction"},
+    {"hose.yaml", "bending_stiffness_Nm2: 2", "bending_stiffness_Nm2: 2000000", "", "bending_stiffness_Nm2 is 2e+06 (limits 0.016 .. 1.09e+03)", "bending_stiffness_Nm2: 0.0321 or from_construction"},
+    {"hose.yaml", "damping_time_ms: 10", "damping_time_ms: 0.01", "hose.yaml:1:1", "damping_time_ms is 0.01 (limits 0.88 .. 177", "as measured"},
+    {"hose.yaml", "damping_time_ms: 10", "damping_time_ms: 10000", "hose.yaml:1:1", "damping_time_ms is 1e+04 (limits 0.88 .. 177", "as measured"},
+    {"hose.yaml", "radius_mm: 0.1, ", "radius_mm: 0.0001, ", "hose.yaml:18:101", "radius_mm of 'wire' is 0.0001 (limit 0.01 or more for a wire). Likely cause: metres", "radius_mm: 0.1 if that was metres"},
+    {"hose.yaml", "lay_angle_deg: 8", "lay_angle_deg: 0.14", "hose.yaml:18:9", "lay_angle_deg of 'core' is 0.14, a turn in 3.86 m (limit 0, or 0.6 deg or more). Likely cause: radians", "lay_angle_deg: 8.02 if that was radians"},
+    {"hose.yaml", "components:\n  - name: lead", "components:\n  - {name: lead, radius_mm: 4.1, helix_radius_mm: 0, components: [{name: wire, count: 19, radius_mm: 0.1, helix_radius_mm: 0.8, lay_angle_deg: 5, material: copper}]}\n  - name: lead", "hose.yaml:13:5", "two parts side by side are named 'lead' (the other: line 12)", "another name"},
+    {"hose.yaml", "torsional_stiffness_Nm2: 1.6", "torsional_stiffness_Nm2: 1600000", "hose.yaml:1:1", "torsional_stiffness_Nm2 is 1.6e+06 (limit 2.76e+04 N m2: solid copper of diameter_mm)", "as measured"},
+    {"hose.yaml", "axial_stiffness_N: 50000", "axial_stiffness_N: 50", "hose.yaml:1:1", "axial_stiffness_N is 50 (limit 589 or more: 2 % of stretch by the weight of a metre)", "axial_stiffness_N: 5e+04 if that was kN"},
+    {"hose.yaml", "damping_source: a guess", "damping_source: a guess\nleast_bend_radius_mm: 0.25", "hose.yaml:1:1", "least_bend_radius_mm is 0.25 (limit 25: half of diameter_mm). Likely cause: metres", "least_bend_radius_mm: 250 if that was metres"},
+    {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    play_mm: 400", "hose.yaml:12:5", "play_mm of 'lead' is 400 (limit 25: half of diameter_mm)", "it follows from the bore"},
+    {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 0.3\n    radial_line_load_N_per_m: 5e6", "hose.yaml:12:5", "radial_line_load_N_per_m of 'lead' is 5e+06, 610 MPa on its width (limit 10: jackets yield)", "0.05 MPa times the part's width"},
+    {"job.yaml", "segments: 24", "segments: 24, sample_rate_Hz: 0.5", "", "simulation.sample_rate_Hz is 0.5 (limit 5 or more)", "simulation.sample_rate_Hz: 25"},
+    {"job.yaml", "simulation: {", "strain: {gate: 0.1}\nsimulation: {", "", "strain.gate is 0.1 (limit 0.0005 or less): cycles below it are left out", "strain.gate: 0.001 if"},
+    {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack: too long", "routing.free_length_m: 2.857"},
+    {"job.yaml", "direction: [1, 0, -0.35]", "direction: [-1, 0, 0.35]", "", "smallest bend radius at rest: 51.9 mm", "direction"},
+};
+
+}  // namespace
+
+TEST_CASE("plausible mistakes that make a job are warned of, with place, limit and remedy; the job as it is is not") {
+  const auto checked = [](const Doubtful* one) {
+    const Scratch scratch;
+    write_inputs(scratch);
+    if (one) {
+      std::string text = content(scratch / one->in);
+      const std::size_t at = text.find(one->from);
+      REQUIRE(at != std::string::npos);
+      scratch.write(one->in, text.replace(at, one->from.size(), one->to));
+    }
+    return run(scratch, "dresslife", "check job.yaml");
+  };
+  CHECK(checked(nullptr).out.find("warning: ") == std::string::npos);
+  for (const Doubtful& one : doubtful) {
+    const Outcome outcome = checked(&one);
+    CAPTURE(one.in, one.to, outcome.out, outcome.err);
+    CHECK_THAT(outcome.out, Contains(one.place + (one.place.empty() ? "" : ": ") + "warning: ") && Contains(one.problem) &&
+                                Contains("Remedy: ") && Contains(one.remedy));
+  }
+}
+
+TEST_CASE("a misspelt option is answered with the nearest one; a dry run names jobs that are refused") {
+  const Scratch scratch;
+  write_inputs(scratch);
+  const auto answer = [&](const std::string& program, const std::string& words) {
+    const Outcome outcome = run(scratch, program, words);
+    CHECK(outcome.status == 2);
+    return outcome.err.substr(0, outcome.err.find('\n'));
+  };
+  CHECK(answer("dresslife", "improve job.yaml --trial 2") == "'--trial' is no option of improve; did you mean '--trials'?");
+  CHECK(answer("dresslife", "run job.yaml --job=2") == "'--job' is no option of run; did you mean '--jobs'?");
+  CHECK(answer("dresslife-import", "spot.mod --anwsers x") ==
+        "'--anwsers' is no option of dresslife-import; did you mean '--answers'?");
+  scratch.write("study.yaml", "base: job.yaml\nvary:\n  routing.free_length_m: [2.0, 2100]\n");
+  const Outcome dry = run(scratch, "dresslife", "run -n study.yaml");
+  CHECK(dry.status == 1);
+  CHECK_THAT(dry.out, Contains(" refused: study.yaml:3:32: error: routing.free_length_m is 2100 (its size must be ") &&
+                          Contains("1 of 2 jobs to make; nothing was run\n"));
 }

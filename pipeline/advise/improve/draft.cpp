@@ -8,6 +8,7 @@
 #include "pipeline/advise/improve/scaled.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
@@ -129,6 +130,7 @@ Draft draft_of(const RouteRequest& request) {
   if (draft.document.find("dresspacks"))
     throw InputError(draft.document.find("dresspacks")->where, "a routing is proposed for one dresspack",
                      "name a job with dresspack and routing");
+  if (!draft.document.find("robot")) refuse_other_kind(draft.document, DocumentKind::job);
   if (!draft.document.find("robot"))
     throw InputError(draft.document.where, "robot is missing", "name a robot, or a job that has one");
   if (!request.dresspack.empty()) draft.document["dresspack"] = named(request.dresspack);

@@ -1,0 +1,151 @@
+#include "pipeline/cable/plausible.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/base/warning_words.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double pi = std::numbers::pi, degree = pi / 180;
+constexpr double copper = 8960,
+                 aluminium = 2700;  // densities: the heaviest and the lightest metal of cables [kg/m3]
+// Damping ratio pi f tau at 1.8 Hz, the median of published swings of hanging cables (0.115 there). Beyond 1 nothing swings;
+// steel ropes without friction between their wires have 0.005.
+constexpr double swing_frequency = 1.8, least_ratio = 0.005, most_ratio = 1;
+constexpr double stiffest = 115e9, shear = 45e9;  // moduli of copper [Pa]: a dresspack is no solid bar of it
+constexpr double most_stretch = 0.02;             // by the weight of a metre, at which a simulation stops
+constexpr double strongest_jacket = 10e6;         // [Pa]: the pressure at which soft jackets (PVC, PUR) yield
+constexpr double thinnest = 0.01e-3;              // radius of a wire [m]: the finest strands are 0.03 mm wide
+constexpr double least_lay =
+    0.6 * degree;  // a turn in 100 helix diameters and more; lays of cables are 3 to 40 deg, 0.05 to 0.7 rad
+
+/// Of all wires in a metre of the part, lays along: as if of aluminium [kg/m].
+double least_wire_mass(const std::vector<Component>& components) {
+  double mass = 0;
+  for (const Component& of : components) {
+    const double each = is_wire(of) ? aluminium * pi * of.radius * of.radius : least_wire_mass(of.components);
+    mass += of.count * each / std::cos(of.lay_angle);
+  }
+  return mass;
+}
+
+class Judge {
+ public:
+  explicit Judge(std::vector<Warning>& warnings) : warnings_(warnings) {}
+
+  void add(const Where& where, const std::string& what, const std::string& cause, const std::string& remedy) {
+    warnings_.push_back(warning_of(WarningKind::material, where.text(), what, cause, remedy));
+  }
+
+  void parts(const std::vector<Component>& components) {
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      const Component& of = components[k];
+      if (is_wire(of) && of.radius < thinnest)
+        add(of.where,
+            fmt::format("radius_mm of '{}' is {:.3g} (limit {:.2g} or more for a wire)", of.name,
+                        1e3 * of.radius, 1e3 * thinnest),
+            "metres instead of millimetres",
+            fmt::format("radius_mm: {:.3g} if that was metres", 1e6 * of.radius));
+      if (of.lay_angle > 0 && of.lay_angle < least_lay)
+        add(of.where,
+            fmt::format(
+                "lay_angle_deg of '{}' is {:.3g}, a turn in {:.3g} m (limit 0, or {:.2g} deg or more)",
+                of.name, of.lay_angle / degree, 2 * pi * of.helix_radius / std::tan(of.lay_angle),
+                least_lay / degree),
+            "radians instead of degrees",
+            fmt::format("lay_angle_deg: {:.3g} if that was radians, or 0", of.lay_angle / degree / degree));
+      if (const double pressure = of.radial_line_load.value_or(0) / (2 * of.radius); pressure > strongest_jacket)
+        add(of.where,
+            fmt::format(
+                "radial_line_load_N_per_m of '{}' is {:.4g}, {:.3g} MPa on its width (limit {:g}: jackets yield)",
+                of.name, *of.radial_line_load, pressure / 1e6, strongest_jacket / 1e6),
+            "another unit", "a jacket's 0.05 MPa times the part's width, or no key");
+      for (std::size_t other = 0; other < k; ++other)
+        if (components[other].name == of.name && components[other].layer == of.layer)
+          add(of.where,
+              fmt::format("two parts side by side are named '{}' (the other: line {})", of.name,
+                          components[other].where.line),
+              "a copied entry", "another name, or layer: NAME; results of equal names cannot be told apart");
+      parts(of.components);
+    }
+  }
+
+ private:
+  std::vector<Warning>& warnings_;
+};
+
+}  // namespace
+
+std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
+  std::vector<Warning> warnings;
+  Judge judge(warnings);
+  const double mass = dresspack.mass_per_length, section = pi / 4 * dresspack.diameter * dresspack.diameter;
+  const double least = least_wire_mass(dresspack.components);
+  if (mass > copper * section)
+    judge.add(dresspack.where,
+              fmt::format("mass_kg_per_m is {:.4g} (limit {:.3g}: solid copper of diameter_mm)", mass,
+                          copper * section),
+              "grams instead of kilograms, or diameter_mm in another unit",
+              fmt::format("mass_kg_per_m: {:.4g} if that was g/m; or check diameter_mm: {:.4g}", mass / 1000,
+                          1e3 * dresspack.diameter));
+  if (mass > 0 && mass < least)
+    judge.add(dresspack.where,
+              fmt::format("mass_kg_per_m is {:.3g} (limit {:.3g}: its wires, if they were of aluminium)",
+                          mass, least),
+              "another unit, or the empty hose", "mass_kg_per_m of the filled hose, or from_construction");
+  const double ratio = pi * swing_frequency * dresspack.damping_time;
+  if (!dresspack.damping_source.empty() && (ratio < least_ratio || ratio > most_ratio))
+    judge.add(
+        dresspack.where,
+        fmt::format(
+            "damping_time_ms is {:.3g} (limits {:.2g} .. {:.3g}: a damping ratio of {:g} to {:g} at {:g} Hz)",
+            1e3 * dresspack.damping_time, 1e3 * least_ratio / pi / swing_frequency,
+            1e3 * most_ratio / pi / swing_frequency, least_ratio, most_ratio, swing_frequency),
+        ratio < least_ratio ? "seconds instead of milliseconds, or no damping at all"
+                            : "microseconds instead of milliseconds",
+        "20 for a hose with cables, or the decay of its swing as measured");
+  const auto beyond_solid = [&](const char* key, double value, double solid, const char* unit) {
+    if (value > solid)
+      judge.add(
+          dresspack.where,
+          fmt::format("{} is {:.3g} (limit {:.3g} {}: solid copper of diameter_mm)", key, value, solid, unit),
+          "another unit, or diameter_mm in another unit",
+          fmt::format("{} as measured, or from_construction", key));
+  };
+  const double second_moment = section * dresspack.diameter * dresspack.diameter / 16;
+  beyond_solid("bending_stiffness_Nm2", dresspack.bending_stiffness, stiffest * second_moment, "N m2");
+  beyond_solid("torsional_stiffness_Nm2", dresspack.torsional_stiffness, shear * 2 * second_moment, "N m2");
+  beyond_solid("axial_stiffness_N", dresspack.axial_stiffness, stiffest * section, "N");
+  constexpr double gravity = 9.81;
+  if (dresspack.axial_stiffness > 0 && mass * gravity > most_stretch * dresspack.axial_stiffness)
+    judge.add(
+        dresspack.where,
+        fmt::format(
+            "axial_stiffness_N is {:.3g} (limit {:.3g} or more: {:g} % of stretch by the weight of a metre)",
+            dresspack.axial_stiffness, mass * gravity / most_stretch, 100 * most_stretch),
+        "kilonewtons instead of newtons",
+        fmt::format("axial_stiffness_N: {:.3g} if that was kN, or from_construction",
+                    1000 * dresspack.axial_stiffness));
+  if (dresspack.least_bend_radius && *dresspack.least_bend_radius < dresspack.diameter / 2)
+    judge.add(
+        dresspack.where,
+        fmt::format("least_bend_radius_mm is {:.3g} (limit {:.3g}: half of diameter_mm)",
+                    1e3 * *dresspack.least_bend_radius, 1e3 * dresspack.diameter / 2),
+        "metres instead of millimetres",
+        fmt::format("least_bend_radius_mm: {:.3g} if that was metres", 1e6 * *dresspack.least_bend_radius));
+  for (const Component& of : dresspack.components)
+    if (of.laying.play.value_or(0) > dresspack.diameter / 2)
+      judge.add(of.where,
+                fmt::format("play_mm of '{}' is {:.4g} (limit {:.3g}: half of diameter_mm)", of.name,
+                            1e3 * *of.laying.play, 1e3 * dresspack.diameter / 2),
+                "another unit", "no play_mm: it follows from the bore");
+  judge.parts(dresspack.components);
+  return warnings;
+}
+
+}  // namespace dresslife::pipeline
