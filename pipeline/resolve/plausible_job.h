@@ -1,13 +1,16 @@
-// Numbers of a job beside its dresspack (pipeline/cable/plausible.h) that another unit explains: accepted by the ranges of the keys, and silently wrong in every
-// result.
+// Numbers of a job beside its dresspack (pipeline/cable/plausible.h) that another unit explains. The ranges of the keys accept
+// them, and every result is wrong without a word.
 #pragma once
 
 #include "pipeline/job/job.h"
 
 namespace dresslife::pipeline {
 
-/// Joint angles that are all radians, speeds that are shares, dwells that are milliseconds, samples that miss the swing, a
-/// strain gate that hides cycles which break wires. Each warning names step or key.
+/// Samples that miss the swing, a strain gate that hides cycles which break wires, and the steps of a motion without a program.
 std::vector<Warning> plausibility_warnings(const Job& job);
+
+/// Joint angles that are all radians, speeds that are shares or in another unit, dwells that are milliseconds. One warning per
+/// kind, at its first step, with the number of further ones.
+std::vector<Warning> plausibility_of_steps(const Motion& motion);
 
 }  // namespace dresslife::pipeline

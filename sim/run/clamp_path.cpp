@@ -5,6 +5,7 @@
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/setup.h"
+#include "pipeline/resolve/plausible_job.h"
 #include "sim/program/import.h"
 
 namespace dresslife::sim {
@@ -64,7 +65,8 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const pipeline::Motion& motio
     : kinematics_(setup.robot),
       motion_(motion, setup.robot),
       doubts_(pipeline::joined(pipeline::joined(motion.left_out, missing_external_axes(motion, setup.robot)),
-                               plausibility_of_program(setup.motion, motion))),
+                               setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
+                                                             : pipeline::plausibility_of_steps(motion))),
       mounting_pose_(motion_.position(0)) {
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const pipeline::Routing& routing = mounted.routing;
