@@ -199,15 +199,16 @@ bool Krl::is_of_module(const std::string& name) const {
 /// An unknown value that an inline form takes from its data, asked for as those are kept: the whole FDAT, PDAT or LDAT, in
 /// its form. The editor gives a new PDAT and LDAT the values of PDEFAULT and LDEFAULT.
 Value Krl::of_form(const Value& value, const char* type) const {
-  if (value.kind != Value::Kind::unknown || !value.cause || !value.cause->form.empty() || !value.cause->others.empty() ||
-      value.cause->behind || value.cause->name.empty() || value.cause->name.find("_act") != std::string::npos)
+  const std::string kind = type, form = form_of(kind);
+  const Cause* known = value.kind == Value::Kind::unknown ? value.cause.get() : nullptr;
+  if (!known || known->name.empty() || known->behind || !known->others.empty() ||
+      (!known->form.empty() && known->form != form) || known->name.find("_act") != std::string::npos)
     return value;
-  Cause cause = *value.cause;
-  const std::string kind = type;
+  Cause cause = *known;
   if (kind == "fdat")
     for (const std::string field : fdat_fields)
       if (cause.name.ends_with(field)) cause.name.resize(cause.name.size() - field.size());
-  cause.form = form_of(kind);
+  cause.form = form;
   cause.standard = kind == "pdat" ? "pdefault" : kind == "ldat" ? "ldefault" : "";
   Value asked;
   asked.cause = std::make_shared<const Cause>(std::move(cause));
