@@ -1,4 +1,4 @@
-// Every command of dresslife and its stages' programs, with every kind of call that fails: what it says with status 0 and
+// Commands of dresslife that take a second at most, with every kind of call that fails: what it says with status 0 and
 // what it leaves then is what it says and leaves without the fault; with status 1 it says why; nothing is half made, and
 // no file of the user is lost.
 #include <iostream>
@@ -30,16 +30,8 @@ const std::vector<Command> commands{{"dresslife", "status study.yaml"},
                                     {"dresslife", "submit study.yaml --only-write"},
                                     {"dresslife", "clean lives.yaml"},
                                     {"dresslife", "run study.yaml --quiet"},
-                                    {"dresslife", "manual keys"},
                                     {"dresslife-import", "swing.mod -o swing.yaml"},
                                     {"dresslife-import", "asks.mod -o asks.yaml --answers answers.yaml"}};
-/// Those that run stages for seconds: tried in the long form.
-const std::vector<Command> long_commands{
-    {"dresslife", "improve job.yaml --trials 2 --rehearsals 0 --off 0 --free 'routing.free_length_m=0.85 .. 0.95'"},
-    {"dresslife", "rate wire.yaml"},
-    {"dresslife", "validate observed.yaml"},
-    {"dresslife", "calibrate lives_observed.yaml"}};
-
 struct Kind {
   std::string call, mode, path;
 };
