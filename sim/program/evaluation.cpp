@@ -788,10 +788,6 @@ Value computed_lists(const std::string& op, const Value& a, const Value& b) {
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 /// An unknown value that is reckoned or compared with a number is asked for as one.
 Value as_number(const Value& value, const Value& other) {
   if (value.kind != Value::Kind::unknown || !other.is_number() || !value.cause || !value.cause->form.empty() ||

@@ -54,7 +54,8 @@ std::string form_within(const Expression& condition, const std::string& asked) {
   if (condition.kind == Is::unary && joins) return form_within(condition.items[0], asked);
   if (condition.kind != Is::binary) return "";
   if (joins) {
-    const std::string first = form_within(condition.items[0], asked), second = form_within(condition.items[1], asked);
+    const std::string first = form_within(condition.items[0], asked);
+    const std::string second = form_within(condition.items[1], asked);
     return first == second ? first : "";
   }
   for (const Expression& side : condition.items) {

@@ -369,7 +369,8 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
     const Value part = number ? Value{} : run.evaluate(field_at("$apo", field, statement.place));
     const Cause* cause = is_unset(part) ? nullptr : part.first_cause();
     if (!number && cause && !cause->asked().empty() && !cause->asked().starts_with("$apo"))
-      run.ask_for(part, statement.place, fmt::format("approximates by {}, which is known only while the robot runs", written),
+      run.ask_for(part, statement.place,
+                  fmt::format("approximates by {}, which is known only while the robot runs", written),
                   "assign a constant", "a number");
     else if (!number)
       run.note(statement.place,

@@ -367,14 +367,18 @@ void Krl::use_base(const Value& number, const Place& place, Interpreter& run) {
 }
 
 void Krl::form_frames(const Place& place, Interpreter& run) {
-  const auto part = [&](const char* field) { return of_form(run.evaluate(field_at("fdat_act", field, place)), "fdat"); };
+  const auto part = [&](const char* field) {
+    return of_form(run.evaluate(field_at("fdat_act", field, place)), "fdat");
+  };
   use_tool(part("tool_no"), place, run);
   use_base(part("base_no"), place, run);
   run.assign(name_at("$ipo_mode", place), part("ipo_frame"));
 }
 
 void Krl::joint_data(const Place& place, Interpreter& run) {
-  const auto part = [&](const char* field) { return of_form(run.evaluate(field_at("pdat_act", field, place)), "pdat"); };
+  const auto part = [&](const char* field) {
+    return of_form(run.evaluate(field_at("pdat_act", field, place)), "pdat");
+  };
   set_axes("$acc_axis", axis_acceleration(part("acc"), run), place, run);
   const Value distance = part("apo_dist");
   const Value mode = part("apo_mode");
@@ -385,7 +389,9 @@ void Krl::joint_data(const Place& place, Interpreter& run) {
 }
 
 void Krl::path_data(const Place& place, Interpreter& run) {
-  const auto part = [&](const char* field) { return of_form(run.evaluate(field_at("ldat_act", field, place)), "ldat"); };
+  const auto part = [&](const char* field) {
+    return of_form(run.evaluate(field_at("ldat_act", field, place)), "ldat");
+  };
   set_path_acceleration(part("acc"), place, run);
   run.assign(field_at("$apo", "cdis", place), part("apo_dist"));
   run.assign(name_at("$ori_type", place), part("ori_typ"));
@@ -446,10 +452,10 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
   } else if (what == "#ptp_dat" || what == "#ptp_params") {
     joint_data(place, run);
     if (what == "#ptp_params") form_frames(place, run);
-    set_axes(
-        "$vel_axis",
-        axis_speed(what == "#ptp_params" ? number : of_form(run.evaluate(field_at("pdat_act", "vel", place)), "pdat"), run),
-        place, run);
+    const Value percent = what == "#ptp_params"
+                              ? number
+                              : of_form(run.evaluate(field_at("pdat_act", "vel", place)), "pdat");
+    set_axes("$vel_axis", axis_speed(percent, run), place, run);
   } else if (what == "#cp_dat" || what == "#cp_params") {
     path_data(place, run);
     if (what == "#cp_params") form_frames(place, run);

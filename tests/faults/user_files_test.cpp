@@ -209,9 +209,16 @@ TEST_CASE("force: it replaces a file of the user, and never one that the command
     CHECK_FALSE(fs::exists(scratch / "study/a/motion.h5"));
   }
   // In a folder of its own the same study runs, over results of the user's too, if they say so.
-  scratch.write("runs/study/a/motion.h5", "mine\n");
-  CHECK(run(scratch, "dresslife", "run study.yaml").status == 1);
-  CHECK(content(scratch / "runs/study/a/motion.h5") == "mine\n");
+  for (const std::string name : {"motion.h5", "strain.h5", "life.h5"}) {
+    scratch.write("runs/study/a/" + name, "mine\n");
+    const Outcome outcome = run(scratch, "dresslife", "run study.yaml");
+    INFO(name << ": " << outcome.out << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.out.find("a/" + name + ": error: is there already and was not written by dresslife") != std::string::npos);
+    CHECK(content(scratch / ("runs/study/a/" + name)) == "mine\n");
+    fs::remove_all(scratch / "runs");
+  }
+  scratch.write("runs/study/a/life.h5", "mine\n");
   CHECK(run(scratch, "dresslife", "run study.yaml --force").status == 0);
 }
 
