@@ -30,7 +30,6 @@ const std::vector<Reader> readers{
     {"dresslife", "improve INPUT", ".yaml"},
     {"dresslife", "reprogram INPUT", ".yaml"},
     {"dresslife", "check INPUT", ".yaml"},
-    {"dresslife", "new --robot abb_irb6640_185_280 --program INPUT new.yaml", ".mod"},
     {"dresslife", "new --robot INPUT --program swing.mod new.yaml", ".urdf"},
     {"dresslife", "page INPUT", ""},
     {"dresslife", "show INPUT", ".yaml"},
