@@ -61,6 +61,25 @@ std::string digest_of(const PlainFile& bytes, Digest&& digest) {
 
 std::string sha256_of_file(const std::filesystem::path& file) { return digest_of(PlainFile(file), Sha256()); }
 
+DigestedFile digested_file(const std::filesystem::path& file, std::size_t head_bytes) {
+  struct Both {
+    std::size_t head_bytes;
+    std::string head;
+    Sha256 all;
+    Xxh3 rest;
+    void add(const char* bytes, std::size_t count) {
+      all.add(bytes, count);
+      const std::size_t of_head = std::min(count, head_bytes - head.size());
+      head.append(bytes, of_head);
+      rest.add(bytes + of_head, count - of_head);
+    }
+    std::string hex() { return all.hex(); }
+  } both{head_bytes, {}, {}, {}};
+  const PlainFile bytes(file);
+  const std::string sha256 = digest_of(bytes, both);
+  return {sha256, both.head, both.rest.hex(), bytes.size()};
+}
+
 struct Xxh3::State {
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> xxh{XXH3_createState(), XXH3_freeState};
 };

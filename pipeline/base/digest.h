@@ -16,6 +16,16 @@ class PlainFile;
 std::string sha256(std::string_view bytes);                     ///< 64 hexadecimal digits
 std::string sha256_of_file(const std::filesystem::path& file);  ///< Errors: those of PlainFile
 
+/// What one reading of a file finds.
+struct DigestedFile {
+  std::string sha256;        ///< of all its bytes
+  std::string head;          ///< its first bytes
+  std::string xxh3_of_rest;  ///< of the bytes behind those
+  std::uint64_t size = 0;
+};
+/// Errors: those of PlainFile.
+DigestedFile digested_file(const std::filesystem::path& file, std::size_t head_bytes);
+
 /// XXH3, 128 bits, as 32 hexadecimal digits.
 class Xxh3 {
  public:

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/commands/options.h"
@@ -46,10 +48,14 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
   const PassingFile told("preview.h5");
   if (tell_preview(file, sets, {}, told.path()) != 0)
     throw InputError({file.string()}, "its motion cannot be computed (see above)", "mend what is named there");
-  check.refusal = refusal_of(told.path());
-  const FileReader preview(told.path(), preview_format(), FileReader::Scope::attributes);
-  check.warnings = joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings")));
-  check.notes = length_words(told.path());
+  try {
+    check.refusal = refusal_of(told.path());
+    const FileReader preview(told.path(), preview_format(), FileReader::Scope::attributes);
+    check.warnings = joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings")));
+    check.notes = length_words(told.path());
+  } catch (const InputError&) {  // it was written just now: no fault of the job
+    throw DiskError(told.path().string(), EIO);
+  }
   return check;
 }
 

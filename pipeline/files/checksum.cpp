@@ -157,11 +157,26 @@ bool InputBytes::read(void* bytes, std::size_t count, std::uint64_t address) noe
   return true;
 }
 
+namespace {
+
+[[noreturn]] void refuse_other_bytes(const Where& where) {
+  throw InputError(where, "holds other bytes now than when it was checked (another program writes it, or the disk fails)",
+                   "let nothing write it meanwhile, check the disk, and run again");
+}
+
+}  // namespace
+
 void InputBytes::check_reads() const {
   if (failure_ == Failure::unread) throw DiskError(file_.name().string(), error_);
-  if (failure_ == Failure::changed)
-    throw InputError(where(), "holds other bytes now than when it was checked (another program writes it, or the disk fails)",
-                     "let nothing write it meanwhile, check the disk, and run again");
+  if (failure_ == Failure::changed) refuse_other_bytes(where());
+}
+
+std::string sha256_as_checked(const std::filesystem::path& file) {
+  const DigestedFile read = digested_file(file, checksum_block_bytes);
+  if (begins_with_checksum(file) &&
+      read.head != checksum_block(read.xxh3_of_rest, read.size - std::min(read.size, checksum_block_bytes)))
+    refuse_other_bytes({file.string()});
+  return read.sha256;
 }
 
 namespace {

@@ -73,6 +73,9 @@ class InputBytes {
 /// bytes. Nothing when there is no file or its block is damaged. Errors: DiskError.
 std::optional<std::string> told_checksum(const std::filesystem::path& file);
 
+/// SHA-256 of a file, by a reading that is held to the file's own checksum. A file without one is digested as it is.
+/// Errors: InputError when the bytes read are not those of the checksum; DiskError.
+std::string sha256_as_checked(const std::filesystem::path& file);
 /// The digest that a file's block names, if the file is just that; of a file without a block, the digest of
 /// all its bytes. Nothing when there is no file or it is damaged. Errors: DiskError.
 std::optional<std::string> checksum_of(const std::filesystem::path& file);

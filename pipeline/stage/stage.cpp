@@ -219,7 +219,7 @@ void run_body(StageCall& call, const StageFlags& flags,
     for (const std::filesystem::path& file : settings->files) watch(file);
   check_output(call, flags);
   if (!call.info.input_is_job)  // jobs are short
-    call.input_sha256 = beside<std::string>([file = call.input] { return sha256_of_file(file); }).share();
+    call.input_sha256 = beside<std::string>([file = call.input] { return sha256_as_checked(file); }).share();
   if (flags.receipt.empty()) return body(call, progress);
   run_with_receipt(call, flags, *settings, [&] { body(call, progress); });
 }
@@ -340,7 +340,7 @@ void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::s
   file.attribute("job", stored_job_text(job, described_by.parent_path()));
   file.attribute("history", earlier.empty() ? line : earlier + "\n" + line);
   file.attribute("input_sha256",
-                 call.input_sha256.valid() ? call.input_sha256.get() : sha256_of_file(call.input));
+                 call.input_sha256.valid() ? call.input_sha256.get() : sha256_as_checked(call.input));
 }
 
 }  // namespace dresslife::pipeline

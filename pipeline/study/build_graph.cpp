@@ -110,7 +110,8 @@ void find_last(JobState& state, const fs::path& folder) {
   const bool there = state_of(folder / last.output).exists();
   const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(last));
   if (!receipt) {
-    state.has_last = there && checksum_of(folder / last.output).has_value();
+    // A user's file of that name has no checksum, and is no result.
+    state.has_last = there && begins_with_checksum(folder / last.output) && checksum_of(folder / last.output).has_value();
     return;
   }
   state.has_last = there ? is_as_noted(*receipt, folder / last.output)

@@ -120,6 +120,11 @@ Backup backup_of(const fs::path& program, const std::string& routine) {
   std::erase_if(files, [](const auto& of_language) {  // settings alone make no program
     return std::none_of(of_language.second.begin(), of_language.second.end(), holds_moves);
   });
+  // System modules alone are no ABB program beside those of another controller, whose files may end likewise.
+  if (const auto rapid = files.find(Language::rapid); files.size() > 1 && rapid != files.end())
+    if (std::all_of(rapid->second.begin(), rapid->second.end(),
+                    [](const fs::path& file) { return lower_case(file.extension().string()) == ".sys"; }))
+      files.erase(rapid);
   if (files.size() != 1)
     throw pipeline::InputError(
         {folder.string()}, files.empty() ? "holds no robot program" : "holds programs of several languages",

@@ -241,7 +241,9 @@ std::string Interpreter::answer_name(const std::string& path) {
 }
 
 std::optional<Value> Interpreter::given(const std::string& name) {
-  if (exploration_.supposes(name)) return evaluate(code_.presets.at(name).value);
+  if (exploration_.supposes_any())
+    if (const std::string* standard = exploration_.supposed(answer_name(name)))
+      return evaluate(code_.presets.at(*standard).value);
   if (code_.values.empty()) return {};
   const std::string unique = answer_name(name);
   const auto own = code_.values.find(unique);
@@ -632,9 +634,10 @@ std::vector<Question> Interpreter::questions_for(const Value& unknown, const std
     const bool itself = causes.size() == 1 && cause->line.empty() && own.empty();
     Question question{by_line ? Question::Kind::branch : Question::Kind::value, name,
                       by_line ? "then or else" : itself ? form : own};
-    if (const auto preset = code_.presets.find(name); preset != code_.presets.end() && !by_line) {
+    const std::string& standard = cause->standard.empty() ? name : cause->standard;
+    if (const auto preset = code_.presets.find(standard); preset != code_.presets.end() && !by_line) {
       question.preset = preset->second.text;
-      exploration_.suppose(name);
+      exploration_.suppose(name, standard);
     }
     questions.push_back(std::move(question));
   }
@@ -785,6 +788,18 @@ Value computed_lists(const std::string& op, const Value& a, const Value& b) {
   return result;
 }
 
+/// An unknown value that is reckoned or compared with a number is asked for as one.
+Value as_number(const Value& value, const Value& other) {
+  if (value.kind != Value::Kind::unknown || !other.is_number() || !value.cause || !value.cause->form.empty() ||
+      !value.cause->line.empty() || !value.cause->others.empty() || value.cause->behind)
+    return value;
+  Cause cause = *value.cause;
+  cause.form = "a number";
+  Value asked;
+  asked.cause = std::make_shared<const Cause>(std::move(cause));
+  return asked;
+}
+
 }  // namespace
 
 Value Interpreter::binary(const Expression& expression) {
@@ -796,7 +811,8 @@ Value Interpreter::binary(const Expression& expression) {
     for (const Value* side : {&a, &b})
       if (side->kind == Value::Kind::truth && (side->number != 0) == deciding) return truth_value(deciding);
   }
-  if (a.kind == Value::Kind::unknown || b.kind == Value::Kind::unknown) return unknown_value(a, b);
+  if (a.kind == Value::Kind::unknown || b.kind == Value::Kind::unknown)
+    return unknown_value(as_number(a, b), as_number(b, a));
   if (a.kind == Value::Kind::list || b.kind == Value::Kind::list) {
     if (const Value relation = compared(op, a, b); relation.known()) return relation;
     if (const Value result = computed_lists(op, a, b); result.known()) return result;

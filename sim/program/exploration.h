@@ -34,16 +34,22 @@ class Exploration {
   /// A branch that was left out because it moves nothing decides something that does: its ways are taken, too.
   void follow(const std::string& line);
   bool follows(const std::string& line) const { return followed_.contains(line); }
-  /// What is asked has a safe answer: later readings take it, to find what that asks for.
-  void suppose(const std::string& name) { supposed_.insert(name); }
-  bool supposes(const std::string& name) const { return readings_ > 1 && supposed_.contains(name); }
+  /// What is asked has a safe answer, the delivered value of this name: later readings take it, to find what that asks for.
+  void suppose(const std::string& name, const std::string& standard) { supposed_.emplace(name, standard); }
+  bool supposes_any() const { return readings_ > 1 && !supposed_.empty(); }
+  /// The delivered value for a name; null: none.
+  const std::string* supposed(const std::string& name) const {
+    const auto found = supposed_.find(name);
+    return found == supposed_.end() ? nullptr : &found->second;
+  }
   /// Of a reading that ends: statements and values that it ran.
   void spend(long executed) { spent_ += executed; }
 
  private:
   std::map<std::string, std::vector<int>> taken_;  // place -> how often each way was taken
   std::set<const void*> met_;
-  std::set<std::string> asked_, followed_, supposed_;
+  std::set<std::string> asked_, followed_;
+  std::map<std::string, std::string> supposed_;  // name -> name of the delivered value
   bool guessing_ = false;
   long news_ = 0, news_before_ = 0, spent_ = 0;
   int readings_ = 0, barren_ = 0;

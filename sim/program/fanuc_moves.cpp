@@ -235,7 +235,7 @@ bool FanucRun::place(const FanucPosition& position, const Options& options, Inst
   for (const auto* offset : {&options.offset, &options.tool_offset}) {
     if (!*offset || nothing(**offset)) continue;
     if ((*offset)->form != FanucPosition::Form::pose || p.remote || options.remote) {
-      complain((*offset)->form == FanucPosition::Form::pose ? "is offset on a remote tool"
+      complain((*offset)->form == FanucPosition::Form::pose ? "is offset on a remote tool by other than zeros"
                                                             : "is offset by joint angles from a pose",
                "list the program with the position as the robot reached it");
       return false;
@@ -353,10 +353,11 @@ void FanucRun::offset_by(FanucCursor& at, std::optional<FanucPosition>& into, co
     return;
   }
   into.reset();
-  if (!index || !index->number) return missing_value("is offset by");
+  const char* const how = to_remote_ ? "is offset on a remote tool (only zeros are read) by" : "is offset by";
+  if (!index || !index->number) return missing_value(how);
   values_.forget_missing();
   values_.miss_position(whole(*index->number));
-  missing_position(fmt::format("PR[{}]", whole(*index->number)), "is offset by");
+  missing_position(fmt::format("PR[{}]", whole(*index->number)), how);
 }
 
 /// What a camera finds: ",VR[n]".
@@ -535,6 +536,7 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
   if (!target && at.offset() == begin) return;
   if (target && target->form == FanucPosition::Form::other_groups)
     return note("moves other groups than the robot");
+  to_remote_ = target && target->remote;
   const bool fast = read_speed(at, move), set = read_options(at, move, options);
   if (!target || !fast || !set) {  // what else it lacks is asked for in the same round
     FanucPosition there;

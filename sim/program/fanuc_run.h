@@ -150,6 +150,7 @@ class FanucRun {
   std::map<std::pair<bool, int>, std::optional<Frame>> frames_;  // (tool?, number) that the program assigned
   std::optional<FanucPosition> last_;                            // where the robot is: JPOS and LPOS
   std::string offset_condition_, tool_offset_condition_;         // PR[n] of OFFSET CONDITION
+  bool to_remote_ = false;                                       // the move that is read leads a remote tool
   std::string skip_condition_;
   std::map<std::pair<const FanucListing*, std::size_t>, Endless> endless_;
   std::set<std::string> noted_;

@@ -36,6 +36,7 @@ struct Cause {
   std::shared_ptr<const Cause> behind = nullptr;  ///< why that branch is undecided; has itself none behind it
   std::vector<std::shared_ptr<const Cause>> others{};  ///< further ones, of a value of several unknown ones
   std::string form{};  ///< how its value is written; empty: it is not known
+  std::string standard{};  ///< name of the delivered value (Code::presets) that is a safe answer; empty: its own name
 
   /// The name whose value would make it known; empty: there is none.
   const std::string& asked() const { return behind ? behind->name : name; }

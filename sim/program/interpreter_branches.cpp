@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "sim/program/interpreter.h"
+#include "sim/program/tokens.h"
 
 namespace dresslife::sim {
 namespace {
@@ -43,16 +44,18 @@ bool Interpreter::compares_known(const Expression& condition) {
 
 namespace {
 
-/// How a value is written that stands in a condition: as what it is compared with. Empty: it is not told.
-std::string form_within(const Expression& condition) {
+/// How the value `asked` is written that stands in a condition: as what it is compared with. Empty: it is not told.
+std::string form_within(const Expression& condition, const std::string& asked) {
   using Is = Expression::Kind;
+  if (condition.kind == Is::call) return lower_case(asked).starts_with(condition.text) ? "TRUE or FALSE" : "";
   const auto plain = [](const Expression& e) { return e.kind == Is::name || e.kind == Is::element || e.kind == Is::field; };
   const bool joins = condition.text == "and" || condition.text == "or" || condition.text == "not";
   if (plain(condition)) return "TRUE or FALSE";
-  if (condition.kind == Is::unary && joins) return form_within(condition.items[0]);
+  if (condition.kind == Is::unary && joins) return form_within(condition.items[0], asked);
   if (condition.kind != Is::binary) return "";
   if (joins) {
-    const std::string first = form_within(condition.items[0]), second = form_within(condition.items[1]);
+    const std::string first = form_within(condition.items[0], asked);
+    const std::string second = form_within(condition.items[1], asked);
     return first == second ? first : "";
   }
   for (const Expression& side : condition.items) {
@@ -67,7 +70,11 @@ std::string form_within(const Expression& condition) {
 std::string form_of_cases(const Interpreter& run, const Statement& choice) {
   std::string values;
   for (const Branch& branch : choice.branches)
-    for (const Expression& value : branch.conditions) values += (values.empty() ? "" : ", ") + run.written(value);
+    for (const Expression& value : branch.conditions) {
+      std::string written = run.written(value);
+      written.resize(written.find_last_not_of(": ") + 1);  // RAPID writes CASE 1:
+      values += (values.empty() ? "" : ", ") + written;
+    }
   return values.empty() ? "" : "one of " + values;
 }
 
@@ -115,16 +122,17 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
     const std::size_t problems = problem_count();
     if (!decision) {
       condition = evaluate(branch.conditions[0]);
-      if (condition.kind == Value::Kind::truth) decision = condition.number != 0;
+      if (condition.kind == Value::Kind::truth || condition.is_number()) decision = condition.number != 0;
     }
     if (!decision) {
       if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
         return leave_out(statement, condition);
       if (const Branch* way = waited_for(statement)) return go_on(*way, condition);
+      const Cause* cause = condition.first_cause();
       decision = problem_count() != problems  // what makes it unknown is told
                      ? guess(branch.place, 2) == 0
                      : ask(branch.place, "branches on what is known only while the robot runs", condition,
-                           "then or =else", 2, true, form_within(branch.conditions[0])) == 0;
+                           "then or =else", 2, true, form_within(branch.conditions[0], cause ? cause->asked() : "")) == 0;
     }
     if (*decision) return execute(branch.body);
   }

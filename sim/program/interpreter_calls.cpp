@@ -201,7 +201,7 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
       flow == Flow::give_back
           ? result_
           : unknown_value(
-                "", fmt::format("is given back by '{}' behind a branch that is undecided", routine.written));
+                "", fmt::format("is given back by '{}' behind a branch that is undecided, or not at all", routine.written));
   variables = std::move(locals_.back());
   locals_.pop_back();
   routines_.pop_back();

@@ -366,7 +366,13 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
     auto number = setting("$apo", field, run);
     if (const auto given = number ? std::nullopt : run.given(lower_case(written)); given && given->is_number())
       number = given->number;
-    if (!number)
+    const Value part = number ? Value{} : run.evaluate(field_at("$apo", field, statement.place));
+    const Cause* cause = is_unset(part) ? nullptr : part.first_cause();
+    if (!number && cause && !cause->asked().empty() && !cause->asked().starts_with("$apo"))
+      run.ask_for(part, statement.place,
+                  fmt::format("approximates by {}, which is known only while the robot runs", written),
+                  "assign a constant", "a number");
+    else if (!number)
       run.note(statement.place,
                fmt::format("approximates without a known {0}: the robot stops at the target (give --value '{0}=...')",
                            written),
@@ -536,8 +542,9 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
   bool whole = kind != Instruction::Kind::circular || read_via(*via, from, frames, move, run);
   whole &= read_target(*target, from, frames, move, run);
   if (!whole) ask_for_frames(frames, statement, run);  // a place needs them
-  if (!read_speed(statement, move, run) || !whole) return;
-  read_zone(statement, move, run);
+  const bool has_speed = read_speed(statement, move, run);
+  read_zone(statement, move, run);  // all that the move lacks is asked for together
+  if (!has_speed || !whole) return;
   // Axis angles need no frames, unless the tool's way decides where blending begins.
   const bool free = !move.target.joints.empty() && move.zone.distance == 0;
   if (frames.unknown.known() && frames.held && move.target.joints.empty() && !frames_told_) {

@@ -35,6 +35,9 @@ Expression part_of(Expression whole, Expression::Kind kind, const Place& place) 
   return part;
 }
 
+/// Fields by which inline forms use an FDAT.
+constexpr const char* fdat_fields[] = {".tool_no", ".base_no", ".ipo_frame"};
+
 Value scaled(const Value& value, double factor) {
   return value.is_number() ? number_value(value.number * factor) : value;
 }
@@ -193,6 +196,25 @@ bool Krl::is_of_module(const std::string& name) const {
                                     numbered("cpdat") || numbered("pdat") || numbered("ldat"));
 }
 
+/// An unknown value that an inline form takes from its data, asked for as those are kept: the whole FDAT, PDAT or LDAT, in
+/// its form. The editor gives a new PDAT and LDAT the values of PDEFAULT and LDEFAULT.
+Value Krl::of_form(const Value& value, const char* type) const {
+  const std::string kind = type, form = form_of(kind);
+  const Cause* known = value.kind == Value::Kind::unknown ? value.cause.get() : nullptr;
+  if (!known || known->name.empty() || known->behind || !known->others.empty() ||
+      (!known->form.empty() && known->form != form) || known->name.find("_act") != std::string::npos)
+    return value;
+  Cause cause = *known;
+  if (kind == "fdat")
+    for (const std::string field : fdat_fields)
+      if (cause.name.ends_with(field)) cause.name.resize(cause.name.size() - field.size());
+  cause.form = form;
+  cause.standard = kind == "pdat" ? "pdefault" : kind == "ldat" ? "ldefault" : "";
+  Value asked;
+  asked.cause = std::make_shared<const Cause>(std::move(cause));
+  return asked;
+}
+
 // ---- frames -----------------------------------------------------------------------------------------------
 
 bool Krl::Frames::same(const Frames& other) const {
@@ -345,15 +367,21 @@ void Krl::use_base(const Value& number, const Place& place, Interpreter& run) {
 }
 
 void Krl::form_frames(const Place& place, Interpreter& run) {
-  use_tool(run.evaluate(field_at("fdat_act", "tool_no", place)), place, run);
-  use_base(run.evaluate(field_at("fdat_act", "base_no", place)), place, run);
-  run.assign(name_at("$ipo_mode", place), run.evaluate(field_at("fdat_act", "ipo_frame", place)));
+  const auto part = [&](const char* field) {
+    return of_form(run.evaluate(field_at("fdat_act", field, place)), "fdat");
+  };
+  use_tool(part("tool_no"), place, run);
+  use_base(part("base_no"), place, run);
+  run.assign(name_at("$ipo_mode", place), part("ipo_frame"));
 }
 
 void Krl::joint_data(const Place& place, Interpreter& run) {
-  set_axes("$acc_axis", axis_acceleration(run.evaluate(field_at("pdat_act", "acc", place)), run), place, run);
-  const Value distance = run.evaluate(field_at("pdat_act", "apo_dist", place));
-  const Value mode = run.evaluate(field_at("pdat_act", "apo_mode", place));
+  const auto part = [&](const char* field) {
+    return of_form(run.evaluate(field_at("pdat_act", field, place)), "pdat");
+  };
+  set_axes("$acc_axis", axis_acceleration(part("acc"), run), place, run);
+  const Value distance = part("apo_dist");
+  const Value mode = part("apo_mode");
   if (mode.kind == Value::Kind::text && mode.text == "#cdis")
     run.assign(field_at("$apo", "cdis", place), distance);
   else
@@ -361,10 +389,13 @@ void Krl::joint_data(const Place& place, Interpreter& run) {
 }
 
 void Krl::path_data(const Place& place, Interpreter& run) {
-  set_path_acceleration(run.evaluate(field_at("ldat_act", "acc", place)), place, run);
-  run.assign(field_at("$apo", "cdis", place), run.evaluate(field_at("ldat_act", "apo_dist", place)));
-  run.assign(name_at("$ori_type", place), run.evaluate(field_at("ldat_act", "ori_typ", place)));
-  run.assign(name_at("$circ_type", place), run.evaluate(field_at("ldat_act", "circ_typ", place)));
+  const auto part = [&](const char* field) {
+    return of_form(run.evaluate(field_at("ldat_act", field, place)), "ldat");
+  };
+  set_path_acceleration(part("acc"), place, run);
+  run.assign(field_at("$apo", "cdis", place), part("apo_dist"));
+  run.assign(name_at("$ori_type", place), part("ori_typ"));
+  run.assign(name_at("$circ_type", place), part("circ_typ"));
 }
 
 /// BAS(#INITMOV, 0): what $CONFIG.DAT has for a start. Of what it does not tell, only the speed is asked for.
@@ -421,14 +452,14 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
   } else if (what == "#ptp_dat" || what == "#ptp_params") {
     joint_data(place, run);
     if (what == "#ptp_params") form_frames(place, run);
-    set_axes(
-        "$vel_axis",
-        axis_speed(what == "#ptp_params" ? number : run.evaluate(field_at("pdat_act", "vel", place)), run),
-        place, run);
+    const Value percent = what == "#ptp_params"
+                              ? number
+                              : of_form(run.evaluate(field_at("pdat_act", "vel", place)), "pdat");
+    set_axes("$vel_axis", axis_speed(percent, run), place, run);
   } else if (what == "#cp_dat" || what == "#cp_params") {
     path_data(place, run);
     if (what == "#cp_params") form_frames(place, run);
-    set_speed(what == "#cp_params" ? number : run.evaluate(field_at("ldat_act", "vel", place)));
+    set_speed(what == "#cp_params" ? number : of_form(run.evaluate(field_at("ldat_act", "vel", place)), "ldat"));
   } else if (!what.starts_with("#out_") && what != "#group") {
     run.note(place, fmt::format("BAS({}): not a known case", what.empty() ? "?" : what), true);
   }
@@ -439,7 +470,16 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
 /// What the editor writes behind WITH.
 std::optional<Value> Krl::spline_function(const Expression& call, const std::vector<Value>& values,
                                           Interpreter& run) {
-  const Value first = values.empty() ? Value{} : values[0];
+  const std::string& name = call.text;
+  const auto is = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(), [&](const char* other) { return name == other; });
+  };
+  const bool of_whole = !call.items.empty() && call.items[0].kind == Expression::Kind::field;
+  const char* data = is({"stool2"}) || (of_whole && is({"sbase", "sipo_mode"})) ? "fdat"
+                     : is({"sacc_joint", "sapo_ptp"})                          ? "pdat"
+                     : is({"sacc_cp", "sapo", "sori_typ", "scirc_typ"})        ? "ldat"
+                                                                               : "";
+  const Value first = values.empty() ? Value{} : *data ? of_form(values[0], data) : values[0];
   const auto part = [&](const Value& whole, const char* field) {
     const Value* value = whole.field(field);
     return value ? *value : unknown_value(whole);
@@ -450,7 +490,6 @@ std::optional<Value> Krl::spline_function(const Expression& call, const std::vec
       if (const Value* place = value.field(field)) store(const_cast<Value&>(*place), content);
     return value;
   };
-  const std::string& name = call.text;
   if (name == "svel_joint" || name == "sacc_joint") {
     const bool speed = name == "svel_joint";
     const Value percent = speed ? axis_speed(first, run) : axis_acceleration(part(first, "acc"), run);

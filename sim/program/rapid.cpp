@@ -32,6 +32,12 @@ std::optional<Value> Rapid::constant(const std::string& name) {
   if (name == "op_auto" || name == "run_cont_cycle") return number_value(1);
   if (name == "op_man_prog" || name == "run_instr_fwd") return number_value(2);
   if (name == "op_man_test" || name == "run_instr_bwd") return number_value(3);
+  static const std::map<std::string, double> dialogs{
+      {"iconnone", 0},       {"iconinfo", 1},   {"iconwarning", 2}, {"iconerror", 3},      {"btnnone", -1},
+      {"btnok", 0},          {"btnabrtrtryign", 1}, {"btnokcancel", 2}, {"btnretrycancel", 3}, {"btnyesno", 4},
+      {"btnyesnocancel", 5}, {"resunkwn", 0},   {"resok", 1},       {"resabort", 2},       {"resretry", 3},
+      {"resignore", 4},      {"rescancel", 5},  {"resyes", 6},      {"resno", 7}};
+  if (const auto number = dialogs.find(name); number != dialogs.end()) return number_value(number->second);
   for (const NamedFrame& tool : tools_)
     if (same(name, tool.name)) return tool_value(tool);
   for (const NamedFrame& object : work_objects_)

@@ -152,6 +152,16 @@ void add_what_others_write(const fs::path& task, const std::vector<fs::path>& fi
   }
 }
 
+/// Backups that were copied to the controller's disk (HOME) are not what it runs, where the folder holds tasks of its own.
+void drop_copies(const fs::path& folder, std::set<fs::path>& tasks) {
+  const auto is_copy = [&](const fs::path& task) {
+    const fs::path within = task.lexically_relative(folder);
+    return std::any_of(within.begin(), within.end(),
+                       [](const fs::path& part) { return lower_case(part.string()) == "home"; });
+  };
+  if (!std::all_of(tasks.begin(), tasks.end(), is_copy)) std::erase_if(tasks, is_copy);
+}
+
 std::string names_of(const std::set<fs::path>& paths) {
   std::string names;
   for (const fs::path& path : paths) names += (names.empty() ? "" : ", ") + path.string();
@@ -181,11 +191,12 @@ Backup rapid_backup(const fs::path& folder, const std::vector<fs::path>& files, 
   for (const fs::path& file : files) {
     if (extension_of(file) == ".pgf") lists.insert(file);
     const fs::path task = task_of(file);
-    if (task.empty() || !tasks.insert(task).second) continue;
+    if (!task.empty()) tasks.insert(task);
   }
+  drop_copies(folder, tasks);
   for (const fs::path& file : files)  // those without moves run beside the robot's
     if (const fs::path task = task_of(file);
-        !task.empty() && is_module(file) && !moving.contains(task) && (tasks.size() == 1 || moves(file)))
+        tasks.contains(task) && is_module(file) && !moving.contains(task) && (tasks.size() == 1 || moves(file)))
       moving.insert(task);
   if (moving.size() > 1)
     throw pipeline::InputError({folder.string()}, "holds several tasks that move a robot",

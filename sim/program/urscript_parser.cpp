@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
+#include <string>
 
 #include "sim/program/parser.h"
 #include "sim/program/urscript.h"
@@ -10,6 +13,8 @@ namespace dresslife::sim {
 namespace {
 
 using Kind = Statement::Kind;
+
+constexpr TokenRules rules{'#', "$", true, true};
 
 /// Inside brackets a statement goes on behind the line's end.
 std::vector<Token> without_inner_line_ends(std::vector<Token> tokens) {
@@ -285,20 +290,25 @@ class ScriptParser : StatementParser {
   std::map<std::string, std::string> written_by_threads_;
 };
 
-/// Names that differ in case alone would be one.
-void tell_case(const Code& code, int file, const std::vector<Token>& tokens, Problems& problems) {
-  std::map<std::string, std::string_view> seen;
-  for (std::size_t i = 0; i < tokens.size(); ++i) {
-    const Token& token = tokens[i];
-    const bool argument = i + 1 < tokens.size() && tokens[i + 1].text == "=" && i > 0 &&
-                          (tokens[i - 1].text == "," || tokens[i - 1].text == "(");
-    if (token.kind != Token::Kind::word || argument) continue;
-    const auto [known, added] = seen.try_emplace(lower_case(token.text), token.text);
-    if (added || known->second == token.text) continue;
-    problems.add(
-        {code.files[file].name(), token.line, token.column},
-        fmt::format("has the names '{}' and '{}', which differ in case alone", known->second, token.text),
-        "rename one of them");
+/// In URScript the case of a name counts, in the tree it does not: of several spellings of one name in these files all but
+/// one get a number behind them, "count#2". The one in small letters keeps its name, since those of the language are small.
+/// `names` holds the new ones and has to live as long as the tokens.
+void number_spellings(const Code& code, std::vector<Token>& tokens, std::deque<std::string>& names) {
+  static const std::set<std::string> words{"true", "false",  "none",  "def",    "end",   "if",   "elif",  "else",     "while", "return",
+                                           "global", "local", "thread", "break", "continue", "and",  "or",   "not", "xor",      "run"};
+  std::map<std::string, std::set<std::string, std::greater<>>> spellings;  // small letters last in ASCII: first here
+  Problems ignored;  // the parser tells them
+  for (const SourceFile& source : code.files)
+    for (const Token& token : tokens_of(source, rules, ignored))
+      if (token.kind == Token::Kind::word) spellings[lower_case(token.text)].emplace(token.text);
+  for (Token& token : tokens) {
+    if (token.kind != Token::Kind::word) continue;
+    const std::string name = lower_case(token.text);
+    const auto& all = spellings[name];
+    const auto place = std::distance(all.begin(), all.find(std::string(token.text)));
+    if (place == 0 || words.contains(name)) continue;
+    names.push_back(fmt::format("{}#{}", name, place + 1));
+    token.text = names.back();
   }
 }
 
@@ -317,9 +327,9 @@ void add_urscript_types(Code& code) {
 }
 
 void parse_urscript(Code& code, int file, Problems& problems) {
-  const std::vector<Token> tokens =
-      without_inner_line_ends(tokens_of(code.files[file], {'#', "$", true, true}, problems));
-  tell_case(code, file, tokens, problems);
+  std::vector<Token> tokens = without_inner_line_ends(tokens_of(code.files[file], rules, problems));
+  std::deque<std::string> names;
+  number_spellings(code, tokens, names);
   ScriptParser(code, file, tokens, problems).run();
 }
 

@@ -118,3 +118,32 @@ TEST_CASE("a command that does not exist is answered with the nearest one") {
   CHECK(far.status == 2);
   CHECK(far.err.find("did you mean") == std::string::npos);
 }
+
+TEST_CASE("import writes what a program asks to one file, reads it back filled in, and replaces none") {
+  const Scratch scratch;
+  scratch.write("cell.mod",
+                "MODULE cell\n  CONST jointtarget home := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  PROC main()\n"
+                "    MoveAbsJ home, v500, fine, tool0;\n    IF ready() THEN\n      MoveJ pick, v100, fine, gun;\n    ENDIF\n"
+                "  ENDPROC\nENDMODULE\n");
+  const std::string call = "cell.mod -o cell.yaml --answers answers.yaml";
+  const Outcome asked = run(scratch, "dresslife-import", call);
+  CHECK(asked.status == 1);
+  CHECK(asked.err.find("answers.yaml: holds these 3 questions") != std::string::npos);
+  CHECK_FALSE(fs::exists(scratch / "cell.yaml"));
+  const std::string file = content(scratch / "answers.yaml");
+  // One that stays empty ends the import; the file stays as it is, and so does its user's work in it.
+  const std::string half = replaced(file, "{name: 'ready', value: ''}", "{name: 'ready', value: 'TRUE'}");
+  scratch.write("answers.yaml", half);
+  CHECK(run(scratch, "dresslife-import", call).status == 1);
+  CHECK(content(scratch / "answers.yaml") == half);
+  CHECK_FALSE(fs::exists(scratch / "cell.yaml"));
+  std::string whole = replaced(half, "{name: 'pick', value: ''}",
+                               "{name: 'pick', value: '[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]'}");
+  whole = replaced(whole, "{name: 'gun', position_mm: []", "{name: 'gun', position_mm: [0, 0, 150]");
+  scratch.write("answers.yaml", whole);
+  const Outcome read = run(scratch, "dresslife-import", call);
+  INFO(read.err);
+  CHECK(read.status == 0);
+  CHECK(content(scratch / "answers.yaml") == whole);
+  CHECK(content(scratch / "cell.yaml").find("position_mm: [600, 0, 900]") != std::string::npos);
+}

@@ -1,5 +1,6 @@
 #include "pipeline/base/digest.h"
 
+#include "pipeline/files/checksum.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
@@ -26,6 +27,22 @@ TEST_CASE("digest: a file's is that of its bytes, also beyond one block") {
   CHECK(sha256_of_file(scratch.write("abc", "abc")) == digest_of_abc);
   const std::string large(3'000'001, 'z');
   CHECK(sha256_of_file(scratch.write("large", large)) == sha256(large));
+}
+
+TEST_CASE("digest: a reading of a file with a checksum is held to that, in its first bytes and behind them") {
+  const Scratch scratch;
+  std::string rest(200'000, 'z');
+  const std::string whole = checksum_block(xxh3(rest), rest.size()) + rest;
+  CHECK(sha256_as_checked(scratch.write("whole", whole)) == sha256(whole));
+  CHECK(sha256_as_checked(scratch.write("plain", rest)) == sha256(rest));
+  for (const std::size_t at : {std::size_t{30}, std::size_t{511}, std::size_t{512}, whole.size() - 1}) {
+    std::string turned = whole;
+    turned[at] ^= 4;
+    CHECK_THAT(message_of([&] { sha256_as_checked(scratch.write("turned", turned)); }),
+               Catch::Contains("holds other bytes now than when it was checked"));
+  }
+  CHECK_THAT(message_of([&] { sha256_as_checked(scratch.write("cut", whole.substr(0, 300))); }),
+             Catch::Contains("holds other bytes now"));
 }
 
 TEST_CASE("digest: what cannot be read has none") {

@@ -176,8 +176,60 @@ TEST_CASE("questions: an answer's form is that of what is asked for, not of what
                ? "nothing is asked"
                : asked.problems[0].questions[0].form;
   };
-  CHECK(form("Offs(p,0,0,10*GInput(gi1))") == "");
+  CHECK(form("Offs(p,0,0,10*GInput(gi1))") == "a number");
   CHECK(form("home").starts_with("[[x, y, z], [q1"));
+}
+
+TEST_CASE("questions: what decides a branch is asked for in its own form") {
+  const auto form = [](const std::string& lines) {
+    const Reading asked = Reader{Language::rapid}(
+        {{"m.mod", "MODULE m\nPROC main()\nMoveAbsJ " + axes + ",v50,fine,tool0;\n" + lines + "MoveAbsJ " + axes + ",v100,fine,tool0;\nENDIF\nENDPROC\nENDMODULE\n"}});
+    return asked.problems.empty() || asked.problems[0].questions.empty() ? "nothing is asked"
+                                                                          : asked.problems[0].questions[0].form;
+  };
+  CHECK(form("IF is_clear() THEN\n") == "TRUE or FALSE");
+  CHECK(form("IF NOT is_clear() THEN\n") == "TRUE or FALSE");
+  CHECK(form("IF parts()>2 THEN\n") == "a number");
+  // Constants of dialogs are the language's own: the dialog itself is asked for.
+  const Reading dialog = Reader{Language::rapid}(
+      {{"m.mod", "MODULE m\nPROC main()\nTEST UIMessageBox(\\Buttons:=btnOKCancel\\Icon:=iconInfo)\nCASE resOK:\nMoveAbsJ " +
+                     axes + ",v100,fine,tool0;\nCASE resCancel:\nMoveAbsJ " + axes +
+                     ",v50,fine,tool0;\nENDTEST\nENDPROC\nENDMODULE\n"}});
+  CHECK(questions(dialog) == std::set<std::string>{"value uimessagebox"});
+  REQUIRE(dialog.problems.size() == 1);
+  CHECK(dialog.problems[0].questions[0].form == "one of resOK, resCancel");
+}
+
+TEST_CASE("questions: data of inline forms are asked for as wholes, in their forms") {
+  const std::string spline =
+      "SPTP XPICK WITH $VEL_AXIS[1]=SVEL_JOINT(100.0),$TOOL=STOOL2(FPICK),$BASE=SBASE(FPICK.BASE_NO),$IPO_MODE=SIPO_MODE("
+      "FPICK.IPO_FRAME),$ACC_AXIS[1]=SACC_JOINT(PPDAT1),$APO=SAPO_PTP(PPDAT1)\nSLIN XPICK WITH "
+      "$VEL=SVEL_CP(0.5,,LCPDAT1),$TOOL=STOOL2(FPICK),$BASE=SBASE(FPICK.BASE_NO),$ACC=SACC_CP(LCPDAT1),$APO=SAPO(LCPDAT1) C_Spl\n";
+  const std::string classic =
+      "FDAT_ACT=FPICK\nPDAT_ACT=PPDAT1\nBAS(#PTP_PARAMS,60)\nPTP XPICK C_PTP\nLDAT_ACT=LCPDAT1\nBAS(#CP_PARAMS,0.5)\nLIN XPICK "
+      "C_DIS\n";
+  for (const std::string& lines : {spline, classic}) {
+    const Files files = {{"m.src", "DEF m()\n" + lines + "END\n"}};
+    const Reading asked = Reader{Language::krl}(files);
+    std::map<std::string, Question> by_name;
+    for (const Problem& problem : asked.problems)
+      for (const Question& question : problem.questions) by_name[question.name] = question;
+    INFO(lines);
+    CHECK(questions(asked) == std::set<std::string>{"value m:fpick", "value m:ppdat1", "value m:lcpdat1", "value m:xpick"});
+    CHECK(by_name["m:fpick"].form == "{TOOL_NO .., BASE_NO .., IPO_FRAME #BASE}");
+    CHECK(by_name["m:fpick"].preset.empty());  // which tool it is nobody knows
+    CHECK(by_name["m:ppdat1"].form.starts_with("{VEL .., ACC .., APO_DIST .."));
+    CHECK(by_name["m:ppdat1"].preset == "{VEL 100, ACC 100, APO_DIST 100}");
+    CHECK(by_name["m:lcpdat1"].preset == "{VEL 2, ACC 100, APO_DIST 100}");
+    Reader reader{Language::krl};
+    reader.options.values = {{"m:fpick", "{TOOL_NO 0, BASE_NO 0, IPO_FRAME #BASE}"},
+                             {"m:xpick", "{X 900, Y 0, Z 900, A 0, B 90, C 0}"}};
+    for (const char* name : {"m:ppdat1", "m:lcpdat1"}) reader.options.values[name] = by_name[name].preset;
+    const Reading read = reader(files);
+    REQUIRE(read.problem() == "no such problem");
+    CHECK(read.program.instructions.size() == 2);
+    CHECK(read.move(1).zone.distance == Approx(0.1));
+  }
 }
 
 TEST_CASE("questions: names are unique by module and by routine") {

@@ -55,7 +55,22 @@ TEST_CASE("rapid backup: the modules that its contents name are the program") {
     const sim::Program program = read(folder / "");
     CHECK(first_axes(program) == Angles{1, 2});
     CHECK(program.skipped.empty());
+    // Nor is a backup that lies there.
+    folder.write("HOME/Backup_2019/RAPID/TASK1/PROGMOD/Main.mod", module("Main", "main", go(5)));
+    CHECK(first_axes(read(folder / "")) == Angles{1, 2});
+    CHECK(first_axes(read(folder / "HOME/Backup_2019")) == Angles{5});
   }
+}
+
+TEST_CASE("rapid backup: a backup of another controller may hold files that end like system modules or data lists") {
+  const Scratch folder;
+  folder.write("SYSTEM.SYS", "SYSTEM NO : YAS2.80\n");
+  folder.write("ABSO.DAT", "0,0,0,0,0,0\n");
+  folder.write("VAR.DAT", "/VAR\n//B 0\n");
+  folder.write("MAIN.JBI",
+               "/JOB\n//NAME MAIN\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\nC00000=7.0,0,0,0,0,0\n//INST\n///ATTR "
+               "SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=10.00\nEND\n");
+  CHECK(first_axes(read(folder / "")) == Angles{7});
 }
 
 TEST_CASE("rapid backup: a module that the contents name and that is not there is told") {

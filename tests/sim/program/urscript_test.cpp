@@ -224,8 +224,6 @@ TEST_CASE("urscript: what is missing or not read is told with its place") {
   CHECK(run("def a():\nmovej([1,0,0,0,0,0])\nend\ndef b():\nmovej([2,0,0,0,0,0])\nend\n")
             .problem()
             .find("holds several functions, and none that calls them") != std::string::npos);
-  CHECK(run("Count = 1\ncount = 2\nmovej([1,0,0,0,0,0])\n").problem().find("differ in case alone") !=
-        std::string::npos);
   CHECK(run("while True:\nmovej([1,0,0,0,0,0])\n").problem().find("before END") != std::string::npos);
   const Reading led =
       run("movej([1,0,0,0,0,0])\nspeedl([0,0,0.1,0,0,0],0.5,1)\nurcap_grip(1)\ntextmsg(\"a\")\nsync()\n");
@@ -233,6 +231,21 @@ TEST_CASE("urscript: what is missing or not read is told with its place") {
   CHECK(skips(led, "speedl: leads the robot in a way that is not followed", true));
   CHECK(skips(led, "urcap_grip: not a routine of the files read", true));
   CHECK(skips(led, "textmsg: input, output or logic", false));
+}
+
+TEST_CASE("urscript: the case of names counts, that of the language's own words does not") {
+  const Reading read = run(
+      "P = p[0.1,0.2,0.3,0,3.14,0]\nCount = 1\ncount = 2\ndef Movej(x):\n  movej([x,0,0,0,0,0])\nend\nif True and "
+      "(TRUE):\n  Movej(Count)\n  Movej(count)\nend\nset_tcp(p[0,0,0.1,0,0,0])\nmovel(P)\n");
+  REQUIRE(read.problem() == "no such problem");
+  CHECK(first_axes(read).size() >= 2);
+  CHECK(read.move(0).target.joints[0] == 1);
+  CHECK(read.move(1).target.joints[0] == 2);
+  CHECK(read.move(2).target.pose.position.x() == Approx(0.1));
+  // A question names the spelling by its number.
+  const Reading asked = run("Go = read_port_bit(1)\ngo = 1\nif Go:\n  movej([1,0,0,0,0,0])\nend\nmovej([go,0,0,0,0,0])\n");
+  REQUIRE(asked.problems.size() == 1);
+  CHECK(asked.problems[0].what.find("read_port_bit(1)") != std::string::npos);
 }
 
 TEST_CASE(

@@ -1,0 +1,160 @@
+// Commands of dresslife that take a second at most, with every kind of call that fails: what it says with status 0 and
+// what it leaves then is what it says and leaves without the fault; with status 1 it says why; nothing is half made, and
+// no file of the user is lost.
+#include <iostream>
+#include <map>
+#include <random>
+
+#include "tests/catch.h"
+#include "tests/cli/process.h"
+#include "tests/faults/failing_calls.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+struct Command {
+  std::string program, arguments;
+};
+const std::vector<Command> commands{{"dresslife", "status study.yaml"},
+                                    {"dresslife", "report study.yaml"},
+                                    {"dresslife", "page runs/study/a"},
+                                    {"dresslife", "plot runs/study/a --what cycles -o cycles.svg"},
+                                    {"dresslife", "export runs/study/a --paraview job.xdmf"},
+                                    {"dresslife", "preview job.yaml -o job.html"},
+                                    {"dresslife", "draw hose.yaml -o hose.svg"},
+                                    {"dresslife", "show job.yaml"},
+                                    {"dresslife", "show runs/study/a"},
+                                    {"dresslife", "check job.yaml"},
+                                    {"dresslife", "new --robot abb_irb6640_185_280 --program swing.mod new.yaml"},
+                                    {"dresslife", "submit study.yaml --only-write"},
+                                    {"dresslife", "clean lives.yaml"},
+                                    {"dresslife", "run study.yaml --quiet"},
+                                    {"dresslife-import", "swing.mod -o swing.yaml"},
+                                    {"dresslife-import", "asks.mod -o asks.yaml --answers answers.yaml"}};
+struct Kind {
+  std::string call, mode, path;
+};
+/// A disk that is full, broken or slow to tell, in every call by which a program can notice.
+const std::vector<Kind> kinds{{"write", "ENOSPC", ""},    {"sync", "EIO", ""},        {"close", "EIO", ""},
+                              {"cut", "EIO", ""},         {"rename", "EIO", ""},      {"link", "EPERM", "dresslife-"},
+                              {"remove", "EIO", "dresslife-"}, {"make", "EACCES", "dresslife-"}, {"read", "EIO", "dresslife-"},
+                              {"read", "end", ".h5"},     {"read", "short", ".h5"},   {"read", "flip", ".h5"},
+                              {"look", "EIO", "dresslife-"}, {"open", "EIO", "dresslife-"}, {"open", "EMFILE", "dresslife-"},
+                              {"list", "EIO", "dresslife-"}, {"lock", "ENOLCK", ""}};
+
+bool is_of_the_test(const std::string& name) {
+  return name == ".out" || name == ".err" || name == "call.sh" || name == "count";
+}
+/// What a runner notes for itself: later runs repair it.
+bool is_a_note(const std::string& name) {
+  return name.find(".stage") != std::string::npos || name.ends_with(".lock") || name.ends_with("build.ninja") ||
+         name.ends_with("/log");
+}
+
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (const std::string name = fs::relative(entry.path(), folder).string();
+        entry.is_regular_file() && !is_of_the_test(name))
+      files[name] = content(entry.path());
+  return files;
+}
+
+/// As it was before, but for the dates of files that did not change.
+void restore(const Scratch& scratch, const std::map<std::string, std::string>& before) {
+  for (const auto& [name, bytes] : files_in(scratch.folder()))
+    if (!before.contains(name)) fs::remove(scratch / name);
+  for (const auto& [name, bytes] : before)
+    if (!fs::exists(scratch / name) || content(scratch / name) != bytes) scratch.write(name, bytes);
+}
+
+/// Results of a study and a user's own files beside them.
+void write_inputs(const Scratch& scratch) {
+  write_small_job(scratch);
+  const std::string job = content(scratch / "job.yaml");
+  const std::size_t begin = job.find("dresspack:\n") + 11, end = job.find("routing:\n");
+  std::string hose;
+  std::istringstream lines(job.substr(begin, end - begin));
+  for (std::string line; std::getline(lines, line);) hose += line.substr(2) + "\n";
+  scratch.write("hose.yaml", hose);
+  scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}}\n");
+  const std::string module =
+      "MODULE swing\n  CONST jointtarget home := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  PROC main()\n    "
+      "MoveAbsJ home, v500, fine, tool0;\n";
+  scratch.write("swing.mod", module + "  ENDPROC\nENDMODULE\n");
+  scratch.write("asks.mod", module + "    IF di1=1 THEN\n      MoveAbsJ home, v100, fine, tool0;\n    ENDIF\n  ENDPROC\nENDMODULE\n");
+  REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+  // The same results are those of a study that keeps less.
+  scratch.write("lives.yaml", "base: job.yaml\njobs: {a: {}}\nkeep: lives\n");
+  REQUIRE(run(scratch, "dresslife", "run lives.yaml --quiet").status == 0);
+  scratch.write("runs/study/a/notes.txt", "mine\n");
+  scratch.write("runs/lives/a/notes.txt", "mine\n");
+  scratch.write("notes.txt", "mine\n");
+}
+
+}  // namespace
+
+TEST_CASE("each call that fails in each command is told or does no harm: no result is false, no file of the user goes") {
+  Scratch scratch;
+  write_inputs(scratch);
+  const std::map<std::string, std::string> before = files_in(scratch.folder());
+  const unsigned seed = std::random_device{}();
+  std::mt19937 random(seed);
+  std::cout << "failing calls of commands with seed " << seed << '\n';
+  const bool is_long = rounds(1) > 1;
+  for (const Command& command : commands) {
+    restore(scratch, before);
+    const Outcome right = run(scratch, command.program, command.arguments);
+    const std::map<std::string, std::string> after = files_in(scratch.folder());
+    const bool asks = command.arguments.find("--answers") != std::string::npos;
+    INFO(command.program << ' ' << command.arguments << ": " << right.err);
+    REQUIRE(right.status == (asks ? 1 : 0));
+    int refused = 0, whole = 0;
+    for (const Kind& kind : kinds) {
+      if (!is_long && random() % 4 != 0) continue;
+      const auto fail_at = [&](int at) {
+        restore(scratch, before);
+        return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path}, command.program, command.arguments);
+      };
+      fail_at(0);
+      const int total = calls_counted(scratch);
+      if (total == 0) continue;
+      for (const int at : some_of(total, rounds(2), random)) {
+        const Outcome outcome = fail_at(at);
+        const std::map<std::string, std::string> now = files_in(scratch.folder());
+        INFO(command.program << ' ' << command.arguments << ": " << kind.call << ' ' << kind.mode << ' ' << at << " of "
+                             << total << ": " << outcome.status << '\n' << outcome.err);
+        REQUIRE((outcome.status == 0 || outcome.status == 1));
+        REQUIRE_FALSE(holds_parts(scratch.folder()));
+        if (outcome.status == right.status && (!asks || outcome.err == right.err)) {
+          REQUIRE(outcome.out == right.out);
+          for (const auto& [name, bytes] : after) {
+            INFO(name);
+            REQUIRE((is_a_note(name) || (now.contains(name) && now.at(name) == bytes)));
+          }
+          ++whole;
+        } else {
+          REQUIRE(outcome.status == 1);
+          REQUIRE(outcome.err.find("error: ") != std::string::npos);
+          ++refused;
+        }
+        // Each file is as it was, as it is to be, or one of ours that goes.
+        for (const auto& [name, bytes] : before) {
+          INFO(name);
+          const bool as_it_was = now.contains(name) && now.at(name) == bytes;
+          const bool as_it_is_to_be =
+              after.contains(name) ? now.contains(name) && now.at(name) == after.at(name) : !now.contains(name);
+          REQUIRE((as_it_was || as_it_is_to_be || is_a_note(name) || name.ends_with(".html")));
+        }
+        for (const auto& [name, bytes] : now) {
+          INFO(name);
+          REQUIRE((before.contains(name) || is_a_note(name) || name.ends_with(".html") ||
+                   (after.contains(name) && after.at(name) == bytes)));
+        }
+      }
+    }
+    std::cout << command.program << ' ' << command.arguments << ": " << refused << " refused, " << whole
+              << " whole, 0 false, 0 lost\n";
+  }
+}
