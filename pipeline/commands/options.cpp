@@ -87,7 +87,7 @@ struct OtherKind {
 constexpr OtherKind program_kind{"robot program", "name it in a job: dresslife new --program FILE JOB.yaml"},
     result_kind{"result", "see it by dresslife show FILE or plot FILE"};
 
-/// By the end of the name; null: perhaps a YAML file, whose keys tell its kind (resolve/document_kind.h).
+/// By the end of the name; null: perhaps a YAML file, whose keys tell its kind (pipeline/resolve/document_kind.h).
 const OtherKind* kind_by_name(const fs::path& file) {
   std::string end = file.extension();
   std::transform(end.begin(), end.end(), end.begin(), [](unsigned char letter) { return std::tolower(letter); });

@@ -10,7 +10,7 @@
 
 namespace dresslife::pipeline {
 
-struct KeyRow;  // settings/fields.h
+struct KeyRow;  // pipeline/settings/fields.h
 
 struct Dresspack;
 struct Job;

@@ -27,7 +27,7 @@
 
 namespace dresslife::pipeline {
 
-struct KeyRow;  // settings/fields.h
+struct KeyRow;  // pipeline/settings/fields.h
 
 class Fields;
 

@@ -22,7 +22,7 @@
 
 namespace dresslife::pipeline {
 
-struct KeyRow;  // settings/fields.h
+struct KeyRow;  // pipeline/settings/fields.h
 
 struct Job;
 
