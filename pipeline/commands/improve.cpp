@@ -59,6 +59,10 @@ int improve_study(Options options) {
   Finals finals = finals_of(found, options.request, make_rows);
   const bool all_written = write_results(finals.study, places, finals.rows).empty();
   const double off = options.off_mm / 1000;
+  if (off > 0 && !options.quiet)
+    tell(shown(fmt::format("The trials are done; the jobs of the best are in {}. Next the best three are tried with each clamp and the "
+                           "length off by {:g} mm. --off 0 leaves that out.\n",
+                           places.folder.string(), options.off_mm)));
   if (off > 0) judge(finals, found, options.request, off, places, make_rows);
   const ImprovementStory story = story_of(found, finals, options.request.second, places);
   write_text_if_changed(places.folder / "improve.html", with_mark(improvement_page(story), Mark::page));

@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string job, robot, program, dresspack;
+  bool dresspack_is_example = false;  ///< none was named
 };
 
 constexpr const char* default_dresspack = "spot_welding";
@@ -213,7 +214,8 @@ std::string text_of(const Options& options, const Draft& draft, const Choice& ch
   else
     text += commented("motion", entry(options.program), "your robot program, or a name of config/programs");
   text +=
-      commented("dresspack", entry(options.dresspack), "a name of config/dresspacks, or your own YAML file");
+      commented("dresspack", entry(options.dresspack), options.dresspack_is_example ? "an EXAMPLE, 60 mm wide; name yours, or your own YAML file"
+                                                                                : "a name of config/dresspacks, or your own YAML file");
   text += fmt::format("# Clamps: {}.\n", choice.source);
   text +=
       "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\nrouting:\n";
@@ -234,7 +236,10 @@ int make(Options options) {
   }
   if (options.job.empty())
     throw InputError({"dresslife new"}, "lacks the job to write", "name a file, for example job.yaml");
-  if (options.dresspack.empty()) options.dresspack = default_dresspack;
+  if (options.dresspack.empty()) {
+    options.dresspack = default_dresspack, options.dresspack_is_example = true;
+    tell(fmt::format("note: --dresspack was not given; {} is an example for a large robot\n", default_dresspack));
+  }
   const std::size_t accelerations = missing_accelerations(options.robot);
   check_named("--robot", "robots", options.robot);
   check_named("--dresspack", "dresspacks", options.dresspack);

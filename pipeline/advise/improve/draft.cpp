@@ -101,7 +101,7 @@ Node links_only(const RouteRequest& request, const Robot& robot, const Node* giv
 
 /// A file that an entry names, as it is named from another folder; a null node: it names none.
 Node reference(const Node& entry, const std::optional<fs::path>& folder) {
-  if (!folder || !entry.is_scalar() || !is_yaml_file(entry.text)) return {};
+  if (!folder || !entry.is_scalar() || !fs::path(entry.text).has_extension()) return {};
   const fs::path beside = entry.where.file == command_line ? fs::path() : fs::path(entry.where.file).parent_path();
   if (kind_of(beside / entry.text) != FileKind::file) return {};
   Node named = scalar((fs::path(".") / as_seen_from(*folder, beside / entry.text)).string());
