@@ -185,7 +185,7 @@ Decided decided(const Trial& trial, const Draft& draft) {
     const auto kind = kinds.find(limit);
     for (const Warning& warning : trial.best ? warnings_of(trial.rows[*trial.best]) : std::vector<Warning>{})
       if (const std::size_t at = warning.words.find(remedy); kind != kinds.end() && warning.kind == kind->second && at != std::string::npos)
-        return {"the limit that decides: " + warning.words.substr(0, at),
+        return {"the limit that decides: " + warning.words.substr(0, at - 1),  // without its point
                 warning.words.substr(at + remedy.size()) + "; or " + other};
     return {fmt::format("the limit that decides: {}, passed by {:.2g}", limit, passed[most]), other};
   }
