@@ -39,8 +39,8 @@ std::vector<Option> run_options(RunOptions& options);
 /// --launcher: of commands whose stages may run elsewhere.
 Option launcher_option(RunOptions& options);
 
-/// What a user names: a file, or an entry of the catalogue ("two_robots" or "studies/two_robots"). A name of both a job and
-/// a study means the job in every command, which a note says. Errors: InputError, neither.
+/// What a user names: a file, or an entry of the catalogue ("two_robots" or "studies/two_robots"). A name of both a
+/// job and a study means the job in every command, which a note says. Errors: InputError, neither.
 std::filesystem::path named_file(const std::string& name, const std::string& shelf);
 
 /// Likewise a study, or a job, which is a study of one.

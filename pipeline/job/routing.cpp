@@ -77,9 +77,10 @@ void describe(Fields& f, Routing& routing) {
   f.numbers("mounting_pose_deg", routing.mounting_pose, Need::optional,
             "joint angles at which the dresspack was clamped free of twist; without it the first target; of "
             "several dresspacks all that give one give the same, and all are clamped in it");
-  f.maybe_number("longest_bracket_mm", routing.longest_bracket, between(0, 10'000),
-                 "longest bracket that can be built between a link's surface and a clamp or ring; without it 150. route and "
-                 "improve keep it, the preview draws longer ones red");
+  f.maybe_number(
+      "longest_bracket_mm", routing.longest_bracket, between(0, 10'000),
+      "longest bracket that can be built between a link's surface and a clamp or ring; without it 150. route and "
+      "improve keep it, the preview draws longer ones red");
 }
 
 namespace {
