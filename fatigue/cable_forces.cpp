@@ -104,8 +104,8 @@ Cure held_cure(const CableFacts& facts, bool known_bore, double least, double mo
                             1e3 * pipeline::usual_bore_share * facts.dresspack->diameter)};
 }
 
-/// Room for excess that is wound. Excess s in a room c makes a helix of curvature 2 s/c (excess.h), which must keep the bend
-/// radius that the usual rule asks of the cable itself.
+/// Room for excess that is wound. Excess s in a room c makes a helix of curvature 2 s/c (excess.h), which must keep
+/// the bend radius that the usual rule asks of the cable itself.
 double room_per_excess(const CableFacts& facts) {
   return 2 * pipeline::least_bend_diameters * 2 * facts.component->radius;
 }
@@ -134,7 +134,8 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
     return {cause, fmt::format("{}: {} .. {} (now {:.3g})", slack_key(facts), pipeline::percent_above(least),
                                pipeline::percent_below(proposed), 100 * slack)};
   const double excess = least - facts.least_gain;
-  const double needed = std::max(pipeline::room_of_excess(cable, excess, limit), excess * room_per_excess(facts));
+  const double needed =
+      std::max(pipeline::room_of_excess(cable, excess, limit), excess * room_per_excess(facts));
   return {cause, fmt::format("no slack fits this room: place it where it has {:.2g} mm of room (helix_radius_mm, "
                              "inner_diameter_mm; play_mm: {:.2g} where it has that already), or nearer to the axis",
                              1e3 * needed, 1e3 * needed)};

@@ -38,7 +38,8 @@ bool told_at_rest(const Request& request, const pipeline::StageCall& call, pipel
                                "run it, and look at its page");
   if (request.exercise) job.motion = sim::exercise(job.robot);
   if (request.bracket_mm)
-    for (pipeline::MountedDresspack& mounted : job.dresspacks) mounted.routing.longest_bracket = *request.bracket_mm / 1e3;
+    for (pipeline::MountedDresspack& mounted : job.dresspacks)
+      mounted.routing.longest_bracket = *request.bracket_mm / 1e3;
   pipeline::FileWriter file(call.output,
                             request.preview ? pipeline::preview_format() : pipeline::screening_format());
   if (request.preview) {
@@ -97,8 +98,8 @@ int main(int argc, char** argv) {
       .example = "dresslife-sim config/jobs/irb6640_spot_welding.yaml -o motion.h5",
       .input_is_job = true,
       .options =
-          {{"--preview", "",
-            "simulate nothing; write what stands where, and which lengths suit (preview.h5)", &request.preview},
+          {{"--preview", "", "simulate nothing; write what stands where, and which lengths suit (preview.h5)",
+            &request.preview},
            {"--screen", "LIST.yaml",
             "simulate nothing; write what geometry says of the job with each of these changes (screening.h5)",
             &request.screen},
@@ -111,14 +112,26 @@ int main(int argc, char** argv) {
             &request.propose,
             {.range = {{1, 24}}}},
            {"--ring", "LINK", "with --propose: also a guide ring on this link", &request.proposals.ring_link},
-           {"--tried", "COUNT", "with --propose: routings that are looked at", &request.proposals.tried,
+           {"--tried",
+            "COUNT",
+            "with --propose: routings that are looked at",
+            &request.proposals.tried,
             {.range = {{1, 1'000'000}}}},
-           {"--rehearsals", "COUNT", "with --propose: short runs that they are tried in and bettered by",
-            &request.proposals.rehearsals, {.range = {{0, 100'000}}}},
-           {"--seed", "NUMBER", "with --propose: of the search's chances", &request.proposals.seed,
+           {"--rehearsals",
+            "COUNT",
+            "with --propose: short runs that they are tried in and bettered by",
+            &request.proposals.rehearsals,
+            {.range = {{0, 100'000}}}},
+           {"--seed",
+            "NUMBER",
+            "with --propose: of the search's chances",
+            &request.proposals.seed,
             {.range = {{0, 1'000'000'000}}}},
-           {"--bracket", "MM", "instead of the job's routing.longest_bracket_mm",
-            &request.bracket_mm, {.range = {{0, 10'000}}}},
+           {"--bracket",
+            "MM",
+            "instead of the job's routing.longest_bracket_mm",
+            &request.bracket_mm,
+            {.range = {{0, 10'000}}}},
            {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about",
             &request.exercise}},
       .part = pipeline::Part::sim,

@@ -19,7 +19,9 @@ constexpr double pi = std::numbers::pi;
 // Around a layer: what is summed has 2 d harmonics at level d, so 12 angles are exact for those of five.
 constexpr int phases = 12;
 constexpr double small = 1e-4;  // [1/m], [rad/m]; strains of 1e-6: first order to 1e-6, rounding 1e-10
-// ESTIMATE: half a metre of cable at the edge of a table [m]. Wires slide out at the ends of a longer wave.
+// Length of a cable that is bent to measure it [m], as config/observations/your_cable.md asks. Wires slide out at the
+// ends of a longer wave. It counts only for parts whose turn is longer: those of the shipped dresspacks turn within
+// 66 mm.
 constexpr double bent_sample = 0.5;
 constexpr double reach = 1e-3;  // [m]: as much of elongation per twist, a wire's distance from the axis
 

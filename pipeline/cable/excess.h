@@ -34,8 +34,8 @@ std::vector<LooseRoom> loose_rooms(const Dresspack& dresspack);
 /// the cable, its force over its strength, its room, and the slack_percent that fits.
 std::vector<Warning> slack_warnings(const Dresspack& dresspack);
 
-/// What is wrong in the description of a dresspack, whatever its motion: values that no dresspack has, parts that overlap, a
-/// stiffness that is not that of its parts, and, where its cables may slide, excess length without room.
+/// What is wrong in the description of a dresspack, whatever its motion: values that no dresspack has, parts that
+/// overlap, a stiffness that is not that of its parts, and, where its cables may slide, excess length without room.
 std::vector<Warning> construction_warnings(const Dresspack& dresspack, bool may_slide);
 
 /// "0.05", a percentage rounded down to two digits: what fits.

@@ -14,8 +14,8 @@ namespace {
 constexpr double pi = std::numbers::pi, degree = pi / 180;
 constexpr double copper = 8960,
                  aluminium = 2700;  // densities: the heaviest and the lightest metal of cables [kg/m3]
-// Damping ratio pi f tau at 1.8 Hz, the median of published swings of hanging cables (0.115 there). Beyond 1 nothing swings;
-// steel ropes without friction between their wires have 0.005.
+// Damping ratio pi f tau at 1.8 Hz, the median of published swings of hanging cables (0.115 there). Beyond 1 nothing
+// swings; steel ropes without friction between their wires have 0.005.
 constexpr double swing_frequency = 1.8, least_ratio = 0.005, most_ratio = 1;
 constexpr double stiffest = 115e9, shear = 45e9;  // moduli of copper [Pa]: a dresspack is no solid bar of it
 constexpr double most_stretch = 0.02;             // by the weight of a metre, at which a simulation stops
@@ -59,7 +59,8 @@ class Judge {
                 least_lay / degree),
             "radians instead of degrees",
             fmt::format("lay_angle_deg: {:.3g} if that was radians, or 0", of.lay_angle / degree / degree));
-      if (const double pressure = of.radial_line_load.value_or(0) / (2 * of.radius); pressure > strongest_jacket)
+      if (const double pressure = of.radial_line_load.value_or(0) / (2 * of.radius);
+          pressure > strongest_jacket)
         add(of.where,
             fmt::format(
                 "radial_line_load_N_per_m of '{}' is {:.4g}, {:.3g} MPa on its width (limit {:g}: jackets yield)",

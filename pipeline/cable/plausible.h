@@ -1,5 +1,5 @@
-// Values of a dresspack that no dresspack has, and that another unit or a slip of the pen explains: accepted by the ranges of
-// the keys, and silently wrong in every result.
+// Values of a dresspack that no dresspack has, and that another unit or a slip of the pen explains: accepted by the
+// ranges of the keys, and silently wrong in every result.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,9 @@
 
 namespace dresslife::pipeline {
 
-/// Mass and stiffnesses against solid copper, its own wires and weight, damping against any swing that is seen, wires, lay
-/// angles, pressures and play against what is made, parts side by side of one name. Each warning names key, value and limit.
+/// Mass and stiffnesses against solid copper, its own wires and weight, damping against any swing that is seen,
+/// wires, lay angles, pressures and play against what is made, parts side by side of one name. Each warning names
+/// key, value and limit.
 std::vector<Warning> plausibility_warnings(const Dresspack& dresspack);
 
 }  // namespace dresslife::pipeline

@@ -255,7 +255,8 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
   // How solid a jacket is that holds parts, and how it holds them, is not known of a cable.
   const double least =
       is_hose(dresspack) ? std::max(friction / believable, sliding) : sliding - polymer_of(dresspack);
-  // A wall that is not described is no stiffer than a solid bar of polyamide 66 (3.3 GPa dry, the stiffest without glass).
+  // A wall that is not described is no stiffer than a solid bar of polyamide 66 (3.3 GPa dry, the stiffest without
+  // glass).
   constexpr double stiffest = 3.3e9;
   const double solid = stiffest * std::numbers::pi / 64 * std::pow(dresspack.diameter, 4);
   const double most = !missing.empty()     ? stuck + solid

@@ -15,15 +15,15 @@
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/screened.h"
 #include "pipeline/advise/improve/tolerance.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
+#include "pipeline/cable/bend_limit.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/pictures.h"
 #include "pipeline/commands/results.h"
-#include "pipeline/base/digest.h"
-#include "pipeline/cable/bend_limit.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/resolve/catalogue.h"
@@ -173,30 +173,38 @@ Decided decided(const Trial& trial, const Draft& draft) {
   for (double& g : passed)
     if (!(g > 0)) g = 0;  // not a number where nobody knows
   const auto most = static_cast<std::size_t>(std::max_element(passed.begin(), passed.end()) - passed.begin());
-  const std::string other = "another link (--from, --to), more --tried and --rehearsals, or a gentler program";
+  const std::string other =
+      "another link (--from, --to), more --tried and --rehearsals, or a gentler program";
   if (passed.empty() || passed[most] == 0) return {"no routing runs", other};
   const std::string& limit = outcome_limit_names()[most];
   if (limit != "bend radius") {
     // Its run has said by how much, why, and what would cure it.
     constexpr std::string_view remedy = " Remedy: ";
-    static const std::map<std::string, WarningKind> kinds{
-        {"twist", WarningKind::twist},     {"too short", WarningKind::slack},         {"too long", WarningKind::slack},
-        {"tension", WarningKind::tension}, {"retraction's stroke", WarningKind::slack}, {"forces in cables", WarningKind::force}};
+    static const std::map<std::string, WarningKind> kinds{{"twist", WarningKind::twist},
+                                                          {"too short", WarningKind::slack},
+                                                          {"too long", WarningKind::slack},
+                                                          {"tension", WarningKind::tension},
+                                                          {"retraction's stroke", WarningKind::slack},
+                                                          {"forces in cables", WarningKind::force}};
     const auto kind = kinds.find(limit);
     for (const Warning& warning : trial.best ? warnings_of(trial.rows[*trial.best]) : std::vector<Warning>{})
-      if (const std::size_t at = warning.words.find(remedy); kind != kinds.end() && warning.kind == kind->second && at != std::string::npos)
-        return {"the limit that decides: " + warning.words.substr(0, at),
+      if (const std::size_t at = warning.words.find(remedy);
+          kind != kinds.end() && warning.kind == kind->second && at != std::string::npos)
+        return {"the limit that decides: " + warning.words.substr(0, at - 1),  // without its point
                 warning.words.substr(at + remedy.size()) + "; or " + other};
     return {fmt::format("the limit that decides: {}, passed by {:.2g}", limit, passed[most]), other};
   }
-  // The limit shrinks with the hose, but a smaller one is bent tighter, too: abb_irb2600_12_165 with hard misses by 0.14 at
-  // 100 % and by 0.033 at 78 %, and keeps all limits at 70 %. Short runs know a bend to some percent.
+  // The limit shrinks with the hose, but a smaller one is bent tighter, too: abb_irb2600_12_165 with hard misses by
+  // 0.14 at 100 % and by 0.033 at 78 %, and keeps all limits at 70 %. Short runs know a bend to some percent.
   constexpr double margin = 0.95, smallest = 0.05;
-  const double least = least_bend_radius(draft.job.dresspacks.front().dresspack) * trial.factor, share = std::exp(-passed[most]);
+  const double least = least_bend_radius(draft.job.dresspacks.front().dresspack) * trial.factor,
+               share = std::exp(-passed[most]);
   const double scale = std::floor(100 * trial.factor * share * share * margin) / 100;
   const std::string smaller =
-      scale < smallest ? "" : fmt::format("--scale {:.2g} (a dresspack of the same make in that size), ", scale);
-  return {fmt::format("the limit that decides: bend radius, {:.0f} mm of at least {:.0f} mm", 1e3 * least * share, 1e3 * least),
+      scale < smallest ? ""
+                       : fmt::format("--scale {:.2g} (a dresspack of the same make in that size), ", scale);
+  return {fmt::format("the limit that decides: bend radius, {:.0f} mm of at least {:.0f} mm",
+                      1e3 * least * share, 1e3 * least),
           fmt::format("{}dresspack.least_bend_radius_mm: {:.0f} if its maker allows it, {}", smaller,
                       std::floor(1e3 * least * share * margin), other)};
 }
@@ -246,8 +254,8 @@ std::string words_of(const Trial& trial, const Draft& draft, double off) {
     text += "It keeps all limits in a run.\n";
   } else {
     const Decided by = decided(trial, draft);
-    text += fmt::format("It runs, but no routing was found that keeps all limits ({}): {}. Remedy: {}\n", best.words(),
-                        by.by, by.remedy);
+    text += fmt::format("It runs, but no routing was found that keeps all limits ({}): {}. Remedy: {}\n",
+                        best.words(), by.by, by.remedy);
   }
   text += tolerance_words(trial.nudges, off);
   const RankingRow& row = trial.rows[*trial.best];
@@ -267,7 +275,8 @@ void remove_others(const fs::path& folder, const std::string& winner) {
 
 int route(const Options& options) {
   RouteRequest request = options.request;
-  if (options.bracket_mm) request.sets.push_back(fmt::format("routing.longest_bracket_mm={:.6g}", *options.bracket_mm));
+  if (options.bracket_mm)
+    request.sets.push_back(fmt::format("routing.longest_bracket_mm={:.6g}", *options.bracket_mm));
   const Draft draft = draft_of(request);
   for (const Warning& fault : dresspack_faults(draft.job, true)) tell(fault.line() + "\n");
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
@@ -293,8 +302,7 @@ int route(const Options& options) {
     run(*nearest, 0, draft, options, places);
     if (nearest->best) chosen = std::move(nearest);
   }
-  if (!chosen)
-  {
+  if (!chosen) {
     const Decided by = decided(*nearest, draft);
     throw InputError({options.request.of}, "no routing was found that runs; " + by.by, by.remedy);
   }
@@ -316,37 +324,50 @@ int route(const Options& options) {
 Command route_command() {
   const auto options = std::make_shared<Options>();
   RouteRequest& request = options->request;
-  return {"route",
-          "propose a routing from nothing: clamps on two links and a length, tried in a run, as a job with its "
-          "preview",
-          joined({{{"of", "", "JOB.yaml whose routing does not count, or a ROBOT", &request.of, {.required = true}},
-                   {"--dresspack", "NAME", "instead of the job's; of a robot spot_welding", &request.dresspack},
-                   {"--motion", "NAME", "instead of the job's; of a robot one that moves its wrist about",
-                    &request.motion},
-                   {"--from", "LINK", "link of the base clamp; else the job's, or that which axis 3 moves",
-                    &request.base_link},
-                   {"--to", "LINK", "link of the tool clamp; else the job's, or the last", &request.tool_link},
-                   {"--ring", "LINK", "also a guide ring on this link", &options->ring},
-                   {"--scale", "auto|FACTOR", "of the dresspack's size; auto: as it is, then smaller until one fits",
-                    &options->scale},
-                   {"--tried", "COUNT", "routings that geometry looks at, of each size", &options->tried,
-                    {.range = {{1, 1'000'000}}}},
-                   {"--rehearsals", "COUNT",
-                    "short runs that the best of them are tried in and changed by, of each size",
-                    &options->rehearsals, {.range = {{1, 100'000}}}},
-                   {"--seed", "NUMBER", "of the search's chances", &options->seed, {.range = {{0, 1'000'000'000}}}},
-                   {"--bracket", "MM", "longest bracket, written into the job as routing.longest_bracket_mm; else the job's",
-                    &options->bracket_mm, {.range = {{0, 10'000}}}},
-                   {"--off", "MM",
-                    "mounting tolerance of clamps and length: that routing wins which lives longest within it; 0: not "
-                    "asked",
-                    &options->off_mm, {.range = {{0, 1000}}}},
-                   {"--keep", "", "keep the runs of all routings that were tried, not the best alone", &options->keep},
-                   {"--job", "FILE.yaml", "job to write; else NAME_routed.yaml here", &options->job},
-                   {"-o,--output", "DIR", "folder of the runs that try it", &options->out}},
-                  run_options(*options),
-                  {sets_option("override a key of the job", request.sets)}}),
-          [options] { return route(*options); }};
+  return {
+      "route",
+      "propose a routing from nothing: clamps on two links and a length, tried in a run, as a job with its "
+      "preview",
+      joined(
+          {{{"of", "", "JOB.yaml whose routing does not count, or a ROBOT", &request.of, {.required = true}},
+            {"--dresspack", "NAME", "instead of the job's; of a robot spot_welding", &request.dresspack},
+            {"--motion", "NAME", "instead of the job's; of a robot one that moves its wrist about",
+             &request.motion},
+            {"--from", "LINK", "link of the base clamp; else the job's, or that which axis 3 moves",
+             &request.base_link},
+            {"--to", "LINK", "link of the tool clamp; else the job's, or the last", &request.tool_link},
+            {"--ring", "LINK", "also a guide ring on this link", &options->ring},
+            {"--scale", "auto|FACTOR", "of the dresspack's size; auto: as it is, then smaller until one fits",
+             &options->scale},
+            {"--tried",
+             "COUNT",
+             "routings that geometry looks at, of each size",
+             &options->tried,
+             {.range = {{1, 1'000'000}}}},
+            {"--rehearsals",
+             "COUNT",
+             "short runs that the best of them are tried in and changed by, of each size",
+             &options->rehearsals,
+             {.range = {{1, 100'000}}}},
+            {"--seed", "NUMBER", "of the search's chances", &options->seed, {.range = {{0, 1'000'000'000}}}},
+            {"--bracket",
+             "MM",
+             "longest bracket, written into the job as routing.longest_bracket_mm; else the job's",
+             &options->bracket_mm,
+             {.range = {{0, 10'000}}}},
+            {"--off",
+             "MM",
+             "mounting tolerance of clamps and length: that routing wins which lives longest within it; 0: not "
+             "asked",
+             &options->off_mm,
+             {.range = {{0, 1000}}}},
+            {"--keep", "", "keep the runs of all routings that were tried, not the best alone",
+             &options->keep},
+            {"--job", "FILE.yaml", "job to write; else NAME_routed.yaml here", &options->job},
+            {"-o,--output", "DIR", "folder of the runs that try it", &options->out}},
+           run_options(*options),
+           {sets_option("override a key of the job", request.sets)}}),
+      [options] { return route(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -344,8 +344,8 @@ bool is_dresslife_file(const std::filesystem::path& file) {
 
 const Format* format_of(const std::filesystem::path& file) {
   const std::string written = written_format(file);
-  for (const Format* format :
-       {&motion_format(), &strain_format(), &life_format(), &preview_format(), &screening_format(), &ways_format()})
+  for (const Format* format : {&motion_format(), &strain_format(), &life_format(), &preview_format(),
+                               &screening_format(), &ways_format()})
     if (format->name == written) return format;
   return nullptr;
 }

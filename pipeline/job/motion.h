@@ -103,8 +103,8 @@ struct Motion {
   std::filesystem::path clamp_poses;  ///< CSV with both clamps' poses instead of steps; empty: none
   std::filesystem::path deformation;  ///< CSV with the dresspack's own deformation instead; empty: none
   std::optional<Rig> rig;             ///< that deforms it instead
-  /// Of steps that were read from a program: what was left out there and may move the robot. Of any: numbers that another
-  /// unit explains (pipeline/resolve/plausible_job.h).
+  /// Of steps that were read from a program: what was left out there and may move the robot. Of any: numbers that
+  /// another unit explains (pipeline/resolve/plausible_job.h).
   std::vector<Warning> left_out;
   Where where;
 

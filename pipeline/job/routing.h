@@ -74,7 +74,9 @@ struct Routing {
   Where where;
 };
 /// Longest bracket between a link's surface and a clamp or ring [m].
-inline double longest_bracket_of(const Routing& routing) { return routing.longest_bracket.value_or(usual_longest_bracket); }
+inline double longest_bracket_of(const Routing& routing) {
+  return routing.longest_bracket.value_or(usual_longest_bracket);
+}
 
 void describe(Fields& f, Clamp& clamp);
 void describe(Fields& f, IntermediateClamp& between);

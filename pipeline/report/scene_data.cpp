@@ -97,8 +97,12 @@ class Scene {
       clamp(fmt::format("clamp at {:.2f} m", between.at_length), "clamp", between.at_length, between.clamp);
     if (routing.tool_clamp) clamp("tool clamp", "tool_clamp", routing.free_length, *routing.tool_clamp);
     for (const GuideRing& ring : routing.rings)
-      rings.push_back(Json{{"name", before + "ring"}, {"most_bracket", longest_bracket_of(routing)}, {"radius", ring.radius}, {"width", ring.width}}.add(
-          place(ring.link, ring.position, ring.direction)));
+      rings.push_back(Json{
+          {"name", before + "ring"},
+          {"most_bracket", longest_bracket_of(routing)},
+          {"radius", ring.radius},
+          {"width",
+           ring.width}}.add(place(ring.link, ring.position, ring.direction)));
   }
 
   template <class Shapes>

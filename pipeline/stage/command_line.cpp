@@ -99,12 +99,14 @@ std::string meant_command(const Command& program, int argc, char** argv) {
 
 /// "'--trial' is no option of improve; did you mean '--trials'?" for the first that is like one; empty: none is.
 std::string meant_option(const Command& program, int argc, char** argv) {
-  const auto called = std::find_if(program.commands.begin(), program.commands.end(),
-                                   [&](const Command& command) { return argc > 1 && command.name == argv[1]; });
+  const auto called =
+      std::find_if(program.commands.begin(), program.commands.end(),
+                   [&](const Command& command) { return argc > 1 && command.name == argv[1]; });
   const Command& command = called == program.commands.end() ? program : *called;
   std::vector<std::string> names{"--help"};
   for (const Option& option : command.options)
-    if (const std::size_t at = option.names.find("--"); at != std::string::npos) names.push_back(option.names.substr(at));
+    if (const std::size_t at = option.names.find("--"); at != std::string::npos)
+      names.push_back(option.names.substr(at));
   for (int k = 1; k < argc; ++k) {
     const std::string word = std::string(argv[k]).substr(0, std::string_view(argv[k]).find('='));
     if (!word.starts_with("--") || std::find(names.begin(), names.end(), word) != names.end()) continue;

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "pipeline/job/job.h"
-#include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"

@@ -17,8 +17,8 @@ struct PatchedProgram {
 /// in more than what the way changes; the message says in what.
 PatchedProgram patched(const pipeline::Job& job, const ReadProgram& read, const ProgramWay& way);
 
-/// What differs between two motions besides changes of these lines of the first; empty: nothing. Steps that a point adds
-/// stand before the line's own.
+/// What differs between two motions besides changes of these lines of the first; empty: nothing. Steps that a point
+/// adds stand before the line's own.
 std::string other_difference(const pipeline::Motion& before, const pipeline::Motion& after,
                              const std::vector<LineChange>& changes);
 

@@ -1,7 +1,7 @@
-// What the lines of a robot program could do instead, without another place of the tool at any target and without another
-// linear or circular path: a joint move and the paths behind it, up to the next joint move, by another configuration of
-// wrist or arm; a joint move by a point, so that arm and wrist move one after the other; a move more slowly. A line that
-// runs several times is changed for all of them.
+// What the lines of a robot program could do instead, without another place of the tool at any target and without
+// another linear or circular path: a joint move and the paths behind it, up to the next joint move, by another
+// configuration of wrist or arm; a joint move by a point, so that arm and wrist move one after the other; a move more
+// slowly. A line that runs several times is changed for all of them.
 #pragma once
 
 #include <string>

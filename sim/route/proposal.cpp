@@ -73,10 +73,7 @@ class Chance {
 class Search {
  public:
   Search(const pipeline::Setup& setup, const ProposalSettings& settings)
-      : setup_(setup),
-        settings_(settings),
-        screener_(setup, true),
-        chance_(settings.seed) {
+      : setup_(setup), settings_(settings), screener_(setup, true), chance_(settings.seed) {
     const pipeline::Routing& given = setup.dresspacks.front().routing;
     if (!given.base_clamp || !given.tool_clamp)
       throw pipeline::InputError(setup.motion.where,
@@ -353,8 +350,7 @@ class Search {
       if (chance_.below(2)) {
         const Vector3 place =
             rounded(candidate.position[k] + size * diameter_ * chance_.normal_vector(), millimetre);
-        if (bracket(k, place).beyond(longest_bracket(), diameter_) <= 0)
-          candidate.position[k] = place;
+        if (bracket(k, place).beyond(longest_bracket(), diameter_) <= 0) candidate.position[k] = place;
       }
       if (chance_.below(2))
         candidate.direction[k] = (candidate.direction[k] + 0.4 * size * chance_.normal_vector()).normalized();

@@ -28,7 +28,7 @@ struct ProposalSettings {
   int rehearsals =
       0;  ///< runs with few segments, a tenth of a second each, that try the best and better them; 0: none
   std::uint64_t seed = 1;
-  std::string ring_link;                               ///< a guide ring on it; empty: none
+  std::string ring_link;  ///< a guide ring on it; empty: none
   /// Share of the most work that there may be, and what is tried; may be empty.
   std::function<void(double, const std::string&)> progress{};
 };
@@ -40,9 +40,10 @@ struct Proposal {
   Rehearsal rehearsal;  ///< of the last run, if there were some
 };
 
-/// setup: its first dresspack's clamps name the links, its routing says the longest bracket; all else of that is not read. Errors:
-/// InputError as of Screener, for a motion without a robot, and for a link near which no place has a bracket. Where
-/// geometry surely excludes all that was tried nothing is rehearsed, and the proposals' rehearsals say why.
+/// setup: its first dresspack's clamps name the links, its routing says the longest bracket; all else of that is not
+/// read. Errors: InputError as of Screener, for a motion without a robot, and for a link near which no place has a
+/// bracket. Where geometry surely excludes all that was tried nothing is rehearsed, and the proposals' rehearsals say
+/// why.
 std::vector<Proposal> propose(const pipeline::Setup& setup, const ProposalSettings& settings);
 
 }  // namespace dresslife::sim

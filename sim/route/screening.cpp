@@ -217,8 +217,7 @@ struct Screener::Parts {
   void see_brackets(const pipeline::Setup& setup, Screening& screening) const;
 };
 
-Screener::Screener(const pipeline::Setup& setup, bool brackets)
-    : parts_(std::make_unique<Parts>()) {
+Screener::Screener(const pipeline::Setup& setup, bool brackets) : parts_(std::make_unique<Parts>()) {
   const std::unique_ptr<ClampPath> path = path_of(setup);
   if (const auto* robot = dynamic_cast<const RobotPath*>(path.get())) {
     parts_->add_robot(setup, *robot);

@@ -74,7 +74,6 @@ constexpr auto bracket = static_cast<std::size_t>(ScreenedLimit::bracket);
 /// Screeners are kept as long as robot and motion stay.
 class Bench {
  public:
-
   /// (V7) counts from what this job has, where it passes it.
   void accept_brackets_of(const pipeline::Setup& setup, const Node& document) {
     try {

@@ -251,10 +251,12 @@ simulation: {segments: 20, sample_rate_Hz: 25}
   const std::string life = " --ways runs/job_reprogram/as_it_is/life.h5";
   CHECK(run(scratch, "dresslife-import", "job.yaml" + life).err ==
         "--ways: error: has no file to write to; name one with -o ways.h5\n");
-  scratch.write("steps.yaml", "robot: abb_irb6640_185_280\nmotion: hard\n" + content(scratch / "job.yaml").substr(
-                                  content(scratch / "job.yaml").find("dresspack: ")));
-  CHECK_THAT(run(scratch, "dresslife-import", "steps.yaml -o ways.h5" + life).err,
-             Catch::Contains("error: the motion is no robot program; give a job with motion: {program: FILE}"));
+  scratch.write("steps.yaml",
+                "robot: abb_irb6640_185_280\nmotion: hard\n" +
+                    content(scratch / "job.yaml").substr(content(scratch / "job.yaml").find("dresspack: ")));
+  CHECK_THAT(
+      run(scratch, "dresslife-import", "steps.yaml -o ways.h5" + life).err,
+      Catch::Contains("error: the motion is no robot program; give a job with motion: {program: FILE}"));
   CHECK(run(scratch, "dresslife-import", "job.yaml -o ways.h5 --lines 1" + life).status == 0);
   CHECK(run(scratch, "dresslife", "show ways.h5").out.find("dresslife-ways version 1") != std::string::npos);
 }

@@ -254,7 +254,8 @@ TEST_CASE("clean removes what a study does not keep and jobs that it has no more
 
 TEST_CASE("a name of a shipped job and a study means the job, in every command, and a note says so") {
   const Scratch scratch;
-  const std::string note = "bending_cable: note: is a job and a study; the job is taken. The study is studies/bending_cable\n";
+  const std::string note =
+      "bending_cable: note: is a job and a study; the job is taken. The study is studies/bending_cable\n";
   for (const char* command : {"run -n", "status", "show", "preview"}) {
     const Outcome told = run(scratch, "dresslife", std::string(command) + " bending_cable");
     CAPTURE(command, told.err);

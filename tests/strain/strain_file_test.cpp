@@ -357,7 +357,8 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
     std::array<double, pipeline::uncertain_count> at{};
     std::copy_n(z.begin() + v * 5, 5, at.begin());
     std::vector<std::string> sets = pipeline::sets_at(at);
-    // Friction a thousand times as large is not glued: it lets go where compression takes the pressure, 0.37 of the range.
+    // Friction a thousand times as large is not glued: it lets go where compression takes the pressure, 0.37 of the
+    // range.
     if (inside[v] != 0) sets.push_back(inside[v] == 1 ? "strain.slip=[free, stick]" : "strain.slip=free");
     REQUIRE(!sets.empty());
     INFO(sets.front() << (sets.size() > 1 ? sets.back() : ""));

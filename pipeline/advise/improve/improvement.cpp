@@ -160,21 +160,24 @@ class Improver {
     return std::make_unique<SurrogateSearch>(freedom_.variables(), settings, screen, rehearse);
   }
 
-  /// Errors: InputError where no value of the freed keys makes a job: a key that is not there, or a range in another unit.
+  /// Errors: InputError where no value of the freed keys makes a job: a key that is not there, or a range in another
+  /// unit.
   void check_ranges() const {
     std::string failure;
     for (const double at : {0.5, 0.0, 1.0}) {
       const VectorXd place = VectorXd::Constant(freedom_.variables(), at);
       try {
         const std::vector<StudyJob> jobs = changed_jobs(request_, freedom_.sets_at(place), "free");
-        const auto refused = std::find_if(jobs.begin(), jobs.end(), [](const StudyJob& job) { return !job.failure.empty(); });
+        const auto refused =
+            std::find_if(jobs.begin(), jobs.end(), [](const StudyJob& job) { return !job.failure.empty(); });
         if (refused == jobs.end()) return;
         if (failure.empty()) failure = refused->failure;
       } catch (const InputError& error) {
         if (failure.empty()) failure = error.what();
       }
     }
-    throw InputError({request_.file.string()}, "no value of what is free makes a job: " + failure, "mend `free`, or --free");
+    throw InputError({request_.file.string()}, "no value of what is free makes a job: " + failure,
+                     "mend `free`, or --free");
   }
 
   /// Jobs whose routing geometry can look at, one of those that are alike in it.

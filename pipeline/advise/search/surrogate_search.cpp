@@ -27,8 +27,9 @@ constexpr int spread_share =
     4;                          // of the first looks: places that keep their limits are spread by chance, too
 constexpr double cautious = 1;  // deviations of limits, while none is known to be kept
 constexpr double least_ahead = 0.02;  // width, then the search ahead begins anew elsewhere
-// Beyond the limits, all together: a bend of half the least radius (ln 2). In searches of better_hard and better_side_panel,
-// three seeds each, the nearest short run missed by 0.64 at most after 27 of 480, and by 0.16 after a third of them.
+// Beyond the limits, all together: a bend of half the least radius (ln 2). In searches of better_hard and
+// better_side_panel, three seeds each, the nearest short run missed by 0.64 at most after 27 of 480, and by 0.16
+// after a third of them.
 constexpr double hopeless = 0.7;
 constexpr double least_gain = 1e-3;   // of a limit, by which a place is nearer
 constexpr double much_more = 1.3;     // rehearsals than shapes were found from

@@ -97,7 +97,7 @@ TEST_CASE("a clamp in the air or in a neighbour has no bracket (V7)") {
     job.dresspacks.front().routing.longest_bracket = longest;
     return Screener(job, true).screen(job).beyond[static_cast<std::size_t>(ScreenedLimit::bracket)];
   };
-  CHECK(g({}) == g(0.15));  // the default
+  CHECK(g({}) == g(0.15));                                 // the default
   CHECK(std::isinf(beyond(job, ScreenedLimit::bracket)));  // not asked
   const double diameter = job.dresspacks.front().dresspack.diameter;
   // A post whose surface is 0.3 m from the base clamp.
