@@ -87,6 +87,12 @@ void describe(Fields& f, Corrugation& corrugation) {
   f.number("wall_mm", corrugation.wall, Need::required, above(0), "thickness of the material");
 }
 
+void describe(Fields& f, BendingFriction& friction) {
+  f.number("stiffness_Nm2", friction.stiffness, Need::required, above(0), "moment per curvature while it holds");
+  f.number("slides_at_1_per_m", friction.slides_at, Need::required, above(0),
+           "change of curvature from which on it slides: its moment is stiffness times this");
+}
+
 void describe(Fields& f, Dresspack& dresspack) {
   f.place(dresspack.where);
   f.text("name", dresspack.name, Need::required, "name of the dresspack");
@@ -128,7 +134,16 @@ void describe(Fields& f, Dresspack& dresspack) {
            "of the delivered hose when nothing pulls on it, toward the x axis of its base clamp, which "
            "base_clamp.roll_deg turns; its parts are free of strain in that shape");
   f.number("damping_time_ms", dresspack.damping_time, need, at_least(0),
-           "Kelvin-Voigt time of bending and twist, from a decay test");
+           "Kelvin-Voigt time of twist and, without loss_factor, of bending, from a decay test");
+  f.maybe_number("loss_factor", dresspack.loss_factor, between(0, 0.7),
+                 "of bending without friction, the same from 0.3 to 30 Hz: twice the damping ratio of a swing against "
+                 "bending alone. With it a bending stiffness from_construction is that of parts that slide, at 1 Hz, and "
+                 "their friction");
+  if (!dresspack.bending_from_construction)
+    f.list("bending_friction", dresspack.bending_friction, Need::optional,
+           "of bending_stiffness_Nm2, which is then moment over curvature of the first bend to "
+           "construction_curvature_1_per_m, the share that friction holds; at most four; refused where the stiffness is "
+           "from_construction, which computes them");
   f.text("damping_source", dresspack.damping_source, need,
          "where the damping comes from: life depends on it");
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
@@ -160,6 +175,13 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.list("materials", dresspack.materials, Need::optional, "materials that are not in config/materials");
   f.list("ratings", dresspack.ratings, Need::optional,
          "of a dresspack that is one cable, without a hose: what its maker promises in test rigs");
+}
+
+double elastic_bending_stiffness(const Dresspack& dresspack) {
+  double elastic = dresspack.bending_stiffness;
+  for (const BendingFriction& friction : dresspack.bending_friction)
+    elastic -= friction.stiffness * std::min(1.0, friction.slides_at / dresspack.construction_curvature);
+  return elastic;
 }
 
 std::optional<double> inner_radius(const Dresspack& dresspack) {
@@ -353,6 +375,20 @@ void check_bore(const Dresspack& dresspack) {
                                1e3 * dresspack.diameter, 1e3 * usual_bore_share * dresspack.diameter));
 }
 
+void check_bending_friction(const Dresspack& dresspack) {
+  if (dresspack.bending_friction.size() > most_bending_frictions)
+    throw InputError(dresspack.where,
+                     fmt::format("bending_friction has {} elements (at most {})", dresspack.bending_friction.size(),
+                                 most_bending_frictions),
+                     "keep those that hold most");
+  if (dresspack.bending_friction.empty() || elastic_bending_stiffness(dresspack) > 0) return;
+  throw InputError(dresspack.where,
+                   fmt::format("bending_friction holds {:.3g} N m2 at {:.3g} 1/m, all of bending_stiffness_Nm2, {:.3g}",
+                               dresspack.bending_stiffness - elastic_bending_stiffness(dresspack),
+                               dresspack.construction_curvature, dresspack.bending_stiffness),
+                   "give as bending_stiffness_Nm2 moment over curvature of the first bend, friction included");
+}
+
 /// Ratings are of whole cables. A copy of each is checked: what the job says stays as written.
 void check_ratings(const std::vector<Rating>& ratings) {
   for (Rating rating : ratings) {
@@ -391,6 +427,7 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   for (const Component& component : dresspack.components)
     depth = std::max(depth, check_component(component, nullptr, problems));
   attempt(dresspack.where, [&] { check_hose(dresspack); });
+  attempt(dresspack.where, [&] { check_bending_friction(dresspack); });
   attempt(dresspack.where, [&] { check_room(dresspack); });
   attempt(dresspack.where, [&] { check_bore(dresspack); });
   if (!dresspack.ratings.empty() && inner_radius(dresspack))
