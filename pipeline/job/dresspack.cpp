@@ -136,7 +136,7 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.number("damping_time_ms", dresspack.damping_time, need, at_least(0),
            "Kelvin-Voigt time of twist and, without loss_factor, of bending, from a decay test");
   f.maybe_number("loss_factor", dresspack.loss_factor, between(0, 0.7),
-                 "of bending without friction, the same from 0.3 to 30 Hz: twice the damping ratio of a swing against "
+                 "of bending without friction, the same from 0.8 to 30 Hz: twice the damping ratio of a swing against "
                  "bending alone. With it a bending stiffness from_construction is that of parts that slide, at 1 Hz, and "
                  "their friction");
   if (!dresspack.bending_from_construction)

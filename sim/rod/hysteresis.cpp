@@ -10,7 +10,9 @@ namespace dresslife::sim {
 PolymerLoss polymer_loss(double factor) {
   assert(factor >= 0 && factor <= most_loss_factor);
   if (factor == 0) return {};
-  constexpr double lowest = 0.3, highest = 30;  // [Hz]; hoses on robots swing at 1 to 5 Hz, their third wave at 20
+  // [Hz]. Hoses on robots swing at 1 to 5 Hz, their third wave at 20. Loss at lower frequencies would soften the hose at rest
+  // further below its stiffness at 1 Hz, and published cables are as stiff at rest as in their swings.
+  constexpr double lowest = 0.8, highest = 30;
   constexpr int frequencies = 61, unknowns = BendMemory::relaxations + 1;
   using Vector = Eigen::Matrix<double, unknowns, 1>;
   Eigen::Matrix<double, unknowns, unknowns> normal = decltype(normal)::Zero();

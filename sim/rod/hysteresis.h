@@ -4,7 +4,7 @@
 // (S20) friction (Jenkin):  e_i follows kappa and is cut back to the length y_i: K_i y_i is what the element can hold
 // (S21) polymer (Maxwell):  de_i/dt = dkappa/dt - e_i/tau_i
 // A bend for the first time follows M(kappa) = EI kappa + sum of K_i min(kappa, y_i), every later branch its double
-// (Masing). The polymer's elements and tau make the loss factor, E''/E', the given one from 0.3 to 30 Hz and E' the given
+// (Masing). The polymer's elements and tau make the loss factor, E''/E', the given one from 0.8 to 30 Hz and E' the given
 // stiffness at 1 Hz, where hoses swing; EI of (S19) is what remains of it at rest.
 // sim/rod/README.md derives the discrete form and why it never gains energy. SI units.
 #pragma once
@@ -23,7 +23,7 @@ struct FrictionElement {
 
 /// What a link remembers: its bend and what its elements are stretched by, at the begin of the last step.
 struct BendMemory {
-  static constexpr int frictions = 4, relaxations = 4;
+  static constexpr int frictions = 4, relaxations = 3;
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();  ///< kappa about d1, d2 [1/m]
   Eigen::Array<double, frictions, 2> held = Eigen::Array<double, frictions, 2>::Zero();          ///< e_i [1/m]
   Eigen::Array<double, relaxations, 2> relaxing = Eigen::Array<double, relaxations, 2>::Zero();  ///< e_i [1/m]
@@ -35,12 +35,12 @@ struct PolymerLoss {
   std::array<double, BendMemory::relaxations> stiffness{};  ///< K_i
   double dashpot = 0;                                       ///< tau of (S19) [s]
 
-  static constexpr std::array<double, BendMemory::relaxations> corner{0.2, 0.9, 4, 18};  ///< 1/(2 pi tau_i) [Hz]
+  static constexpr std::array<double, BendMemory::relaxations> corner{0.9, 4, 18};  ///< 1/(2 pi tau_i) [Hz]
   static constexpr double reference_frequency = 1;                                       ///< [Hz]
 };
 
-/// Least squares of E'' - factor E' over the band. Precondition: 0 <= factor <= most_loss_factor, up to which no K_i is
-/// negative and the loss factor is within 2 % of the given one (tests).
+/// Least squares of E'' - factor E' from 0.8 to 30 Hz. Precondition: 0 <= factor <= most_loss_factor, up to which no K_i is
+/// negative and the loss factor is within 2 % of the given one from 1 to 30 Hz (tests).
 PolymerLoss polymer_loss(double factor);
 inline constexpr double most_loss_factor = 0.7;
 
