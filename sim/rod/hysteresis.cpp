@@ -42,8 +42,8 @@ PolymerLoss polymer_loss(double factor) {
 }
 
 // (S22) Over a step the bend changes evenly: e' = a e + b dkappa, a = exp(-h/tau), b = (1 - a) tau/h.
-Hysteresis::Hysteresis(double bending_stiffness, const std::vector<FrictionElement>& friction, double loss_factor,
-                       double step) {
+Hysteresis::Hysteresis(double bending_stiffness, const std::vector<FrictionElement>& friction,
+                       double loss_factor, double step) {
   assert(friction.size() <= BendMemory::frictions);
   for (std::size_t i = 0; i < friction.size(); ++i)
     friction_[i] = friction[i].stiffness, yield_[i] = friction[i].yield;

@@ -25,8 +25,9 @@ struct FrictionElement {
 struct BendMemory {
   static constexpr int frictions = 4, relaxations = 3;
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();  ///< kappa about d1, d2 [1/m]
-  Eigen::Array<double, frictions, 2> held = Eigen::Array<double, frictions, 2>::Zero();          ///< e_i [1/m]
-  Eigen::Array<double, relaxations, 2> relaxing = Eigen::Array<double, relaxations, 2>::Zero();  ///< e_i [1/m]
+  Eigen::Array<double, frictions, 2> held = Eigen::Array<double, frictions, 2>::Zero();  ///< e_i [1/m]
+  Eigen::Array<double, relaxations, 2> relaxing =
+      Eigen::Array<double, relaxations, 2>::Zero();  ///< e_i [1/m]
 };
 
 /// (S21) of a loss factor, for a stiffness of 1 at reference_frequency.
@@ -36,7 +37,7 @@ struct PolymerLoss {
   double dashpot = 0;                                       ///< tau of (S19) [s]
 
   static constexpr std::array<double, BendMemory::relaxations> corner{0.9, 4, 18};  ///< 1/(2 pi tau_i) [Hz]
-  static constexpr double reference_frequency = 1;                                       ///< [Hz]
+  static constexpr double reference_frequency = 1;                                  ///< [Hz]
 };
 
 /// Least squares of E'' - factor E' from 0.8 to 30 Hz. Precondition: 0 <= factor <= most_loss_factor, up to which no K_i is
@@ -49,7 +50,8 @@ class Hysteresis {
  public:
   Hysteresis() = default;
   /// bending_stiffness: at 1 Hz, without friction [N m2]; friction: up to BendMemory::frictions elements; step [s].
-  Hysteresis(double bending_stiffness, const std::vector<FrictionElement>& friction, double loss_factor, double step);
+  Hysteresis(double bending_stiffness, const std::vector<FrictionElement>& friction, double loss_factor,
+             double step);
 
   /// Moment of all elements [N m] once `memory` has been moved on to this bend [1/m].
   Eigen::Vector2d advance(BendMemory& memory, const Eigen::Vector2d& bend) const {
@@ -60,14 +62,17 @@ class Hysteresis {
         yield_ / memory.held.square().rowwise().sum().max(yield_.square()).sqrt();
     memory.held.colwise() *= cut;
     memory.relaxing = memory.relaxing.colwise() * keep_ + (gain_.matrix() * change.transpose()).array();
-    return (memory.held.matrix().transpose() * friction_.matrix()) + memory.relaxing.matrix().transpose() * polymer_.matrix();
+    return (memory.held.matrix().transpose() * friction_.matrix()) +
+           memory.relaxing.matrix().transpose() * polymer_.matrix();
   }
   /// [J/m] stored in the elements.
   double energy(const BendMemory& memory) const {
     return 0.5 * ((memory.held.square().rowwise().sum() * friction_).sum() +
                   (memory.relaxing.square().rowwise().sum() * polymer_).sum());
   }
-  double tangent() const { return tangent_; }  ///< change of moment per bend within a step, nothing sliding [N m2]
+  double tangent() const {
+    return tangent_;
+  }  ///< change of moment per bend within a step, nothing sliding [N m2]
   double dashpot() const { return dashpot_; }  ///< tau of (S19) [s]
 
  private:

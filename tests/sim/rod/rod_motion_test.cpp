@@ -132,14 +132,17 @@ TEST_CASE("a cantilever with a loss factor rings and decays as its elements say,
         wave -= balance(wave) * small / (balance(wave + small) - balance(wave));
       }
       const double ratio = -wave.real() / wave.imag(), share = 0.1;
-      if (omega > 2 * pi) CHECK(ratio == Approx(factor / 2).epsilon(share));  // twice the damping ratio, above 0.8 Hz
+      if (omega > 2 * pi)
+        CHECK(ratio == Approx(factor / 2).epsilon(share));  // twice the damping ratio, above 0.8 Hz
       const int crossings = 7;
       const Ringing r = ring_cantilever({root}, 60, 0, h, crossings, factor);
       REQUIRE(r.crossing.size() == crossings);
-      const double frequency_tolerance = 0.015;  // the slow elements creep: by 1 % of the first swing's height in one swing
+      const double frequency_tolerance =
+          0.015;  // the slow elements creep: by 1 % of the first swing's height in one swing
       CHECK(2 * pi / (r.crossing[2] - r.crossing[0]) == Approx(wave.imag()).epsilon(frequency_tolerance));
       const double decay_tolerance = 0.03;  // 0.02 as for Kelvin and Voigt; the middle moves
-      CHECK(std::log((r.peak[1] + r.peak[2]) / (r.peak[5] + r.peak[6])) / (4 * pi) == Approx(ratio).epsilon(decay_tolerance));
+      CHECK(std::log((r.peak[1] + r.peak[2]) / (r.peak[5] + r.peak[6])) / (4 * pi) ==
+            Approx(ratio).epsilon(decay_tolerance));
     }
   }
 }
