@@ -13,7 +13,8 @@
 //
 // state: `sliding`, nothing rubs; `stuck`, nothing slides; `friction`, what friction and pressures hold at
 // construction_curvature. That is the secant of the first bend. A bend to and fro between -kappa and kappa
-// ends where the first bend did (Masing), so it is also that of the motion, whose losses are the damping's.
+// ends where the first bend did (Masing). A hose with a loss factor moves with the sliding stiffness and its friction
+// beside it (bending_friction).
 // Twist is alike all along a lay, so slip does not reduce it: G J has two values only.
 //
 // The wall of a corrugated hose is a folded beam (W22): pulled by F per length around, a corrugation gives by
@@ -47,11 +48,17 @@ struct HoseStiffness {
 /// friction and pressures slide. Errors: InputError for a measured bending stiffness that no friction gives.
 HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState state, double curvature);
 
+/// What friction holds of a bend, as elements whose sum is the friction's share of M(kappa) at their own curvatures, and
+/// less between them: F at four curvatures, from the first, where a third of all friction is held or, if that is
+/// further, the elements together are nine times as stiff as the sliding hose, to the last, from which all slides.
+/// sliding: E I of the hose [N m2].
+std::vector<BendingFriction> friction_of_construction(const Dresspack& dresspack, double sliding);
+
 /// What of the construction is there, and not in those numbers, as words: "what fills its core (...)". Empty:
 /// nothing.
 std::vector<std::string> missing_in_construction(const Dresspack& dresspack);
 
-/// Sets the mass and the stiffnesses that the dresspack takes from its construction. Precondition: it is
+/// Sets the mass, the stiffnesses and the friction that the dresspack takes from its construction. Precondition: it is
 /// checked (check_dresspack). Errors: InputError where that has none.
 void take_from_construction(Dresspack& dresspack);
 

@@ -94,6 +94,12 @@ void describe(Fields& f, Corrugation& corrugation) {
   f.number("wall_mm", corrugation.wall, Need::required, above(0), "The thickness of the wall.");
 }
 
+void describe(Fields& f, BendingFriction& friction) {
+  f.number("stiffness_Nm2", friction.stiffness, Need::required, above(0), "The moment per curvature while the element holds.");
+  f.number("slides_at_1_per_m", friction.slides_at, Need::required, above(0),
+           "The change of curvature beyond which the element slides. Its moment is then the stiffness times this.");
+}
+
 void describe(Fields& f, Dresspack& dresspack) {
   f.place(dresspack.where);
   f.text("name", dresspack.name, Need::required, "The name of the dresspack.");
@@ -140,7 +146,16 @@ void describe(Fields& f, Dresspack& dresspack) {
            "The curvature of the delivered hose without load, toward the x axis of its base clamp. "
            "base_clamp.roll_deg turns it. The parts are free of strain in that shape.");
   f.number("damping_time_ms", dresspack.damping_time, need, at_least(0),
-           "The Kelvin-Voigt time of bending and twist, from a decay test.");
+           "The Kelvin-Voigt time of twist and, without loss_factor, of bending, from a decay test.");
+  f.maybe_number("loss_factor", dresspack.loss_factor, between(0, 0.7),
+                 "The loss factor of bending without friction, the same from 0.8 to 30 Hz: twice the damping ratio of a "
+                 "swing against bending alone. With it a bending stiffness from_construction is that of sliding parts at "
+                 "1 Hz, and their friction.");
+  if (!dresspack.bending_from_construction)
+    f.list("bending_friction", dresspack.bending_friction, Need::optional,
+           "The share of bending_stiffness_Nm2 that friction holds, as at most four elements. That stiffness is then moment "
+           "over curvature of the first bend to construction_curvature_1_per_m. A stiffness from_construction computes "
+           "its own elements and refuses the key.");
   f.text("damping_source", dresspack.damping_source, need,
          "The source of the damping. The life depends on it.");
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
@@ -176,6 +191,13 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.list("materials", dresspack.materials, Need::optional, "Materials that are not in config/materials.");
   f.list("ratings", dresspack.ratings, Need::optional,
          "The cycles in test rigs that the maker states, of a dresspack that is one cable without a hose.");
+}
+
+double elastic_bending_stiffness(const Dresspack& dresspack) {
+  double elastic = dresspack.bending_stiffness;
+  for (const BendingFriction& friction : dresspack.bending_friction)
+    elastic -= friction.stiffness * std::min(1.0, friction.slides_at / dresspack.construction_curvature);
+  return elastic;
 }
 
 std::optional<double> inner_radius(const Dresspack& dresspack) {
@@ -369,6 +391,20 @@ void check_bore(const Dresspack& dresspack) {
                                1e3 * dresspack.diameter, 1e3 * usual_bore_share * dresspack.diameter));
 }
 
+void check_bending_friction(const Dresspack& dresspack) {
+  if (dresspack.bending_friction.size() > most_bending_frictions)
+    throw InputError(dresspack.where,
+                     fmt::format("bending_friction has {} elements (at most {})", dresspack.bending_friction.size(),
+                                 most_bending_frictions),
+                     "keep those that hold most");
+  if (dresspack.bending_friction.empty() || elastic_bending_stiffness(dresspack) > 0) return;
+  throw InputError(dresspack.where,
+                   fmt::format("bending_friction holds {:.3g} N m2 at {:.3g} 1/m, all of bending_stiffness_Nm2, {:.3g}",
+                               dresspack.bending_stiffness - elastic_bending_stiffness(dresspack),
+                               dresspack.construction_curvature, dresspack.bending_stiffness),
+                   "give as bending_stiffness_Nm2 moment over curvature of the first bend, friction included");
+}
+
 /// Ratings are of whole cables. A copy of each is checked: what the job says stays as written.
 void check_ratings(const std::vector<Rating>& ratings) {
   for (Rating rating : ratings) {
@@ -407,6 +443,7 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   for (const Component& component : dresspack.components)
     depth = std::max(depth, check_component(component, nullptr, problems));
   attempt(dresspack.where, [&] { check_hose(dresspack); });
+  attempt(dresspack.where, [&] { check_bending_friction(dresspack); });
   attempt(dresspack.where, [&] { check_room(dresspack); });
   attempt(dresspack.where, [&] { check_bore(dresspack); });
   if (!dresspack.ratings.empty() && inner_radius(dresspack))

@@ -78,6 +78,12 @@ struct Corrugation {
   Where where;
 };
 
+/// A spring beside the hose's elastic bending whose moment friction limits (S20 of sim/rod/README.md).
+struct BendingFriction {
+  double stiffness = 0;  ///< while it holds [N m2]
+  double slides_at = 0;  ///< from this change of curvature on [1/m]
+};
+
 struct Dresspack {
   std::string name, source;
   std::string estimates;  ///< keys that the user left out, with their values (estimates.h); empty: none
@@ -99,7 +105,9 @@ struct Dresspack {
   std::optional<double> core_torsional_stiffness;  ///< GJ [N m2]
   std::optional<double> core_axial_stiffness;      ///< EA [N]
   double rest_curvature = 0;                       ///< of the unloaded hose, toward x of its base clamp [1/m]
-  double damping_time = 0;                         ///< Kelvin-Voigt tau of bending and twist [s]
+  double damping_time = 0;                         ///< Kelvin-Voigt tau of twist, and of bending without loss_factor [s]
+  std::optional<double> loss_factor;               ///< of bending without friction; absent: damping_time's
+  std::vector<BendingFriction> bending_friction;   ///< share of bending_stiffness that friction holds
   std::string damping_source;                      ///< where the damping was measured or why it is guessed
   double friction = 0;                             ///< Coulomb, hose against robot
   std::optional<double> least_bend_radius;         ///< allowed in motion [m]; absent: pipeline/cable/bend_limit.h
@@ -137,10 +145,17 @@ bool is_hose_wall(const Dresspack& dresspack, std::string_view component);
 
 void describe(Fields& f, Component& component);
 void describe(Fields& f, Corrugation& corrugation);
+void describe(Fields& f, BendingFriction& friction);
 void describe(Fields& f, Dresspack& dresspack);
 
 /// Whether it holds a wire at any level.
 bool has_wires(const Dresspack& dresspack);
+
+/// E I of the hose without the friction in it: bending_stiffness less what bending_friction holds of it at
+/// construction_curvature [N m2].
+double elastic_bending_stiffness(const Dresspack& dresspack);
+/// The simulation's links have room for so many.
+inline constexpr std::size_t most_bending_frictions = 4;
 
 /// Whether any of its stiffnesses is taken from its construction.
 bool is_from_construction(const Dresspack& dresspack);

@@ -134,7 +134,7 @@ Node cable_alone(const Node& written, const std::string& part, const Where& aske
   if (is_hose(dresspack)) return alone;
   for (const char* key :
        {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N",
-        "construction_state", "construction_curvature_1_per_m", "damping_time_ms", "damping_source",
+        "construction_state", "construction_curvature_1_per_m", "damping_time_ms", "loss_factor", "bending_friction", "damping_source",
         "friction_coefficient", "least_bend_radius_mm", "most_twist_deg_per_m", "most_tension_N"})
     copy(dresspack, key, alone);
   return alone;

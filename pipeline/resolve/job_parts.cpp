@@ -98,7 +98,7 @@ void count_as_numbers(Dresspack& dresspack) {
   dresspack.bending_from_construction = dresspack.torsional_from_construction =
       dresspack.axial_from_construction = false;
   dresspack.construction_state = untold.construction_state;
-  dresspack.construction_curvature = untold.construction_curvature;
+  if (dresspack.bending_friction.empty()) dresspack.construction_curvature = untold.construction_curvature;
   dresspack.core_bending_stiffness = dresspack.core_torsional_stiffness = dresspack.core_axial_stiffness = {};
 }
 

@@ -77,10 +77,11 @@ void Rod::add(const RodProperties& p, bool new_dresspack) {
   span.segment_mass = p.mass_per_length * l;
   span.axial_inertia = span.segment_mass * inertia_shape * radius2;
   span.transverse_inertia = span.segment_mass * (l * l / 12 + inertia_shape * radius2 / 2);
+  const double bending = p.bending_stiffness * polymer_loss(p.loss_factor).elastic;
   for (int j = 0; j <= n; ++j) {
     const bool end = j == 0 || j == n, tied = j < n || p.tool_end != End::free;
     const double length = compliance_length(p, j, l);
-    const Vector3 stiffness{p.bending_stiffness, p.bending_stiffness, p.torsional_stiffness};
+    const Vector3 stiffness{bending, bending, p.torsional_stiffness};
     bending_length_.push_back(length);
     // before a free end the last link stretches for the half segment beyond it too
     const bool before_free = j == n - 1 && p.tool_end == End::free;
@@ -91,6 +92,7 @@ void Rod::add(const RodProperties& p, bool new_dresspack) {
   span_of_segment_.insert(span_of_segment_.end(), n, static_cast<int>(spans_.size()));
   span_of_link_.insert(span_of_link_.end(), n + 1, static_cast<int>(spans_.size()));
   spans_.push_back(span);
+  hysteretic_ |= p.is_hysteretic();
 }
 
 int Rod::first_span(int dresspack) const {
@@ -180,6 +182,24 @@ Energy Rod::energy(const RodState& state) const {
     const LinkState link = link_state(state, j);
     energy.elastic += 0.5 * (state.link_force[j].squaredNorm() / gap_stiffness_[j] +
                              link.moment.dot(link.turn - rest_turn_[j]));
+  }
+  if (!state.memory.empty()) energy.elastic += stored_in_elements(state);
+  return energy;
+}
+
+// The memory is of the step's begin: what has changed since counts as if it had come at once.
+double Rod::stored_in_elements(const RodState& state) const {
+  double energy = 0;
+  for (const Span& span : spans_) {
+    const RodProperties& p = span.properties;
+    if (!p.is_hysteretic()) continue;
+    const Hysteresis at_once(p.bending_stiffness, p.friction, p.loss_factor, 1e-9);
+    for (int j = span.first_link; j <= span.last_link(); ++j) {
+      if (turn_stiffness_[j][0] == 0) continue;
+      BendMemory memory = state.memory[j];
+      at_once.advance(memory, link_state(state, j).turn.head<2>() / bending_length_[j]);
+      energy += bending_length_[j] * at_once.energy(memory);
+    }
   }
   return energy;
 }
@@ -290,7 +310,9 @@ struct RodSystem {
   ClampFrames end;                                  ///< clamps at the end of the step
   std::vector<Vector3> velocity, angular_velocity;  ///< (end) of the clamps over the step
   std::vector<SlideEquation> slide;                 ///< (span)
-  double step = 0;
+  std::vector<Hysteresis> hysteresis;               ///< (span) for steps of `hysteresis_step`; empty: none
+  std::vector<BendMemory> memory;                   ///< (link) at the begin of the step
+  double step = 0, hysteresis_step = 0;
 };
 
 namespace {
@@ -326,7 +348,10 @@ class Assembly {
         system_(system),
         h_(h),
         p_(span_.properties) {
-    damping_ = std::max(p_.damping_time, least_damping_steps * h);
+    const double least = least_damping_steps * h, twist = std::max(p_.damping_time, least);
+    if (p_.is_hysteretic()) hysteresis_ = &system.hysteresis[span];
+    const double bend = p_.loss_factor > 0 ? std::max(hysteresis_->dashpot(), least) : twist;
+    damping_ = {bend, bend, twist};
     const double l = span_.segment_length;
     free_force_ = free_tension * p_.mass_per_length * l * l / (h * h);
   }
@@ -400,10 +425,26 @@ class Assembly {
     return force;
   }
 
-  // (S7) m = G K (phi - phi_0 + tau dphi/dt), the moment on the segment before.
+  // (S7) m = G K (phi - phi_0 + tau dphi/dt), with (S19) where bending is hysteretic, the moment on the segment before.
   Vector3 turn_moment(int j, const LinkTurn& turn, const Vector3& rate) const {
-    const Vector3 strain = turn.phi - rod_.rest_turn(j) + damping_ * (turn.map.transpose() * rate);
-    return turn.map * rod_.turn_stiffness(j).cwiseProduct(strain);
+    const Vector3 strain =
+        turn.phi - rod_.rest_turn(j) + damping_.cwiseProduct(turn.map.transpose() * rate);
+    Vector3 moment = rod_.turn_stiffness(j).cwiseProduct(strain);
+    if (is_hysteretic(j)) moment.head<2>() += element_moment(j, turn);
+    return turn.map * moment;
+  }
+
+  bool is_hysteretic(int j) const { return hysteresis_ && rod_.turn_stiffness(j)[0] > 0; }
+
+  // (S20), (S22) from the memory of the step before to the turn at the begin of this one.
+  Eigen::Vector2d element_moment(int j, const LinkTurn& turn) const {
+    const Eigen::Vector2d bend = turn.phi.head<2>() / rod_.bending_length(j);
+    BendMemory& memory = system_.memory[j];
+    if (state_.memory.empty())
+      memory = {}, memory.bend = bend;
+    else
+      memory = state_.memory[j];
+    return hysteresis_->advance(memory, bend);
   }
 
   // G diag(k) G^T (beta h^2 + theta h tau) with k1 = k2: G G^T = s^2 1 + (1 - s^2) u u^T, so
@@ -414,9 +455,11 @@ class Assembly {
     double along[9];  ///< k e n^T: of turns on ways
   };
   TurnMatrix turn_matrix(int j, const LinkTurn& turn, double k, const LinkArms& arms) const {
-    const double weight = turn_beta * h_ * h_ + turn_theta * h_ * damping_;
+    const double spring = turn_beta * h_ * h_, damper = turn_theta * h_;
     const Vector3& stiffness = rod_.turn_stiffness(j);
-    const double k1 = weight * stiffness[0], k3 = weight * stiffness[2];
+    const double held = is_hysteretic(j) ? spring * hysteresis_->tangent() / rod_.bending_length(j) : 0;
+    const double k1 = (spring + damper * damping_[0]) * stiffness[0] + held;
+    const double k3 = (spring + damper * damping_[2]) * stiffness[2];
     const Vector3 g3 = turn.map.col(2), &n = arms.normal;
     const double axis = k1 * turn.axis_excess, third = k3 - k1, sphere = k1 * turn.stretch * turn.stretch;
     const double lengthening = k * arms.excess;
@@ -535,7 +578,9 @@ class Assembly {
   const int first_end_;
   const RodState& state_;
   RodSystem& system_;
-  double h_, damping_, free_force_;
+  double h_, free_force_;
+  Vector3 damping_;                         // tau about d1, d2, d3 [s]
+  const Hysteresis* hysteresis_ = nullptr;  // of a hysteretic span
   const RodProperties& p_;
 };
 
@@ -554,6 +599,18 @@ RodSolver::~RodSolver() = default;
 
 std::span<const Twist6> RodSolver::velocity_change() const { return system_->change; }
 
+void RodSolver::prepare_hysteresis(double h) {
+  RodSystem& s = *system_;
+  s.memory.resize(rod_.links());
+  if (s.hysteresis_step == h) return;
+  s.hysteresis.clear();
+  for (const Span& span : rod_.spans()) {
+    const RodProperties& p = span.properties;
+    s.hysteresis.emplace_back(p.bending_stiffness, p.friction, p.loss_factor, h);
+  }
+  s.hysteresis_step = h;
+}
+
 bool RodSolver::solve(const RodState& state, const ClampFrames& end, double h, std::span<const Load> loads) {
   RodSystem& s = *system_;
   const int spans = static_cast<int>(rod_.spans().size());
@@ -561,6 +618,7 @@ bool RodSolver::solve(const RodState& state, const ClampFrames& end, double h, s
   s.velocity.resize(2 * spans), s.angular_velocity.resize(2 * spans);
   s.end = end;
   s.step = h;
+  if (rod_.is_hysteretic()) prepare_hysteresis(h);
   for (int e = 0; e < 2 * spans; ++e) {
     const RodProperties& p = rod_.spans()[e / 2].properties;
     const Frame& before = state.clamps.end(e);
@@ -728,6 +786,7 @@ void RodSolver::finish(RodState& state) {
       state.link_force[link] = s.force[link] + (rod_.gap_stiffness(link) * gap_beta * s.step) * change;
     }
   }
+  state.memory.swap(s.memory);
   state.clamps = s.end;
   state.clamp_velocity = s.velocity;
   state.clamp_angular_velocity = s.angular_velocity;

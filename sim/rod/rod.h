@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/rod/hysteresis.h"
 #include "sim/rod/rotation.h"
 
 namespace dresslife::sim {
@@ -45,10 +46,12 @@ struct RodProperties {
   double length = 0;               ///< unstretched, clamp to clamp [m]
   double mass_per_length = 0;      ///< [kg/m]
   double diameter = 0;             ///< outer [m]
-  double bending_stiffness = 0;    ///< EI [N m2]
+  double bending_stiffness = 0;    ///< EI, without friction; with a loss factor at 1 Hz [N m2]
   double torsional_stiffness = 0;  ///< GJ [N m2]
   double axial_stiffness = 0;      ///< EA [N]
-  double damping_time = 0;         ///< Kelvin-Voigt tau of bending and twist [s]
+  double damping_time = 0;         ///< Kelvin-Voigt tau of twist and, without a loss factor, of bending [s]
+  std::vector<FrictionElement> friction{};  ///< of bending, beside EI; at most BendMemory::frictions (S20)
+  double loss_factor = 0;                   ///< of EI, up to most_loss_factor (S21)
   Vector3 gravity{0, 0, -9.81};    ///< [m/s2]
   Vector3 rest_curvature =
       Vector3::Zero();  ///< unloaded kappa1, kappa2, twist in the segment's frame [rad/m]
@@ -56,6 +59,8 @@ struct RodProperties {
   End tool_end = End::clamped;
   double tip_mass = 0;             ///< a point at the tip of a free tool end [kg]
   std::optional<Slider> slider{};  ///< of the base end
+
+  bool is_hysteretic() const { return !friction.empty() || loss_factor > 0; }
 };
 
 /// A span of a Rod and where it lies among the others.
@@ -111,6 +116,7 @@ struct RodState {
   std::vector<Vector3> clamp_angular_velocity = std::vector<Vector3>(2, Vector3::Zero());  ///< (end) [rad/s]
   std::vector<Travel> travel;       ///< (span) of sliding base clamps; others stay 0
   std::vector<Vector3> link_force;  ///< (link) pull of link j on segment j - 1 over the last step, (S9) [N]
+  std::vector<BendMemory> memory;   ///< (link) of hysteretic bending; empty: no element is stretched
 };
 
 /// What a link feels, in its mid-frame.
@@ -155,6 +161,7 @@ class Rod {
   double curvature(const Vector3& turn, int link) const {
     return turn.head<2>().norm() / bending_length_[link];
   }
+  bool is_hysteretic() const { return hysteretic_; }  ///< any span
   double link_arc(int link) const;  ///< from the dresspack's base clamp [m]
 
   /// A straight, unloaded chain at rest from the base frame along its tangent; all clamps in place.
@@ -182,11 +189,13 @@ class Rod {
  private:
   void add(const RodProperties& properties, bool new_dresspack);
   void add_ends(const RodState& state, int k, Energy& energy) const;
+  double stored_in_elements(const RodState& state) const;
 
   std::vector<Span> spans_;
   std::vector<int> span_of_segment_, span_of_link_;
   std::vector<double> gap_stiffness_, bending_length_;
   std::vector<Vector3> turn_stiffness_, rest_turn_;
+  bool hysteretic_ = false;
 };
 
 /// From the base end of span k, slid out as far as it helps, straight through the points, to its tool end
@@ -237,6 +246,7 @@ class RodSolver {
   void finish(RodState& state);
 
  private:
+  void prepare_hysteresis(double h);
   int solve_span(const RodState& state, int k, std::span<const Load> loads);
   int solve_sliding(const RodState& state, int k, std::span<const Load> loads);
   double travel_change(int k) const;

@@ -16,7 +16,10 @@ RodProperties properties_of(const pipeline::MountedDresspack& mounted, const pip
   properties.length = mounted.routing.free_length;
   properties.mass_per_length = hose.mass_per_length;
   properties.diameter = hose.diameter;
-  properties.bending_stiffness = hose.bending_stiffness;
+  properties.bending_stiffness = pipeline::elastic_bending_stiffness(hose);
+  for (const pipeline::BendingFriction& friction : hose.bending_friction)
+    properties.friction.push_back({friction.stiffness, friction.slides_at});
+  properties.loss_factor = hose.loss_factor.value_or(0);
   properties.torsional_stiffness = hose.torsional_stiffness;
   properties.axial_stiffness = hose.axial_stiffness;
   properties.damping_time = hose.damping_time;
@@ -105,6 +108,7 @@ std::vector<double> shortest_ways(const pipeline::Setup& setup, const Rod& rod, 
 
 RodState joined(const Rod& rod, const std::vector<RodState>& spans) {
   RodState whole = spans.front();
+  whole.memory.clear();
   whole.clamps.between.resize(2 * spans.size() - 2);
   for (size_t k = 1; k < spans.size(); ++k) {
     const RodState& span = spans[k];

@@ -184,6 +184,60 @@ TEST_CASE("stiffness: a job takes it, tells it in words, and simulates by the nu
                                             Contains("G J 4 N m2 given"));
 }
 
+TEST_CASE("stiffness: friction's elements follow the construction's own moment over curvature") {
+  for (const std::string name : {"thesis_welding", "spot_welding", "sensor_cable", "control_cable"}) {
+    CAPTURE(name);
+    Dresspack dresspack = read_dresspack(std::string(DRESSLIFE_SOURCE_DIR "/config/dresspacks/") + name + ".yaml");
+    const auto secant = [&](double bend) { return stiffness_of_construction(dresspack, SlipState::friction, bend).bending; };
+    const double sliding = in_state(dresspack, SlipState::sliding).bending;
+    const auto friction = [&](double bend) { return (secant(bend) - sliding) * bend; };
+    const std::vector<BendingFriction> elements = friction_of_construction(dresspack, sliding);
+    const auto held = [&](double bend) {
+      double sum = 0;
+      for (const BendingFriction& element : elements) sum += element.stiffness * std::min(bend, element.slides_at);
+      return sum;
+    };
+    REQUIRE(elements.size() == most_bending_frictions);
+    const double most = friction(100), ends_early = 0.006;  // the last 0.5 % of all friction is left out
+    double stuck = 0;
+    for (const BendingFriction& element : elements) {
+      CHECK(element.stiffness > 0);
+      stuck += element.stiffness;
+      CHECK(held(element.slides_at) == Approx(friction(element.slides_at)).margin(ends_early * most));
+    }
+    CHECK(stuck <= 9.001 * sliding);
+    const double chords = 0.1;  // of straight lines between four curvatures; above the elements' slope limit none is higher
+    for (double bend = 1e-3; bend < 30; bend *= 1.2) {
+      CAPTURE(bend, held(bend) / most, friction(bend) / most);
+      CHECK(held(bend) <= friction(bend) + 1e-9 * most);
+      if (bend >= elements.front().slides_at) CHECK(held(bend) >= friction(bend) - chords * most);
+    }
+  }
+}
+
+TEST_CASE("stiffness: a hose with a loss factor keeps its secant, and its links get spring and friction apart") {
+  const std::string words = "dresspack.bending_stiffness_Nm2=from_construction", loss = "dresspack.loss_factor=0.3";
+  const Job job = job_with({words, loss});
+  const Dresspack& dresspack = job.dresspacks[0].dresspack;
+  const double sliding = in_state(dresspack, SlipState::sliding).bending;
+  CHECK(dresspack.bending_stiffness == in_state(dresspack, SlipState::friction).bending);
+  CHECK(dresspack.bending_friction.size() == most_bending_frictions);
+  // Elements are below the friction's curve between their curvatures and 0.5 % at its end.
+  CHECK(elastic_bending_stiffness(dresspack) == Approx(sliding).epsilon(0.01));
+  const Job again = job_from(parse_yaml(job_text(job), "job.yaml"));
+  CHECK(job_text(again) == job_text(job));
+  CHECK(part_text(again, Part::sim) == part_text(job, Part::sim));
+  CHECK_THAT(part_text(job, Part::sim), Contains("bending_friction") && Contains("construction_curvature"));
+  CHECK(job_with({words, loss, "dresspack.construction_state=sliding"}).dresspacks[0].dresspack.bending_friction.empty());
+  const std::string list = "dresspack.bending_friction=[{stiffness_Nm2: 3, slides_at_1_per_m: 0.1}]";
+  const Job given = job_with({"dresspack.bending_stiffness_Nm2=2", list});
+  CHECK(elastic_bending_stiffness(given.dresspacks[0].dresspack) == Approx(2 - 0.3));
+  CHECK_THROWS_WITH(job_with({"dresspack.bending_stiffness_Nm2=0.3", list}),
+                    Contains("bending_friction holds 0.3 N m2 at 1 1/m, all of bending_stiffness_Nm2, 0.3"));
+  CHECK_THROWS_WITH(job_with({words, list}), Contains("bending_friction"));
+  CHECK_THROWS_WITH(job_with({"dresspack.loss_factor=0.8"}), Contains("0 .. 0.7"));
+}
+
 TEST_CASE("stiffness: the mass of a construction is that of wires, polymer and wall") {
   const double metal = 10 * pi * 1e-8 * 8900 / std::cos(0.2),
                left = (pi * 25e-6 - 10 * pi * 1e-8 / std::cos(0.2)) * 1200;

@@ -127,8 +127,8 @@ TEST_CASE("job: numbers out of range are refused with the range and its unit") {
   check_case({"segments: 20", "segments: 3", "3, time_step",
               "simulation.segments is 3 (must be 4 .. 2000); give the number of rigid segments of each dresspack"});
   check_case({"damping_time_ms: 10", "damping_time_ms: -1", "-1\n",
-              "dresspack.damping_time_ms is -1 (must be >= 0 ms); give the Kelvin-Voigt time of bending and twist, "
-              "from a decay test"});
+             "dresspack.damping_time_ms is -1 (must be >= 0 ms); give the Kelvin-Voigt time of twist and, "
+             "without loss_factor, of bending, from a decay test"});
   check_case(
       {"lay_angle_deg: 25", "lay_angle_deg: 61", "61, hand",
        "dresspack.components[1].components[1].lay_angle_deg is 61 (must be 0 .. 60 deg); give the angle between the "

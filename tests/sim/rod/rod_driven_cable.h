@@ -53,9 +53,9 @@ struct CurvatureRecord {
   std::vector<std::vector<double>> history;  ///< (sample, link), every 0.1 s
 };
 
-/// Runs the driven cable in the world to `until` [s].
-inline CurvatureRecord run_driven_cable(int segments, double h, double until = DrivenCable::end) {
-  const Rod rod(DrivenCable::properties(segments));
+/// Runs a driven cable in the world to `until` [s].
+inline CurvatureRecord run_driven_cable(const RodProperties& properties, double h, double until) {
+  const Rod rod(properties);
   WorldSettings settings;
   settings.time_step = h;
   World world(rod, settings, rod.straight(DrivenCable::base()));
@@ -81,6 +81,23 @@ inline CurvatureRecord run_driven_cable(int segments, double h, double until = D
   }
   for (double& x : record.mean_square) x /= std::max(counted, 1);
   return record;
+}
+
+inline CurvatureRecord run_driven_cable(int segments, double h, double until = DrivenCable::end) {
+  return run_driven_cable(DrivenCable::properties(segments), h, until);
+}
+
+/// Root mean square over links and time from 4 s on (before, the straight cable is jerked taut, which no order describes),
+/// relative to b, of the difference of two histories of curvature; every `stride`-th link of b belongs to a link of a. The end
+/// links are left out: there kappa is not at the clamp's s.
+inline double curvature_distance(const CurvatureRecord& a, const CurvatureRecord& b, int stride = 1) {
+  double difference = 0, size = 0;
+  for (size_t k = 40; k < a.history.size(); ++k)
+    for (size_t j = 1; j + 1 < a.history[k].size(); ++j) {
+      const double x = a.history[k][j], y = b.history[k][j * stride];
+      difference += (x - y) * (x - y), size += y * y;
+    }
+  return std::sqrt(difference / size);
 }
 
 /// Largest and rms bending curvature [1/m] at s = 0.0125, 0.0375 .. 1.9875 m, by a solver of Euler-Bernoulli

@@ -1,0 +1,86 @@
+// Hysteretic bending of a link: friction between parts and the loss of polymers, beside the elastic spring of (S2).
+//
+// (S19) bending moment = EI (kappa - kappa_0 + tau dkappa/dt) + sum over elements of K_i e_i, kappa and e_i about d1, d2
+// (S20) friction (Jenkin):  e_i follows kappa and is cut back to the length y_i: K_i y_i is what the element can hold
+// (S21) polymer (Maxwell):  de_i/dt = dkappa/dt - e_i/tau_i
+// A bend for the first time follows M(kappa) = EI kappa + sum of K_i min(kappa, y_i), every later branch its double
+// (Masing). The polymer's elements and tau make the loss factor, E''/E', the given one from 0.8 to 30 Hz and E' the given
+// stiffness at 1 Hz, where hoses swing; EI of (S19) is what remains of it at rest.
+// sim/rod/README.md derives the discrete form and why it never gains energy. SI units.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace dresslife::sim {
+
+/// A spring whose moment friction limits to stiffness * yield.
+struct FrictionElement {
+  double stiffness = 0;  ///< K [N m2]
+  double yield = 0;      ///< y > 0 [1/m]
+};
+
+/// What a link remembers: its bend and what its elements are stretched by, at the begin of the last step.
+struct BendMemory {
+  static constexpr int frictions = 4, relaxations = 3;
+  Eigen::Vector2d bend = Eigen::Vector2d::Zero();  ///< kappa about d1, d2 [1/m]
+  Eigen::Array<double, frictions, 2> held = Eigen::Array<double, frictions, 2>::Zero();  ///< e_i [1/m]
+  Eigen::Array<double, relaxations, 2> relaxing =
+      Eigen::Array<double, relaxations, 2>::Zero();  ///< e_i [1/m]
+};
+
+/// (S21) of a loss factor, for a stiffness of 1 at reference_frequency.
+struct PolymerLoss {
+  double elastic = 1;                                       ///< EI of (S19)
+  std::array<double, BendMemory::relaxations> stiffness{};  ///< K_i
+  double dashpot = 0;                                       ///< tau of (S19) [s]
+
+  static constexpr std::array<double, BendMemory::relaxations> corner{0.9, 4, 18};  ///< 1/(2 pi tau_i) [Hz]
+  static constexpr double reference_frequency = 1;                                  ///< [Hz]
+};
+
+/// Least squares of E'' - factor E' from 0.8 to 30 Hz. Precondition: 0 <= factor <= most_loss_factor, up to which no K_i is
+/// negative and the loss factor is within 2 % of the given one from 1 to 30 Hz (tests).
+PolymerLoss polymer_loss(double factor);
+inline constexpr double most_loss_factor = 0.7;
+
+/// The elements of one span over steps of one length.
+class Hysteresis {
+ public:
+  Hysteresis() = default;
+  /// bending_stiffness: at 1 Hz, without friction [N m2]; friction: up to BendMemory::frictions elements; step [s].
+  Hysteresis(double bending_stiffness, const std::vector<FrictionElement>& friction, double loss_factor,
+             double step);
+
+  /// Moment of all elements [N m] once `memory` has been moved on to this bend [1/m].
+  Eigen::Vector2d advance(BendMemory& memory, const Eigen::Vector2d& bend) const {
+    const Eigen::Vector2d change = bend - memory.bend;
+    memory.bend = bend;
+    memory.held.rowwise() += change.transpose().array();
+    const Eigen::Array<double, BendMemory::frictions, 1> cut =
+        yield_ / memory.held.square().rowwise().sum().max(yield_.square()).sqrt();
+    memory.held.colwise() *= cut;
+    memory.relaxing = memory.relaxing.colwise() * keep_ + (gain_.matrix() * change.transpose()).array();
+    return (memory.held.matrix().transpose() * friction_.matrix()) +
+           memory.relaxing.matrix().transpose() * polymer_.matrix();
+  }
+  /// [J/m] stored in the elements.
+  double energy(const BendMemory& memory) const {
+    return 0.5 * ((memory.held.square().rowwise().sum() * friction_).sum() +
+                  (memory.relaxing.square().rowwise().sum() * polymer_).sum());
+  }
+  double tangent() const {
+    return tangent_;
+  }  ///< change of moment per bend within a step, nothing sliding [N m2]
+  double dashpot() const { return dashpot_; }  ///< tau of (S19) [s]
+
+ private:
+  using Frictions = Eigen::Array<double, BendMemory::frictions, 1>;
+  using Relaxations = Eigen::Array<double, BendMemory::relaxations, 1>;
+  Frictions friction_ = Frictions::Zero(), yield_ = Frictions::Ones();
+  Relaxations polymer_ = Relaxations::Zero(), keep_ = Relaxations::Zero(), gain_ = Relaxations::Zero();
+  double tangent_ = 0, dashpot_ = 0;
+};
+
+}  // namespace dresslife::sim
