@@ -345,6 +345,7 @@ Program read_program(const pipeline::Motion& motion, const std::map<std::string,
     missing = backup.missing;
   } else {
     language = language_of(motion.program);
+    options.first_file_counts = true;
     files.push_back(source_of(motion.program, instead));
   }
   const bool sees_its_folder = language == Language::krl || language == Language::inform;

@@ -60,7 +60,7 @@ void Interpreter::run(const Routine& routine) {
 
 void Interpreter::start(const Routine& routine) {
   program_.start = where(routine.place);
-  if (const Routine* rival = code_.rival(routine))
+  if (const Routine* rival = rival_of(routine))
     complain(
         routine.place,
         fmt::format("holds '{}', which stands in {} as well", routine.written, where(rival->place).text()),

@@ -233,6 +233,7 @@ class Interpreter {
   Flow execute(const std::vector<Statement>& body);
   Flow execute_routine(const Routine& routine);
   std::string rivals(const Place& a, const Place& b) const;
+  const Routine* rival_of(const Routine& routine);
   const Routine* routine_named(const std::string& name, const Place& place);
   Flow execute(const Statement& statement);
   Flow run_branch(const Statement& statement);

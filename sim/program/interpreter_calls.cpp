@@ -74,11 +74,19 @@ std::string Interpreter::rivals(const Place& a, const Place& b) const {
   return fmt::format("{} and {}", code_.files[a.file].name(), code_.files[b.file].name());
 }
 
+/// Another routine of the same name between which a person has to decide; null: none.
+const Routine* Interpreter::rival_of(const Routine& routine) {
+  const Routine* const rival = code_.rival(routine);
+  if (!rival || !options_.first_file_counts || routine.place.file != 0 || rival->place.file == 0) return rival;
+  note(routine.place, fmt::format("'{}' stands in {} as well, which is not read", routine.written, where(rival->place).text()));
+  return nullptr;
+}
+
 /// The routine of a name, at its use; null: there is none.
 const Routine* Interpreter::routine_named(const std::string& name, const Place& place) {
   const Routine* routine = code_.find(name, module_);
   if (!routine) return nullptr;
-  if (const Routine* rival = code_.rival(*routine))
+  if (const Routine* rival = rival_of(*routine))
     miss(rivals(routine->place, rival->place), place,
          fmt::format("runs '{}', which stands both in {} and in {}", routine->written,
                      where(routine->place).text(), where(rival->place).text()),

@@ -117,7 +117,9 @@ std::optional<std::array<double, 6>> Krl::given_place(bool axes, Interpreter& ru
 /// What a target leaves out stays as it was where the robot stands.
 void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter& run) {
   run.ask_for(place_here(axes, run), written.place,
-              "gives some coordinates only (the others of the place before are not known)", "write all six", "");
+              "gives some coordinates only, from a place whose other coordinates are not known: the move before goes to axis "
+              "angles or is not known",
+              "move to a pose with X, Y, Z, A, B, C before", "");
 }
 
 /// Where the robot stands is unknown: what the last move's target hangs on is asked for too, but that may be given in the other

@@ -7,6 +7,7 @@
 #include "pipeline/settings/fields.h"
 #include "sim/robot/motion.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 #include "tests/sim/program/fuzz_target.h"
 #include "tests/sim/program/reading.h"
 #include "tests/sim/program/samples.h"
@@ -196,6 +197,23 @@ TEST_CASE("import: the example programs read without a problem") {
     motion.program = folder + name;
     CHECK(read_program(motion).instructions.size() == count);
   }
+}
+
+TEST_CASE("import: a copy beside the named program does not count") {
+  const pipeline::Scratch scratch;
+  const auto program = [&](const std::string& file, int z) {
+    return scratch.write(file, fmt::format("DEF load()\n PTP {{A1 0,A2 -90,A3 90,A4 0,A5 {0},A6 0}}\n sub()\nEND\nDEF sub()\n "
+                                           "PTP {{A1 {0},A2 -90,A3 90,A4 0,A5 {0},A6 0}}\nEND\n", z));
+  };
+  pipeline::Motion motion;
+  motion.program = program("load.src", 10);
+  program("load_old.src", 20);
+  const Program read = read_program(motion);
+  REQUIRE(read.instructions.size() == 2);
+  for (const Instruction& move : read.instructions) CHECK(move.where.file == motion.program.string());
+  CHECK(moves_left_out(read).empty());  // a note, no warning
+  REQUIRE(!read.skipped.empty());
+  CHECK(read.skipped[0].what.find("load_old.src:1") != std::string::npos);
 }
 
 TEST_CASE("import: the cycle times of the example programs") {
