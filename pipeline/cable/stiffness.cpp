@@ -181,7 +181,7 @@ HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState st
 std::vector<BendingFriction> friction_of_construction(const Dresspack& dresspack, double sliding) {
   constexpr double all = 1e4;           // [1/m]: nothing in a cable sticks to the end of it
   constexpr double stiffest = 9;        // beyond it the implicit part of (S3) slows swings of 5 Hz by more than 10 % at 5 ms
-  constexpr double first_share = 0.33;  // the other shares: with them the shipped backbones are met within 3 % of all friction
+  constexpr double first_share = 0.33;
   const Wires wires(dresspack);
   const double most = wires.friction(all);
   if (!(most > 1e-9 * sliding)) return {};
@@ -202,8 +202,8 @@ std::vector<BendingFriction> friction_of_construction(const Dresspack& dresspack
   std::vector<BendingFriction> elements;
   double before = 0, moment_before = 0, slope_before = 0;
   for (const double k : at) {
-    if (k <= before * (1 + 1e-9)) continue;
     const double moment = wires.friction(k), slope = (moment - moment_before) / (k - before);
+    if (moment - moment_before < 1e-3 * most) continue;  // of a stiff element that holds nearly all friction
     if (!elements.empty()) elements.back().stiffness = slope_before - slope;
     elements.push_back({slope, k});
     before = k, moment_before = moment, slope_before = slope;

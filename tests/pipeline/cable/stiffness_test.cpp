@@ -197,7 +197,8 @@ TEST_CASE("stiffness: friction's elements follow the construction's own moment o
       for (const BendingFriction& element : elements) sum += element.stiffness * std::min(bend, element.slides_at);
       return sum;
     };
-    REQUIRE(elements.size() == most_bending_frictions);
+    REQUIRE_FALSE(elements.empty());
+    REQUIRE(elements.size() <= most_bending_frictions);
     const double most = friction(100), ends_early = 0.006;  // the last 0.5 % of all friction is left out
     double stuck = 0;
     for (const BendingFriction& element : elements) {
