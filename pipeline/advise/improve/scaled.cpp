@@ -46,6 +46,8 @@ Dresspack scaled(Dresspack dresspack, double factor) {
   multiply(1 / factor, {&dresspack.construction_curvature});
   multiply(1 / factor, {&dresspack.rest_curvature});
   multiply(1 / factor, {&dresspack.most_twist});
+  for (BendingFriction& friction : dresspack.bending_friction)
+    friction.stiffness *= area * area, friction.slides_at /= factor;
   if (Corrugation* wall = dresspack.hose_corrugation ? &*dresspack.hose_corrugation : nullptr)
     multiply(factor, {&wall->pitch, &wall->height, &wall->wall});
   for (Component& component : dresspack.components) scale(component, factor);
