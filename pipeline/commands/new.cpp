@@ -236,10 +236,7 @@ int make(Options options) {
   }
   if (options.job.empty())
     throw InputError({"dresslife new"}, "lacks the job to write", "name a file, for example job.yaml");
-  if (options.dresspack.empty()) {
-    options.dresspack = default_dresspack, options.dresspack_is_example = true;
-    tell(fmt::format("note: --dresspack was not given; {} is an example for a large robot\n", default_dresspack));
-  }
+  if (options.dresspack.empty()) options.dresspack = default_dresspack, options.dresspack_is_example = true;
   const std::size_t accelerations = missing_accelerations(options.robot);
   check_named("--robot", "robots", options.robot);
   check_named("--dresspack", "dresspacks", options.dresspack);
@@ -258,6 +255,8 @@ int make(Options options) {
     fs::create_directories(folder);
   write_text_if_changed(options.job, with_mark(text_of(options, draft, choice, accelerations), Mark::yaml));
   print(shown(fmt::format("Job: {}\n", options.job)));
+  if (options.dresspack_is_example)
+    print(fmt::format("Its dresspack {} is an example for a large robot: name yours.\n", default_dresspack));
   if (accelerations > 0) print("Fill in the accelerations of its axes.\n");
   if (draft.exercise) print("Fill in its motion.\n");
   if (choice.refused)

@@ -187,11 +187,11 @@ struct ImportOptions {
   std::map<std::string, std::string> values;
   /// Names that something beside the program writes, in lower case -> what: "sps.sub".
   std::map<std::string, std::string> written_beside = {};
+  int passes = 0;        ///< of an endless main loop; 0: until it begins again as it did before
+  double spot_time = 1;  ///< dwell of a spot weld [s]
   /// Whether the user named the first file as the program: its routines count before those of the same name in files that lie
   /// beside it, such as a copy of an older state.
   bool first_file_counts = false;
-  int passes = 0;        ///< of an endless main loop; 0: until it begins again as it did before
-  double spot_time = 1;  ///< dwell of a spot weld [s]
 };
 
 /// Bounds on what a program may ask of its reader; past them the reading ends with a problem.
