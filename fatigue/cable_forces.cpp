@@ -37,7 +37,7 @@ const pipeline::Component& component_of(const pipeline::FileReader& strain, cons
       strain.where(),
       fmt::format("has a cable of component {} of dresspack {}, which its job does not have", component + 1,
                   dresspack + 1),
-      "make the file anew with dresslife-strain");
+      "make the file again with dresslife-strain");
 }
 
 /// Its strains leave what they are taken from.
@@ -60,7 +60,7 @@ Cables cables_of(const pipeline::FileReader& strain, const pipeline::Job& job) {
       throw pipeline::InputError(
           strain.where(),
           fmt::format("has a cable of span {} of {}", std::int64_t{cables.span[k]} + 1, cables.spans),
-          "make the file anew with dresslife-strain");
+          "make the file again with dresslife-strain");
     const auto in = static_cast<std::size_t>(dresspack[k]);
     const pipeline::Component& of = component_of(strain, job, in, static_cast<std::size_t>(component[k]));
     cables.all.push_back({pipeline::CableForce(job.dresspacks[in].dresspack, of)});

@@ -119,7 +119,7 @@ void check_steps(const Context& c) {
       throw pipeline::InputError(
           c.strain.where(),
           fmt::format("/program/step names line {} (/program/text has {})", step, c.step_text.size()),
-          "make the file anew with dresslife-strain");
+          "make the file again with dresslife-strain");
     }
   }
 }
@@ -575,7 +575,7 @@ std::vector<double> write_bound(const Context& c, const ModeList& modes, const s
   const SiteSet sites(c.strain, "/bound_" + name);
   if (sites.size() == 0 && c.sites.size() > 0) {
     throw pipeline::InputError(c.strain.where(), fmt::format("/bound_{} holds no sites", name),
-                               "make the file anew with dresslife-strain");
+                               "make the file again with dresslife-strain");
   }
   const TextColumn component = read_column(c.strain, "/bound_" + name + "/site/component");
   const SiteDamage damage =

@@ -27,7 +27,7 @@ JudgedPlanes::JudgedPlanes(const pipeline::FileReader& file, const SiteSet& site
     if (site >= sites.size())
       throw pipeline::InputError(file.where(),
                                  fmt::format("/plane/site names site {} (there are {})", site, sites.size()),
-                                 "make the file anew with dresslife-strain");
+                                 "make the file again with dresslife-strain");
   plane_.resize(site_.size());
   const std::size_t samples = file.length("sample");
   std::vector<float> strain, shear;

@@ -78,7 +78,7 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
     for (std::size_t v = 0; v < all.size(); ++v) {
       if (inside[v] < 0 || inside[v] >= std::int32_t(pipeline::inside_count))
         throw pipeline::InputError(strain.where(), fmt::format("/variation/inside is {} (must be 0, 1 or 2)", inside[v]),
-                                   "make the file anew with dresslife-strain");
+                                   "make the file again with dresslife-strain");
       all[v].inside = static_cast<pipeline::Inside>(inside[v]);
     }
   }
@@ -86,7 +86,7 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
   for (std::size_t row = 0; row < of_row.size(); ++row) {
     if (of_row[row] >= all.size() || site[row] >= sites || turning[row] > strains.size() - next)
       throw pipeline::InputError(strain.where(), "/variation/row names what the file does not hold",
-                                 "make the file anew with dresslife-strain");
+                                 "make the file again with dresslife-strain");
     VariedStrains& at = all[of_row[row]];
     at.site.push_back(site[row]);
     at.strains.emplace_back(strains.begin() + static_cast<std::ptrdiff_t>(next),

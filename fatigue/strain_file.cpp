@@ -42,7 +42,7 @@ SiteSet::SiteSet(const pipeline::FileReader& file, std::string group)
 }
 
 void SiteSet::check(std::size_t segments) const {
-  const std::string remedy = "make the file anew with dresslife-strain";
+  const std::string remedy = "make the file again with dresslife-strain";
   const auto outside = [&](std::int32_t s) { return s < 0 || static_cast<std::size_t>(s) >= segments; };
   if (const auto bad = std::find_if(segment_.begin(), segment_.end(), outside); bad != segment_.end()) {
     throw pipeline::InputError(
@@ -81,7 +81,7 @@ void SiteSet::check_materials(const pipeline::Job& job) const {
       throw pipeline::InputError(
           file_.where(),
           fmt::format("{}/site/material names '{}', which its job does not describe", group_, name),
-          "make the file anew with dresslife-strain");
+          "make the file again with dresslife-strain");
 }
 
 std::size_t SiteSet::end_of_block(std::size_t begin) const {
@@ -120,7 +120,7 @@ void SiteSet::check_alternating(std::size_t site, std::span<const float> strains
       fmt::format("{}/reversal/strain goes on from {} to {} at turning point {} of site {} (rises and falls "
                   "must alternate to be counted as half_cycles)",
                   group_, strains[bad - 1], strains[bad], bad, site),
-      "make the file anew with dresslife-strain, or set fatigue.counting to repeating");
+      "make the file again with dresslife-strain, or set fatigue.counting to repeating");
 }
 
 std::vector<Reversal> SiteSet::reversals_of(std::size_t site) const {
@@ -137,7 +137,7 @@ std::vector<Reversal> SiteSet::reversals_of(std::size_t site) const {
           fmt::format(
               "{}/reversal/sample holds {} for a turning point of site {} (must rise and stay below {})",
               group_, samples[i], site, file_.length("sample")),
-          "make the file anew with dresslife-strain");
+          "make the file again with dresslife-strain");
     }
     reversals.push_back({strains[i], samples[i]});
   }

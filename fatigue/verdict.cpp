@@ -184,7 +184,7 @@ PathInJob path_in_job(const pipeline::Job& job, const std::string& component) {
   }
   throw pipeline::InputError({},
                              fmt::format("component '{}' lies in none of the job's dresspacks", component),
-                             "make the strain file anew with dresslife-strain");
+                             "make the strain file again with dresslife-strain");
 }
 
 std::vector<std::string> layer_names(const pipeline::Dresspack& dresspack) {

@@ -16,7 +16,7 @@ file(REAL_PATH ${PROJECT_SOURCE_DIR}/config catalogue)
 file(RELATIVE_PATH to_catalogue ${link_folder} ${catalogue})
 file(CREATE_LINK ${to_catalogue} ${shared}/dresslife/config SYMBOLIC)
 
-# The commit is looked up in every build, and a file of its own: no program is linked anew for it.
+# The commit is looked up in every build, and a file of its own: no program is linked again for it.
 add_custom_target(dresslife_commit ALL COMMAND ${PROJECT_SOURCE_DIR}/scripts/commit ${shared}/dresslife/commit
                   COMMENT "Looking up the commit" VERBATIM)
 add_dependencies(dresslife dresslife_commit)

@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
            "what the program asks: written there to be filled in, read where the file exists",
            &request.answers},
           {"--assume", "LINE=then|else|VALUE",
-           "one answer: how a branch goes that hangs on inputs, or the value by which a "
+           "one answer: how a branch goes that depends on inputs, or the value by which a "
            "choice of several goes; LINE may be FILE:LINE",
            &request.assume},
           {"--module", "FILE", "a further module, data file or called program", &request.modules},

@@ -439,7 +439,7 @@ void CablePaths::slide(Cable& cable) {
           held[i] = cable.elastic * (cable.along[along_at(i, t)] - mean);
           unslid[i] = cable.along[along_at(i, t)] + by_twist - held[i];
         }
-        for (int attempt = 0; attempt < most_attempts; ++attempt) {  // limits hang on the tension itself
+        for (int attempt = 0; attempt < most_attempts; ++attempt) {  // limits depend on the tension itself
           double changed = 0;
           for (std::size_t i = 1; i < segments; ++i) {
             const double pressing = (cable.pressing[along_at(i - 1, t)] + cable.pressing[along_at(i, t)]) / 2;

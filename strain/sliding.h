@@ -1,5 +1,5 @@
 // How a component slides (strain/slip.h says which does), in words that the hot loops share: no more than
-// that, so that they are compiled anew only when they change.
+// that, so that they are compiled again only when they change.
 #pragma once
 
 namespace dresslife::strain {

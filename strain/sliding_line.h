@@ -39,7 +39,7 @@ class SlidingLine {
     attempt(unslid, limits);
     keep();
   }
-  /// The same in two steps, where limits hang on the forces: attempts change nothing but force().
+  /// The same in two steps, where limits depend on the forces: attempts change nothing but force().
   void attempt(std::span<const double> unslid, std::span<const double> limits);
   void keep();
 

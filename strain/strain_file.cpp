@@ -487,7 +487,7 @@ void write_bending(FileWriter& file, const pipeline::Job& job) {
     moment =
         pipeline::bending_moments(dresspack, dresspack.components[0], job.strain.factors.friction, curvature);
   } catch (const pipeline::InputError&) {
-    return;  // straight parts beside the axis: how far they slide hangs on the length
+    return;  // straight parts beside the axis: how far they slide depends on the length
   }
   file.append("/bending/curvature", curvature);
   file.append("/bending/moment", moment);

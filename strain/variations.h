@@ -1,10 +1,10 @@
 // Strains of the likely worst wires with other friction, slack, play and grips: what dresslife-fatigue needs
-// to tell how a life hangs on what is not known (pipeline/job/uncertainty.h).
+// to tell how a life depends on what is not known (pipeline/job/uncertainty.h).
 //
 // Friction inside is crossed with slack, friction along the hose and grips are moved one by one. Friction
 // inside is also taken away, and made so large that nothing slips at any pressure: the bounds of a cable. Play is left
 // out: in the shipped programs it moves lives by a tenth of a decade, and would cost as much as a slack.
-// Where cables lie and pull is worked out anew for each but friction inside; the wires are those that see
+// Where cables lie and pull is worked out again for each but friction inside; the wires are those that see
 // most in each segment and layer of the job as it is.
 #pragma once
 

@@ -6,7 +6,7 @@
 //     share/dresslife/commit                  the sources' commit, where it was known
 //
 // A build folder is laid out in the same way. The commit is a file and no part of a program, because a study
-// computes anew what another program would make: a commit that leaves the programs alone must not touch them.
+// computes again what another program would make: a commit that leaves the programs alone must not touch them.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// How far a piece of work is: a line on a terminal that is drawn anew, elsewhere a line per minute, so that a log shows
+// How far a piece of work is: a line on a terminal that is drawn again, elsewhere a line per minute, so that a log shows
 // that the work goes on and how long it still takes. Quiet: nothing.
 #pragma once
 

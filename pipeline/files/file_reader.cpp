@@ -27,7 +27,7 @@ constexpr Type type_of<std::uint64_t> = Type::u64;
 
 void FileReader::Impl::fail(const std::string& what) const {
   input.check_reads();
-  throw InputError({name.string()}, what, fmt::format("make the file anew with {}", format->made_by));
+  throw InputError({name.string()}, what, fmt::format("make the file again with {}", format->made_by));
 }
 
 const FileReader::Impl::Open& FileReader::Impl::dataset(const std::string& path) const {
@@ -212,7 +212,7 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format, 
   if (kind_of(file) == FileKind::absent)
     throw InputError({file.string()}, "is not there",
                      fmt::format("check the path, or make it with {}", format.made_by));
-  const std::string remedy = fmt::format("make the file anew with {}", format.made_by);
+  const std::string remedy = fmt::format("make the file again with {}", format.made_by);
   impl_->input = InputBytes(file);
   impl_->bytes = impl_->input.size();
   impl_->checksum = impl_->input.read_checksum(remedy);

@@ -15,12 +15,12 @@ std::vector<std::size_t> dresspack_of_segments(const FileReader& file) {
     in_order = dresspacks[i] == dresspacks[i - 1] || dresspacks[i] == dresspacks[i - 1] + 1;
   if (!in_order)
     throw InputError(file.where(), "/segment/dresspack does not count the dresspacks up one by one",
-                     "make the file anew");
+                     "make the file again");
   return {dresspacks.begin(), dresspacks.end()};
 }
 
 void check_lengths(const FileReader& file, const std::vector<double>& free_lengths) {
-  const std::string remedy = "make the file anew, with the job that it holds";
+  const std::string remedy = "make the file again, with the job that it holds";
   const auto lengths = file.read<double>("/segment/length");
   const std::vector<std::size_t> dresspack = dresspack_of_segments(file);
   const std::size_t count = dresspack.empty() ? 0 : dresspack.back() + 1;

@@ -6,7 +6,7 @@
 // and material are catalogue entries: a job names a file of config/ or holds the entry itself, and `from:
 // NAME` starts from a catalogue entry.
 //
-// Include setup.h or pipeline/resolve/job_text.h where they do: what includes this is compiled anew for every key.
+// Include setup.h or pipeline/resolve/job_text.h where they do: what includes this is compiled again for every key.
 #pragma once
 
 #include <optional>

@@ -68,10 +68,10 @@ struct MotionFrame {
   bool stationary = false;  ///< a tool that stands in the base frame while the flange carries the work object
 };
 
-/// A line of a program on which a branch hangs on what is known only while the robot runs.
+/// A line of a program on which a branch depends on what is known only while the robot runs.
 struct BranchAssumption {
   std::string line;           ///< "file.mod:12" or "12"
-  std::string take = "then";  ///< "then", "else"; of a choice among several: the value that it hangs on
+  std::string take = "then";  ///< "then", "else"; of a choice among several: the value that it depends on
 };
 
 /// What a program does not say: an input, a register, persistent data, a position register.

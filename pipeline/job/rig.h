@@ -30,7 +30,7 @@ struct Rig {
   std::optional<double> weight;            ///< that pulls on the cable [kg]
   std::optional<double> elongation;        ///< axial: to either side of the mean [%]
   std::optional<double> mean_elongation;   ///< axial [%]
-  double cycles_per_minute = 30;           ///< turns cycles into hours; damage does not hang on it
+  double cycles_per_minute = 30;           ///< turns cycles into hours; damage does not depend on it
   Where where;
 };
 

@@ -1,4 +1,4 @@
-// What moves and how: all of a job that dresslife-sim needs. Whoever stays with it is not compiled anew for a
+// What moves and how: all of a job that dresslife-sim needs. Whoever stays with it is not compiled again for a
 // key of strain or fatigue.
 #pragma once
 

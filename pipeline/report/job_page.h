@@ -27,7 +27,7 @@ std::string job_page(const JobFolder& files);
 bool refresh_job_page(const JobFolder& files);
 
 /// Lets the page of a last result say at its head that it is stale, in these words; a page that is not there
-/// stays away. refresh_job_page() makes it anew once there is a result of now. Errors: InputError when it
+/// stays away. refresh_job_page() makes it again once there is a result of now. Errors: InputError when it
 /// cannot be written.
 void mark_job_page(const JobFolder& files, const std::string& words);
 

@@ -53,7 +53,7 @@ std::vector<SpanPreview> spans_of(const FileReader& file, const Setup& setup) {
     const auto dresspack = static_cast<std::size_t>(dresspacks[k]);
     if (dresspack >= setup.dresspacks.size())
       throw InputError(file.where(), fmt::format("/span/dresspack names dresspack {}", dresspack),
-                       "make the file anew");
+                       "make the file again");
     span.subject = dresspack_words(setup, dresspack) + (names[k].empty() ? "" : " " + names[k]);
     span.subject.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(span.subject.front())));
     span.length = lengths[k];

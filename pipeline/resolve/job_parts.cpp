@@ -91,7 +91,7 @@ void describe_each(Fields& echo, const JobForms& forms, std::vector<Keys> keys) 
     echo.list("dresspacks", keys, Need::required, "");
 }
 
-/// The motion hangs on how stiff the dresspack is, not on why.
+/// The motion depends on how stiff the dresspack is, not on why.
 void count_as_numbers(Dresspack& dresspack) {
   const Dresspack untold;
   dresspack.mass_from_construction = false;

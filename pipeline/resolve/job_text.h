@@ -1,5 +1,5 @@
 // A job as a whole: read, written, and the parts of it on which results depend. Whoever only passes jobs on
-// needs no more than this, and is not compiled anew for a key.
+// needs no more than this, and is not compiled again for a key.
 #pragma once
 
 #include <filesystem>

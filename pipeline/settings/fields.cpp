@@ -295,8 +295,16 @@ class FieldReader final : public Fields {
       throw InputError(node.where,
                        fmt::format("{} is {} (its size must be {} .. {}{})", name_of(key), node.text,
                                    range.low_excluded ? unit.least() : 0.0, unit.most, unit_note(key)),
-                       "give " + named(meaning));
+                       "give " + named(meaning) + in_millimetres(*value, unit));
     return *value;
+  }
+
+  /// ", or 1.34 if 1340 is in millimetres": of lengths in metres that are too large; else nothing.
+  static std::string in_millimetres(double value, const Unit& unit) {
+    constexpr double per_metre = 1e3;
+    return unit.name == "m" && std::abs(value) > unit.most && std::abs(value) <= per_metre * unit.most
+               ? fmt::format(", or {:g} if {:g} is in millimetres", value / per_metre, value)
+               : "";
   }
 
   int word_of(const Node& node, Key key, const Words& words, std::string_view meaning) const {

@@ -320,7 +320,7 @@ std::string JobState::words() const {
   if (!damaged.empty() && foreign)
     return fmt::format("foreign  {} was not written by dresslife; move it away, or run with --force", damaged);
   if (!damaged.empty())
-    return fmt::format("damaged  {} is not what its stage wrote; run makes it anew", damaged);
+    return fmt::format("damaged  {} is not what its stage wrote; run makes it again", damaged);
   if (!has_results) return "to do";
   return changed.empty() ? "stale" : "stale    " + changed;
 }

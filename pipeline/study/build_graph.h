@@ -71,7 +71,7 @@ struct StageFiles {
 };
 StageFiles files_of_stage(std::size_t stage);
 
-/// Forgets results of a job that are not what their receipts say: the next run makes them anew. Errors: DiskError.
+/// Forgets results of a job that are not what their receipts say: the next run makes them again. Errors: DiskError.
 void forget_damaged(const std::filesystem::path& folder);
 
 /// Brings a state up to date whose recipes are known.

@@ -51,7 +51,7 @@ class LifeRoot {
   const Told& told(const std::string& name) const {
     if (const Told* const found = find(name)) return *found;
     throw InputError(where(), fmt::format("attribute '{}' is missing", name),
-                     "make the file anew with dresslife-fatigue");
+                     "make the file again with dresslife-fatigue");
   }
 
   const JobResult& result_;
@@ -101,7 +101,7 @@ int count_attribute(const LifeRoot& file, const std::string& name) {
   const double value = file.number_attribute(name);
   if (!(std::abs(value) <= most))
     throw InputError(file.where(), fmt::format("attribute '{}' is {} (must be a count)", name, value),
-                     "make the file anew with dresslife-fatigue");
+                     "make the file again with dresslife-fatigue");
   return static_cast<int>(value);
 }
 
@@ -176,7 +176,7 @@ std::vector<double> lives_of(RankingRow& row, std::size_t samples) {
     return lives;
   } catch (const std::invalid_argument& problem) {
     row.failure =
-        fmt::format("{}: attribute 'life_response' is no response ({}); make the file anew with dresslife-fatigue",
+        fmt::format("{}: attribute 'life_response' is no response ({}); make the file again with dresslife-fatigue",
                     row.life_file.string(), problem.what());
     return {};
   }

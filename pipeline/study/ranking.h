@@ -73,7 +73,7 @@ struct RankingRow {
   std::array<double, 3> planned_hours{unknown, unknown, unknown};
   /// The same over the scatter of wires alone; NaN: nothing else was uncertain.
   std::array<double, 3> scatter_hours{unknown, unknown, unknown};
-  std::string life_response;  ///< how its life hangs on what is not known (life_response.h); empty: not told
+  std::string life_response;  ///< how its life depends on what is not known (life_response.h); empty: not told
   std::string life_shares;    ///< which parameters explain its spread: "friction_inside 53 %; strength 29 %"
   std::string measure_next;   ///< the parameter that explains most; empty: none but the scatter of wires
   double measure_next_share = 0;

@@ -20,7 +20,7 @@ class Touch {
 
   /// The contacts of one step of h [s].
   void add(const std::vector<Contact>& contacts, double h);
-  /// A sample has been taken: what is "since the sample before" begins anew.
+  /// A sample has been taken: what is "since the sample before" begins again.
   void begin_sample();
 
   const std::vector<std::string>& obstacles() const { return obstacles_; }

@@ -65,7 +65,7 @@ struct Statement {
     label,        ///< name
     jump,         ///< GOTO name: a label of the routine, in one of the blocks around
     finish,       ///< the program ends here
-    end_cycle,    ///< what the controller runs again and again begins anew (RAPID's ExitCycle)
+    end_cycle,    ///< what the controller runs again and again starts over (RAPID's ExitCycle)
     declare       ///< name, type in `text`, arguments: value or none, then the dimensions
   };
   Kind kind = Kind::instruction;

@@ -182,7 +182,7 @@ Value* Interpreter::ready(Variable& variable) {
   if (variable.state == State::ready) return &variable.value;
   if (variable.state == State::being_read) {
     complain(variable.written,
-             fmt::format("gives '{}' a value that hangs on itself", variable.datum->statement.name),
+             fmt::format("gives '{}' a value that depends on itself", variable.datum->statement.name),
              "write it as a constant");
     return &variable.value;
   }

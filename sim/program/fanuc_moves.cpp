@@ -380,7 +380,7 @@ bool FanucRun::skip_condition_comes(bool jumps) {
   std::optional<bool> comes = assumed(where().line);
   if (!comes && !skip_condition_.empty()) comes = values_.condition(at);
   if (!comes && jumps) {
-    comes = ask("jumps or not (SkipJump) by SKIP CONDITION, which hangs on", 2, "then or =else") == 0;
+    comes = ask("jumps or not (SkipJump) by SKIP CONDITION, which depends on", 2, "then or =else") == 0;
   } else if (!comes) {
     note(fmt::format("SKIP: the condition comes at the end of the move, and the program goes on with the next line (--assume "
                      "{}=else: it does not come)",

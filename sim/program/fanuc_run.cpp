@@ -164,7 +164,7 @@ void FanucRun::charge(long steps) {
   if (!exploration_.guessing())
     problems_.add(at,
                   fmt::format("goes back again and again: {} statements and no end", ImportLimits::executed),
-                  fmt::format("decide what ends the loop: {}, or --value with what it hangs on", end));
+                  fmt::format("decide what ends the loop: {}, or --value with what it depends on", end));
   throw Stop{};
 }
 

@@ -21,7 +21,7 @@ namespace dresslife::sim {
 using FanucNumber = std::optional<double>;
 
 /// Why something is unknown: the name that would make it known ("DI[3]", "CALL GRIP"; empty: there is none), and the line of
-/// an undecided branch that it hangs on ("cell.ls:12"; empty: of none).
+/// an undecided branch that it depends on ("cell.ls:12"; empty: of none).
 struct FanucCause {
   std::string name, line{};
   bool operator==(const FanucCause&) const = default;

@@ -1,6 +1,6 @@
 // Runs the tree of a RAPID or KRL program as the controller would, as far as that can be known offline, and
 // collects the moves. What comes from inputs, or from an instruction that is left out, is an unknown value
-// that remembers what made it so: it spreads through expressions, and where a branch hangs on it, the branch
+// that remembers what made it so: it spreads through expressions, and where a branch depends on it, the branch
 // is left out if nothing in it moves or changes the robot, and asked for otherwise (ImportOptions::assume,
 // values). Behind such a question the run goes on along one of the ways (exploration.h).
 //
@@ -32,7 +32,7 @@ namespace dresslife::sim {
 struct Cause {
   std::string name;    ///< under which ImportOptions::values can give it; empty: there is none
   std::string why;     ///< "is read by TPReadNum (m.mod:9)", "is no name that a file declares"
-  std::string line{};  ///< "m.mod:9" of an undecided branch that it hangs on
+  std::string line{};  ///< "m.mod:9" of an undecided branch that it depends on
   std::shared_ptr<const Cause> behind = nullptr;  ///< why that branch is undecided; has itself none behind it
   std::vector<std::shared_ptr<const Cause>> others{};  ///< further ones, of a value of several unknown ones
   std::string form{};  ///< how its value is written; empty: it is not known

@@ -177,7 +177,7 @@ Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value
                    cause ? fmt::format(" on '{}'", cause->name) : ""));
   // One name decides it, or the branch itself is asked for.
   const bool alone = cause && cause->others.empty();
-  Cause why{"", "hangs on the branch in " + line, line,
+  Cause why{"", "depends on the branch in " + line, line,
             alone && cause->behind ? cause->behind
             : alone                ? cause
                                    : nullptr};

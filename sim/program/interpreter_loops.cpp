@@ -294,7 +294,7 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
     const bool could_move = moves(statement, module_);
     note(statement.place,
          could_move
-             ? "an endless loop that makes none of its moves: what it hangs on is written from outside; "
+             ? "an endless loop that makes none of its moves: what it depends on is written from outside; "
                "choose with --assume"
              : "an endless loop: what stands behind it is never run",
          could_move);

@@ -122,7 +122,7 @@ void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter
               "move to a pose with X, Y, Z, A, B, C before", "");
 }
 
-/// Where the robot stands is unknown: what the last move's target hangs on is asked for too, but that may be given in the other
+/// Where the robot stands is unknown: what the last move's target depends on is asked for too, but that may be given in the other
 /// form.
 Value Krl::place_here(bool axes, Interpreter& run) const {
   const Value here = unknown_value(run.name_here(axes ? "$axis_act" : "$pos_act"), "is where the robot stands",

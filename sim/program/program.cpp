@@ -102,7 +102,7 @@ void Problems::add_use(Problem problem) {
 
 namespace {
 
-/// How an answer is written is seen where the value itself is used, not where others hang on it.
+/// How an answer is written is seen where the value itself is used, not where others depend on it.
 void tell_forms(std::vector<Problem>& problems, const Problem& by) {
   for (const Question& told : by.questions)
     for (Problem& problem : problems)
@@ -110,7 +110,7 @@ void tell_forms(std::vector<Problem>& problems, const Problem& by) {
         if (question.form.empty() && question.kind == told.kind && question.name == told.name) question.form = told.form;
 }
 
-/// Whether a branch hangs on nothing but what other problems ask for.
+/// Whether a branch depends on nothing but what other problems ask for.
 bool asked_already(const std::vector<Problem>& problems, const Problem& branch) {
   const auto asked = [&](const Question& question) {
     return std::any_of(problems.begin(), problems.end(), [&](const Problem& known) {

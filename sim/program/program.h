@@ -126,7 +126,7 @@ struct Problem {
   std::string what, remedy;
   std::string about = {};  ///< the name that is missing, of a problem that is told once for all of its uses
   std::set<std::pair<std::string, int>> more_uses = {};  ///< files and lines
-  bool decision = false;                                 ///< how a branch goes that hangs on `about`
+  bool decision = false;                                 ///< how a branch goes that depends on `about`
   std::string routine = {};                              ///< that holds the line
   std::vector<Question> questions = {};  ///< that solve it together; empty: the files must be mended
   bool certain = true;                   ///< false: only some ways through the program meet it
@@ -137,7 +137,7 @@ class Problems {
   /// `what` says what the routine, or the file, does wrong: "moves to 'p9', which no file read declares".
   void add(const pipeline::Where& where, const std::string& what, const std::string& remedy,
            const std::string& routine = "");
-  /// One with `about`: what is missing, or what a branch hangs on. Further uses of the same are counted behind
+  /// One with `about`: what is missing, or what a branch depends on. Further uses of the same are counted behind
   /// the first one.
   void add_use(Problem problem);
   /// Those of another reading of the same program.

@@ -95,7 +95,7 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
                            run.remedy_for(value)),
                run.questions_for(value, form_of(type)));
     } else {
-      // What else it hangs on is written in another way than the argument itself.
+      // What else it depends on is written in another way than the argument itself.
       const bool itself = name == run.answer_name(run.path_of(written)) || name == run.name_here(run.written(written));
       run.ask_for(value, written.place, fmt::format("has {} that is known only while the robot runs", what), "",
                   itself ? form_of(type) : "");

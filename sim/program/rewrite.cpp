@@ -54,7 +54,7 @@ class Lines {
     l.changed = true;
   }
 
-  /// Numbers of a listing's statements anew, in lines first .. end - 1, as some were put between.
+  /// Numbers of a listing's statements again, in lines first .. end - 1, as some were put between.
   void renumber(int first, int end) {
     int next = 0;
     for (int line = first; line < end; ++line) {

@@ -33,7 +33,7 @@ Outcome build(const Scratch& scratch, const std::string& checkout) {
 
 }  // namespace
 
-TEST_CASE("a copied or moved checkout is configured anew, with a word, and builds its own sources") {
+TEST_CASE("a copied or moved checkout is configured again, with a word, and builds its own sources") {
   Scratch scratch;
   write_checkout(scratch, "old");
   const Outcome first = build(scratch, "old");
@@ -46,7 +46,7 @@ TEST_CASE("a copied or moved checkout is configured anew, with a word, and build
   scratch.write("new/source", "of new");
   const Outcome copied = build(scratch, "new");
   CHECK(copied.status == 0);
-  CHECK(copied.err == "Configuring build/ (Release) anew: it came from " + (scratch / "old").string() +
+  CHECK(copied.err == "Configuring build/ (Release) again: it came from " + (scratch / "old").string() +
                           " and would build the sources there\n");
   CHECK(content(scratch / "new/build/result") == "of new");
   CHECK(build(scratch, "new").err.empty());

@@ -78,7 +78,7 @@ TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job 
   const Outcome other_slip = run(scratch, "dresslife", "check job.yaml --set calibration=runs/calibrate_o/calibration.yaml --set strain.slip=stick");
   CHECK(other_slip.status == 1);
   CHECK(other_slip.err.find("was learned with strain.slip: friction (this job has stick); set strain.slip as") != std::string::npos);
-  // A second time nothing is left to do, and the same is said; by other rows it is learned anew, and the job
+  // A second time nothing is left to do, and the same is said; by other rows it is learned again, and the job
   // runs again.
   const Outcome again = run(scratch, "dresslife", "calibrate o.yaml");
   CHECK(again.out == outcome.out);

@@ -61,7 +61,7 @@ constexpr const char* faults = R"(
       }
     if (paper && getComputedStyle(document.body).backgroundColor !== 'rgb(255, 255, 255)') words.push('dark page on paper');
     return words.join('; '); })()`);
-  // A busy machine lays out and draws anew somewhat later.
+  // A busy machine lays out and draws again somewhat later.
   const settled = async () => {
     let words = await faults();
     for (let k = 0; k < 50 && words; ++k) {

@@ -690,7 +690,7 @@ TEST_CASE("life.h5: strain files that contradict themselves are refused, and not
   const auto refused = [&](const StrainFile& f, const std::string& words) {
     INFO(words);
     CHECK_THROWS_WITH(run(folder, f), Catch::Contains("strain.h5: error: ") && Catch::Contains(words) &&
-                                          Catch::Contains("make the file anew with dresslife-strain"));
+                                          Catch::Contains("make the file again with dresslife-strain"));
     CHECK_FALSE(std::filesystem::exists(folder.path / "life.h5"));
     CHECK_FALSE(std::filesystem::exists(folder.path / "life.h5.part"));
   };

@@ -314,7 +314,7 @@ TEST_CASE("status and report work beside a run and where nothing may be written,
   CHECK(results(scratch / "runs/study") == before);
 }
 
-TEST_CASE("a changed input counts whatever its date, a damaged or foreign result is made anew") {
+TEST_CASE("a changed input counts whatever its date, a damaged or foreign result is made again") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", study_text);
@@ -338,7 +338,7 @@ TEST_CASE("a changed input counts whatever its date, a damaged or foreign result
   fs::copy_file(scratch / (one + "life.h5"), scratch / (two + "life.h5"),
                 fs::copy_options::overwrite_existing);
   const Outcome status = run(scratch, "dresslife", "status study.yaml");
-  CHECK(status.out.find("damaged  life.h5 is not what its stage wrote; run makes it anew") !=
+  CHECK(status.out.find("damaged  life.h5 is not what its stage wrote; run makes it again") !=
         std::string::npos);
   const Outcome report = run(scratch, "dresslife", "report study.yaml");
   CHECK(report.status == 1);  // the copy is nobody's life

@@ -125,7 +125,7 @@ TEST_CASE("strains of wires move smoothly with every key of loose and held cable
   // stiffness less that of polymer (0.05 / 0.02), and friction answers to each of them. A law that switches
   // moves them several times.
   constexpr double steepest = 3;
-  // What is too long rests in one of several ways, and which hangs on little: at 8 mm of play a cable lies 3
+  // What is too long rests in one of several ways, and which depends on little: at 8 mm of play a cable lies 3
   // mm elsewhere at one sample between stiffnesses 0.1 % apart. That goes to and fro and does not add up, as
   // a law that switches would.
   constexpr double other_way = 0.015;

@@ -14,7 +14,7 @@ namespace dresslife::pipeline {
 class Emulator {
  public:
   Emulator() = default;
-  /// A constant: of a model that hangs on no parameter.
+  /// A constant: of a model that depends on no parameter.
   explicit Emulator(double value) : value_(value) {}
   /// low, high (axis): values at centre - step and centre + step along each. step (axis) > 0.
   Emulator(Eigen::VectorXd centre, Eigen::VectorXd step, double value, const Eigen::VectorXd& low,

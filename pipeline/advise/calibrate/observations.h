@@ -121,7 +121,7 @@ Prediction predicted(const Observation& observation, const Study& study, const s
 
 enum class Agreement { agrees, too_short, too_long, open };
 /// agrees: every variant's median, or for a life that is known both ways the range, is within what was
-/// observed. too_short, too_long: no variant is. open: some are: it hangs on what is not known. factor: to
+/// observed. too_short, too_long: no variant is. open: some are: it depends on what is not known. factor: to
 /// the nearest end of the range by which it misses; 1 within.
 struct Judgement {
   Agreement agreement = Agreement::open;

@@ -49,7 +49,7 @@ class RoundOfJobs {
   std::vector<std::vector<Runs>> runs_;
 };
 
-/// Between all parameters and those that some test hangs on.
+/// Between all parameters and those that some test depends on.
 class Axes {
  public:
   explicit Axes(const RoundOfJobs& round);

@@ -26,7 +26,7 @@ constexpr int rehearsed_again = 24;  // for a look, while none keeps its limits:
 constexpr int spread_share =
     4;                          // of the first looks: places that keep their limits are spread by chance, too
 constexpr double cautious = 1;  // deviations of limits, while none is known to be kept
-constexpr double least_ahead = 0.02;  // width, then the search ahead begins anew elsewhere
+constexpr double least_ahead = 0.02;  // width, then the search ahead begins again elsewhere
 // Beyond the limits, all together: a bend of half the least radius (ln 2). In searches of better_hard and
 // better_side_panel, three seeds each, the nearest short run missed by 0.64 at most after 27 of 480, and by 0.16
 // after a third of them.

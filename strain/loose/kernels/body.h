@@ -484,7 +484,7 @@ void from_bench(const LineBatch& bench, std::size_t lane, const WaitingCable& ca
   if (bench.press) copy(bench.press + lane, bench.lanes, kept.press + cable.lane, kept.lanes, bench.nodes);
 }
 
-/// What a cable does hangs on none of the others.
+/// What a cable does depends on none of the others.
 void relax(const LineBatch& room, const WaitingCable* cables, std::size_t count, int most) {
   constexpr int packs = 2;
   LineBatch bench = room;

@@ -327,7 +327,7 @@ void make_seed(const std::string& large_name) {
   seed.job = pipeline::FileReader(large_name, format()).text_attribute("job");
 }
 
-/// The edits that the input asks for; a raw chunk last and in a file that was opened anew, as the library
+/// The edits that the input asks for; a raw chunk last and in a file that was opened again, as the library
 /// reads beyond one that is too short when it edits on.
 void edit(const File& target, Choices choices) {
   const Closed access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};

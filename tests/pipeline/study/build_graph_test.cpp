@@ -517,7 +517,7 @@ TEST_CASE("build graph: looking changes nothing, and needs no right to write") {
   CHECK(bench.run(study).executed == 0);
 }
 
-TEST_CASE("build graph: a damaged or foreign result is named and made anew") {
+TEST_CASE("build graph: a damaged or foreign result is named and made again") {
   Bench bench;
   const Study study = bench.study({{"one", "simulation.segments=20"}, {"two", "simulation.segments=40"}});
   bench.run(study);
@@ -534,7 +534,7 @@ TEST_CASE("build graph: a damaged or foreign result is named and made anew") {
       std::ofstream(file("one", name), std::ios::binary | std::ios::trunc) << other;
       fs::last_write_time(file("one", name), time);  // as if nothing had happened
       CHECK(bench.words(study)[0] ==
-            fmt::format("damaged  {} is not what its stage wrote; run makes it anew", name));
+            fmt::format("damaged  {} is not what its stage wrote; run makes it again", name));
       bench.run(study);
       CHECK(bench.words(study) == Words{"done", "done"});
       CHECK(bytes_of(file("one", name)) == whole);

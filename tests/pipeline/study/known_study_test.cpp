@@ -74,7 +74,7 @@ TEST_CASE("known study: what is remembered is what the study expands to, and how
   check_same(broken, expanded(bench.request()));
 }
 
-TEST_CASE("known study: a touched file changes nothing, a changed one all that hangs on it") {
+TEST_CASE("known study: a touched file changes nothing, a changed one all that depends on it") {
   Bench bench;
   bench.run();
   const Scratch& scratch = bench.scratch();
@@ -86,7 +86,7 @@ TEST_CASE("known study: a touched file changes nothing, a changed one all that h
   // A material: the fatigue stages of both jobs and nothing else, whatever the file's date.
   const auto before = fs::last_write_time(scratch / files[2]);
   scratch.write(files[2],
-                "from: copper\nname: own\nwalker_exponent: 0.4\n");  // no force of a cable hangs on it
+                "from: copper\nname: own\nwalker_exponent: 0.4\n");  // no force of a cable depends on it
   fs::last_write_time(scratch / files[2], before);
   const Standing changed = bench.standing();
   CHECK_FALSE(changed.remembered);

@@ -295,7 +295,7 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
       run("   1:  R[5]=20 ;\n   2:  IF (DI[9])R[5]=(1) ;\n   3:J P[1] R[5]% FINE ;\n").problems.at(0).what ==
       "has a speed by DI[9], which is known only while the robot runs");
 
-  // A called program without moves, whose jumps hang on arguments, ends one way or the other.
+  // A called program without moves, whose jumps depend on arguments, ends one way or the other.
   const std::string told =
       "   1:  IF SO[4]=ON,JMP LBL[7] ;\n   2:  JMP LBL[AR[1]] ;\n   3:  LBL[1] ;\n   4:  R[5]=1 ;\n   5:  "
       "END ;\n   6:  "

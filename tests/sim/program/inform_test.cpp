@@ -185,7 +185,7 @@ TEST_CASE("inform: an endless main loop is one cycle, also where it is left and 
   ImportOptions twice;
   twice.passes = 2;
   CHECK(lines_of(run(three, loop, twice)) == std::vector<int>{17, 19, 20, 19, 20});
-  // Counts down, then begins anew: three different passes, then the first again.
+  // Counts down, then begins again: three different passes, then the first again.
   const Reading parts =
       run(three,
           "SET I000 2\n*LOOP\nIFTHENEXP I000<=0\n\tSET I000 2\n\tJUMP *RESET\nENDIF\nMOVJ C00001 VJ=9\n"

@@ -416,7 +416,7 @@ TEST_CASE("krl: structures of the program's own") {
   CHECK(r.problems.size() == 1);  // list[2] has no value
 }
 
-TEST_CASE("krl: signals and what has no value are named where a branch hangs on them") {
+TEST_CASE("krl: signals and what has no value are named where a branch depends on them") {
   const Reading signal = run("IF ready THEN\nPTP " + axes(1) + "\nENDIF", "SIGNAL ready $IN[5]");
   REQUIRE(signal.problems.size() == 1);
   CHECK(signal.problems[0].what.find("'ready' is a signal") != std::string::npos);

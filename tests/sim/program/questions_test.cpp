@@ -158,7 +158,7 @@ TEST_CASE("questions: a mistake behind a guess counts only where the program get
   CHECK(Reader{Language::rapid}({{"m.mod", still}}).problems.empty());
 }
 
-TEST_CASE("questions: all that one value hangs on is asked for together") {
+TEST_CASE("questions: all that one value depends on is asked for together") {
   const std::string text = "MODULE m\nCONST jointtarget j:=" + axes +
                            ";\nVAR num n;\nPROC main()\nn:=gi1+2*gi2-gi3;\nWaitTime n;\nMoveAbsJ "
                            "j,v100,fine,tool0;\nENDPROC\nENDMODULE\n";

@@ -250,7 +250,7 @@ TEST_CASE("rapid controller: values behind one branch are one question, the one 
           pose);
   REQUIRE(r.problems.size() == 1);
   CHECK_THAT(r.problem(),
-             Catch::Contains("'x' hangs on the branch in m.mod:5, that on 'gi1', which is a name") &&
+             Catch::Contains("'x' depends on the branch in m.mod:5, that on 'gi1', which is a name") &&
                  Catch::Contains("give --value 'gi1=...', or --assume m.mod:5=then or =else"));
   const Reading given =
       run("VAR num x:=0;\nIF gi1=2 THEN\nx:=1;\nENDIF\nMoveL Offs(p,x,0,0),v100,fine,tool0;\n", pose,
@@ -423,7 +423,7 @@ TEST_CASE("rapid controller: what is missing is told once, with the number of it
   CHECK(parts.problems[0].more_uses.size() == 1);
 }
 
-TEST_CASE("rapid controller: one question for one decision, whatever it hangs on") {
+TEST_CASE("rapid controller: one question for one decision, whatever it depends on") {
   const Reading r = run("wait di1;\nwait di2;\n",
                         "PROC wait(VAR signaldi input)\nIF input=1 THEN\n" + go(1) + "ENDIF\nENDPROC\n");
   REQUIRE(r.problems.size() == 1);
@@ -565,7 +565,7 @@ TEST_CASE("rapid controller: what a branch without moves decides can be had by a
   const std::string body =
       "VAR num k:=0;\nIF di1=1 THEN\nk:=1;\nENDIF\nIF k=1 THEN\n" + go(1) + "ENDIF\n" + go(2);
   CHECK_THAT(run(body).problem(),
-             Catch::Contains("'k' hangs on the branch in m.mod:4, that on 'di1', which is a name") &&
+             Catch::Contains("'k' depends on the branch in m.mod:4, that on 'di1', which is a name") &&
                  Catch::Contains("or give --value 'di1=...', or --assume m.mod:4=then or =else"));
   ImportOptions answered;
   answered.assume["m.mod:4"] = Assumption::then_branch;

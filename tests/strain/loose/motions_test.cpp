@@ -253,7 +253,7 @@ TEST_CASE("cables meet what lies around them") {
   CHECK(tight[0].nearest == Approx(0.01));
 }
 
-TEST_CASE("where a cable lies hangs on none that is worked out beside it") {
+TEST_CASE("where a cable lies depends on none that is worked out beside it") {
   std::vector<LooseCable> cables = ring_of_ten(0.008);
   for (std::size_t k = 0; k < cables.size(); ++k) {  // unlike each other: some rest long before others
     cables[k].ring = no_ring;

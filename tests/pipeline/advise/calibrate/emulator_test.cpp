@@ -51,7 +51,7 @@ TEST_CASE("emulator: straight on beyond its runs, and never back") {
   CHECK(at(of(0, -8, 1), -2) == Approx(-19.5));  // 4.5 d - 3.5 d^2: slope 11.5 there
 }
 
-TEST_CASE("emulator: one that hangs on nothing says the same everywhere") {
+TEST_CASE("emulator: one that depends on nothing says the same everywhere") {
   CHECK(Emulator(2.5)(VectorXd::Constant(7, 3.0)) == 2.5);
 }
 

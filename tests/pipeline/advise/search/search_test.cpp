@@ -287,7 +287,7 @@ TEST_CASE("a search is a function of its seed and of what it is told") {
   const Problem problem = g24();
   SurrogateSearch whole = surrogate(problem, 7), first = surrogate(problem, 7);
   const std::vector<Look> looks = searched(whole, problem, 40, 4);
-  // One that is killed after five tellings and begun anew from what was noted goes on as if nothing had been.
+  // One that is killed after five tellings and begun again from what was noted goes on as if nothing had been.
   SurrogateSearch again = surrogate(problem, 7);
   for (std::size_t k = 0; k < looks.size(); k += 4) {
     const std::vector<VectorXd> places = again.ask(4);
