@@ -326,10 +326,10 @@ FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
     const std::size_t part = static_cast<std::size_t>(whole(*read->part));
     if (part >= 1 && part <= position.values.size() && std::isfinite(position.values[part - 1]))
       return position.values[part - 1];
-    const std::string name = fmt::format("PR[{},{}]", number, part);
+    const std::string component = fmt::format("PR[{},{}]", number, part);
     const auto known = component_causes_.find(number);
     const bool computed = known != component_causes_.end() && known->second.contains(static_cast<int>(part));
-    if (given(plain_fanuc_name(name)) || (!computed && !position_causes_.contains(number))) return unknown(name);
+    if (given(plain_fanuc_name(component)) || (!computed && !position_causes_.contains(number))) return unknown(component);
     if (computed)
       add_causes(missing_, known->second.at(static_cast<int>(part)));
     else
