@@ -71,7 +71,7 @@ class Judge {
           add(of.where,
               fmt::format("two parts side by side are named '{}' (the other: line {})", of.name,
                           components[other].where.line),
-              "a copied entry", "another name, or layer: NAME; results of equal names cannot be told apart");
+              "a copied entry", "another name, or layer: NAME; results do not distinguish equal names");
       parts(of.components);
     }
   }

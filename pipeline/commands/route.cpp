@@ -171,7 +171,7 @@ struct Decided {
 Decided decided(const Trial& trial, const Draft& draft) {
   std::vector<double> passed = beyond(trial);
   for (double& g : passed)
-    if (!(g > 0)) g = 0;  // not a number where nobody knows
+    if (!(g > 0)) g = 0;  // not a number: not known
   const auto most = static_cast<std::size_t>(std::max_element(passed.begin(), passed.end()) - passed.begin());
   const std::string other =
       "another link (--from, --to), more --tried and --rehearsals, or a gentler program";

@@ -53,7 +53,7 @@ struct Fatigue {
   double slope_change = 0;     ///< of b
   double scatter_factor = 1;   ///< of scatter_log10
   double model_factor = 1;     ///< of lives
-  double motion_factor = 1;    ///< likewise
+  double motion_factor = 1;    ///< of the wires' lives, for the swing of the hose and resting places
 };
 
 /// Whether a wire's material is another than its own (uncertainty.h, changed()).

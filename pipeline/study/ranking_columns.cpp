@@ -123,12 +123,12 @@ class Table {
            "joint whose motion damages the worst wire most; carrying: none between the clamps",
            &RankingRow::worst_joint));
     add(where(
-        "worst_joint_share", "1", "its share of the damage; above 1 where other joints relieve",
+        "worst_joint_share", "1", "its share of the damage; above 1 where other joints reduce it",
         [](const RankingRow& row) { return !row.worst_joint.empty(); },
         [](const RankingRow& row) { return row.worst_joint_share; }));
     add(of("worst_dresspack", "text", "dresspack of the worst wire, among several",
            &RankingRow::worst_dresspack));
-    add(of("settings", "text", "digest of the settings of which the row tells", &RankingRow::settings));
+    add(of("settings", "text", "digest of the settings that the row belongs to", &RankingRow::settings));
     add(of("largest_force_share", "1", "largest force of a cable over the force that tears it",
            &RankingRow::largest_force_share));
     add(of("clamp_moment_share", "1",

@@ -7,26 +7,13 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
+#include "tests/pipeline/arm/last_link.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 Job shipped() {
   return read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml", {"motion=hard"});
-}
-
-/// Pose of the last link, by its joints alone.
-Eigen::Isometry3d pose(const Robot& robot, const std::vector<double>& joints) {
-  Eigen::Isometry3d at = Eigen::Isometry3d::Identity();
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    const Joint& joint = robot.joints[k];
-    at.translate(joint.origin);
-    at.rotate(Eigen::AngleAxisd(joint.orientation.z(), Vector3d::UnitZ()) *
-              Eigen::AngleAxisd(joint.orientation.y(), Vector3d::UnitY()) *
-              Eigen::AngleAxisd(joint.orientation.x(), Vector3d::UnitX()));
-    at.rotate(Eigen::AngleAxisd(joints[k], joint.axis.normalized()));
-  }
-  return at;
 }
 
 }  // namespace
