@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <utility>
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/job/setup.h"
-#include "sim/route/screening.h"
 #include "sim/run/cures.h"
+#include "sim/run/equilibrium.h"
 #include "sim/run/routing.h"
 
 namespace dresslife::sim {
@@ -19,10 +20,14 @@ namespace {
 namespace check_name = pipeline::check_name;
 using pipeline::WarningKind;
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double degree = EIGEN_PI / 180;
 constexpr int most_moments = 100'000;  // of the program; a run looks at every step
-constexpr int resting_poses = 8;       // 0.2 s of equilibria for each span
+constexpr int rest_moments = 1000;     // of the program, of which those are taken in which a span has moved enough
+constexpr int mounting_moments = 100;  // of the way from the mounting pose to the program
+constexpr int most_segments = 32;      // of a span at rest: a bend radius within a few percent
+// Between two rests: far below the half turn at which the shorter way around is the other one.
+constexpr double rest_turn = 20 * degree;
+constexpr double rest_way = 0.05;  // the same for displacements, of the length: a hose sags by as much
 
 class QuickChecks {
  public:
@@ -32,9 +37,8 @@ class QuickChecks {
   std::vector<pipeline::Warning> warnings() {
     std::vector<Check> checks;
     add_slack(checks);
-    add_bend(checks);
-    add_twist(checks);
     std::vector<pipeline::Warning> all = robot_ ? robot_->doubts() : std::vector<pipeline::Warning>{};
+    add_rests(checks, all);
     add_winding(all);
     return pipeline::joined(
         std::move(all),
@@ -89,40 +93,143 @@ class QuickChecks {
     }
   }
 
-  /// Of each dresspack's worst span at rest. Spans with rings or a retraction unit are left to a run.
-  void add_bend(std::vector<Check>& checks) {
+  /// The clamps of a span at a moment u: from -1 (mounting pose) over 0 to 1 (end of the program).
+  ClampFrames clamps_at(std::size_t span, double u) const {
+    Pose pose;
+    if (u >= 0) {
+      pose = path_->at(u * path_->duration());
+    } else {
+      const Eigen::VectorXd from = robot_->mounting_pose();
+      pose = robot_->pose(from + (1 + u) * (robot_->motion().position(0) - from));
+    }
+    return {pose.clamps.end(static_cast<int>(2 * span)), pose.clamps.end(static_cast<int>(2 * span) + 1)};
+  }
+
+  /// In order: the mounting pose, where it is not the program's first one, and the program.
+  std::vector<double> moments() const {
+    std::vector<double> all;
+    if (robot_ && robot_->mounting_pose() != robot_->motion().position(0))
+      for (int k = 0; k < mounting_moments; ++k) all.push_back(-1 + static_cast<double>(k) / mounting_moments);
+    for (int k = 0; k <= rest_moments; ++k) all.push_back(static_cast<double>(k) / rest_moments);
+    return all;
+  }
+
+  /// A state whose segments follow the clamps, each by its share of the length.
+  static RodState moved_along(RodState state, const ClampFrames& to) {
+    const Quaternion base = to.base.orientation * state.clamps.base.orientation.conjugate();
+    const Quaternion tool = to.tool.orientation * state.clamps.tool.orientation.conjugate();
+    const std::size_t segments = state.position.size();
+    for (std::size_t i = 0; i < segments; ++i) {
+      const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(segments);
+      const Vector3 with_base = to.base.position + base * (state.position[i] - state.clamps.base.position);
+      const Vector3 with_tool = to.tool.position + tool * (state.position[i] - state.clamps.tool.position);
+      state.position[i] = (1 - share) * with_base + share * with_tool;
+      state.orientation[i] = (base.slerp(share, tool) * state.orientation[i]).normalized();
+    }
+    state.clamps = to;
+    return state;
+  }
+
+  static bool moved(const ClampFrames& from, const ClampFrames& to, double length) {
+    const Quaternion base = to.base.orientation * from.base.orientation.conjugate();
+    const Quaternion tool = to.tool.orientation * from.tool.orientation.conjugate();
+    const Vector3 way = to.tool.position - to.base.position - base * (from.tool.position - from.base.position);
+    return base.angularDistance(tool) > rest_turn || base.angularDistance(Quaternion::Identity()) > rest_turn ||
+           way.norm() > rest_way * length;
+  }
+
+  /// A span at rest in pose after pose, each found from the one before, so that whole turns of the hose count as in a run
+  /// (R7). base_roll: of its base clamp; tool_roll: found at its tool clamp [rad]. Sets unfound where no rest is found [s].
+  std::vector<Check> rests(std::size_t span, double base_roll, double& tool_roll, std::optional<double>& unfound) const {
+    const Span& of = rod_.spans()[span];
+    const pipeline::Routing& routing = setup_.dresspacks[static_cast<std::size_t>(of.dresspack)].routing;
+    const auto between = span - static_cast<std::size_t>(rod_.first_span(of.dresspack));
+    const bool last = between == routing.clamps.size();
+    const bool twist_free =
+        robot_ && !(last ? *routing.tool_clamp : routing.clamps[between].clamp).roll;
+    RodProperties p = of.properties;
+    p.segments = std::min(p.segments, most_segments);
+    const Rod rod(p);
+    EquilibriumSettings settings;
+    settings.tolerance = 1e-4;  // of the forces: a picture's worth
+    MotionChecks checks(rod, {limits_of(setup_.dresspacks[static_cast<std::size_t>(of.dresspack)].dresspack)});
+    const std::vector<double> all = moments();
+    const auto rolled_clamps = [&](std::size_t k, double roll) {
+      const ClampFrames clamps = clamps_at(span, all[k]);
+      return ClampFrames{rolled(clamps.base, base_roll), rolled(clamps.tool, roll)};
+    };
+    Equilibrium found;
+    if (twist_free) {
+      TwistFreeClamp clamped = twist_free_roll(rod, rolled_clamps(0, 0), settings);
+      tool_roll = clamped.roll;
+      found = std::move(clamped.equilibrium);
+    } else {
+      found = find_equilibrium(rod, rolled_clamps(0, 0), settings);
+    }
+    const auto follow = [&](const ClampFrames& clamps) {
+      Equilibrium next = find_equilibrium(rod, clamps, moved_along(found.state, clamps), {}, settings);
+      if (next.status != EquilibriumStatus::converged) return false;
+      found = std::move(next);
+      return true;
+    };
+    bool resting = found.status == EquilibriumStatus::converged;
+    const double pre_twist = last ? routing.pre_twist : 0, untwisted = tool_roll;
+    const int parts = static_cast<int>(std::ceil(std::abs(pre_twist) / rest_turn));
+    for (int part = 1; part <= parts && resting; ++part)
+      resting = follow(rolled_clamps(0, tool_roll = untwisted + pre_twist * part / parts));
+    const auto look = [&](std::size_t k) {
+      if (all[k] >= 0) checks.see(found.state, {}, all[k] * path_->duration());
+    };
+    if (resting) look(0);
+    for (std::size_t now = 0; resting && now + 1 < all.size();) {
+      const ClampFrames here = rolled_clamps(now, tool_roll);
+      std::size_t next = now + 1;
+      while (next + 1 < all.size() && all[next] != 0 && !moved(here, rolled_clamps(next, tool_roll), p.length)) ++next;
+      while (!(resting = follow(rolled_clamps(next, tool_roll))) && next > now + 1) next = now + (next - now) / 2;
+      if (resting) look(now = next);
+      else unfound = std::max(0.0, all[next]) * path_->duration();
+    }
+    if (found.status != EquilibriumStatus::converged) unfound = 0;
+    return unfound ? std::vector<Check>{} : checks.table();
+  }
+
+  /// Of each dresspack's worst spans at rest. Spans with rings or a retraction unit are left to a run.
+  void add_rests(std::vector<Check>& checks, std::vector<pipeline::Warning>& all) {
     const std::vector<RoutedRing> rings = routed_rings(setup_);
     for (int d = 0; d < rod_.dresspacks(); ++d) {
-      double most = 0, time = 0, place = -1;
+      std::optional<Check> bend, twist, net;
+      double roll = 0;
       for (auto span = static_cast<std::size_t>(rod_.first_span(d)); span < static_cast<std::size_t>(rod_.first_span(d + 1)); ++span) {
         const bool ringed = std::any_of(rings.begin(), rings.end(), [&](const RoutedRing& ring) {
           return ring.span == static_cast<int>(span);
         });
+        const double base_roll = std::exchange(roll, 0);
         if (is_free(span) || ringed || properties(span).slider || longest_[span] >= properties(span).length) continue;
-        for (int k = 0; k < resting_poses; ++k) {
-          const double moment = path_->duration() * k / (resting_poses - 1);
-          const Pose pose = path_->at(moment);
-          const double curvature = curvature_at_rest(properties(span), {pose.clamps.end(static_cast<int>(2 * span)),
-                                                                        pose.clamps.end(static_cast<int>(2 * span) + 1)});
-          if (std::isfinite(curvature) && curvature > most) most = curvature, time = moment, place = middle(span);
+        std::optional<double> unfound;
+        const std::vector<Check> table = rests(span, base_roll, roll, unfound);
+        if (unfound) all.push_back(no_rest(d, *unfound));
+        std::optional<Check> net_here;
+        for (Check check : table) {
+          check.dresspack = d;
+          check.position = middle(span);
+          if (check.name == check_name::net_twist) net_here = check;
+          if (check.name == check_name::bend_radius && (!bend || check.value < bend->value)) bend = check;
+          if (check.name == check_name::twist && (!twist || std::abs(check.value) > std::abs(twist->value)))
+            twist = check, net.reset();
         }
+        if (!net) net = net_here;
       }
-      if (most == 0) continue;
-      const double limit = limits_of(setup_.dresspacks[static_cast<std::size_t>(d)].dresspack).least_bend_radius;
-      checks.push_back({WarningKind::bend_radius, "smallest bend radius at rest", "m", 1 / most, limit, most * limit > 1, time,
-                        place, d});
+      if (bend) bend->name = "smallest bend radius at rest", checks.push_back(*bend);
+      if (twist) twist->name = "largest twist at rest", checks.push_back(*twist);
+      if (net) checks.push_back(*net);
     }
   }
 
-  /// By what geometry says of the whole job (V4): the worst of all dresspacks.
-  void add_twist(std::vector<Check>& checks) {
-    const Screening screening = Screener(setup_).screen(setup_);
-    const auto k = static_cast<std::size_t>(ScreenedLimit::twist);
-    if (!(screening.beyond[k] > 0) || rod_.dresspacks() > 1) return;
-    const double limit = limits_of(setup_.dresspacks[0].dresspack).most_twist;
-    const double twist = (1 + screening.beyond[k]) * limit, length = setup_.dresspacks[0].routing.free_length;
-    checks.push_back({{}, check_name::net_twist, "rad", twist * length, unlimited, false, screening.time[k], -1, 0});
-    checks.push_back({WarningKind::twist, "largest twist at rest", "rad/m", twist, limit, true, screening.time[k], -1, 0});
+  pipeline::Warning no_rest(int dresspack, double time) const {
+    return pipeline::warning_of(
+        WarningKind::bend_radius, "",
+        fmt::format("{} has no shape at rest that was found, {}", pipeline::dresspack_words(setup_, dresspack), moment(time)),
+        "its clamps turn it so far that it snaps", "`dresslife run`, which follows its motion in time");
   }
 
   /// A turn of an axis between the pose in which the dresspack was clamped and the program's first one is in the

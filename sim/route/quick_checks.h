@@ -1,6 +1,6 @@
 // What is wrong with a job as far as geometry and statics say, in seconds: slack over the whole program, as a run finds
-// it; bend radius and twist at rest in poses of the program that differ most, which a run can only make worse; axes that
-// wind the dresspack up before the program begins.
+// it; bend radius and twist of the dresspack at rest, pose after pose of the program; axes that wind the dresspack up before the
+// program begins.
 #pragma once
 
 #include <string>

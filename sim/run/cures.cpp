@@ -324,7 +324,7 @@ double curvature_at_rest(RodProperties span, const ClampFrames& clamps) {
   span.tool_end = End::swivel;
   const Rod rod(span);
   EquilibriumSettings settings;
-  settings.iterations = 100;  // most take 20; what takes longer is slack and light
+  settings.iterations = 400;  // a stiff hose takes 20, the shipped soft one 70 to 220
   settings.tolerance = 1e-4;  // of the forces: a picture's worth
   const Equilibrium found = find_equilibrium(rod, clamps, settings);
   if (found.status != EquilibriumStatus::converged) return infinite;

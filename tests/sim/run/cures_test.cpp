@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "sim/route/quick_checks.h"
 #include "sim/run/simulate.h"
 #include "tests/catch.h"
 #include "tests/sim/simple_job.h"
@@ -64,6 +65,31 @@ TEST_CASE("cures: a twist to one side is cured by a pre-twist, one to both sides
   job.dresspacks[0].routing.free_length = value_of(words, "routing.free_length_m");
   CHECK(job.dresspacks[0].routing.free_length > 1);
   CHECK(words_of(job, pipeline::WarningKind::twist) == "");
+}
+
+TEST_CASE("cures: the checks at rest and a run find the same twist, whole turns included, and the same remedy") {
+  pipeline::Job job = simple_job();
+  job.simulation.most_repeats = 1;
+  job.dresspacks[0].routing.mounting_pose = {-7};  // a turn and more from the program
+  job.dresspacks[0].dresspack.most_twist = 5;      // the program twists it by 7 .. 9 rad
+  const auto of_twist = [](const std::vector<pipeline::Warning>& warnings, const char* name) {
+    for (const pipeline::Warning& warning : warnings)
+      if (warning.words.find(name) != std::string::npos) return warning.words;
+    return std::string();
+  };
+  const std::string rest = of_twist(quick_warnings(job), "largest twist at rest: "),
+                    run = words_of(job, pipeline::WarningKind::twist);
+  INFO(rest << run);
+  const auto number = [](const std::string& words, const std::string& key) {
+    REQUIRE(words.find(key) != std::string::npos);
+    return std::stod(words.substr(words.find(key) + key.size()));
+  };
+  // In deg/m. A run's largest twist is that of one link and swings; the sag takes a few degrees.
+  CHECK(number(rest, "at rest: ") == Approx(number(run, "largest twist: ")).epsilon(0.1));
+  CHECK(number(rest, "turn it by ") == Approx(number(run, "turn it by ")).epsilon(0.05));
+  CHECK(value_of(rest, "routing.pre_twist_deg") == Approx(value_of(run, "routing.pre_twist_deg")).epsilon(0.05));
+  job.dresspacks[0].routing.pre_twist = value_of(rest, "routing.pre_twist_deg") * degree;
+  CHECK(of_twist(quick_warnings(job), "largest twist at rest: ") == "");
 }
 
 TEST_CASE("cures: a bend that is there at rest is cured by a length or by directions that are tried at rest") {
