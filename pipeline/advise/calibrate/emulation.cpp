@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 
 #include "pipeline/advise/calibrate/measured_bending.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
+#include "pipeline/life/first_failure.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -54,6 +56,39 @@ LifeEnd end_of(ObservedEnd end) {
   return bounds_below(end) ? LifeEnd::at_least : LifeEnd::at_most;
 }
 
+/// A specimen's life over the parameters, as a run's samples evaluate it: the first of its failure modes. At equal shares
+/// of failed specimens, as if the scatter of wires were common to all modes.
+class LifeOverParameters {
+ public:
+  LifeOverParameters(FailureModes modes, const std::array<bool, uncertain_count>& moves)
+      : modes_(std::move(modes)), moves_(moves) {
+    for (const LifeResponse& mode : modes_) surfaces_.emplace_back(mode);
+  }
+  LifeOverParameters(const LifeOverParameters&) = delete;
+  LifeOverParameters& operator=(const LifeOverParameters&) = delete;
+
+  /// beside (parameter): z from the keys of the job. A life without end counts as endless_log_life.
+  LifeAt at(const VectorXd& beside) const {
+    ParameterPoint z{};
+    for (std::size_t p = 0; p < uncertain_count; ++p)
+      if (moves_[p]) z[p] = beside[static_cast<Index>(p)];
+    const double early = first(z, -deciles), median = first(z, 0), late = first(z, deciles);
+    return {median, std::max(std::exp(least_log_spread), (late - early) / (2 * deciles))};
+  }
+
+ private:
+  double first(const ParameterPoint& z, double u) const {
+    double life = endless_log_life;
+    for (const LifeSurface& surface : surfaces_)
+      life = std::min(life, surface.log10_life(z, u, Inside::as_is) * std::numbers::ln10);
+    return life;
+  }
+
+  const FailureModes modes_;
+  const std::array<bool, uncertain_count> moves_;
+  std::vector<LifeSurface> surfaces_;
+};
+
 class RoundEmulation {
  public:
   RoundEmulation(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
@@ -62,17 +97,17 @@ class RoundEmulation {
     for (std::size_t t = 0; t < tests.size(); ++t) {
       const std::vector<RoundOfJobs::Runs>& runs = round.runs()[t];
       if (!tests[t].observation.is_life()) {
-        made_.tests.push_back(bending_of(tests[t], runs));
+        made_.push_back(bending_of(tests[t], runs));
         continue;
       }
-      made_.tests.push_back({life_of(tests[t], runs)});
+      made_.push_back({life_of(tests[t], runs)});
       const RankingRow& row = row_of(tests[t], runs.front().centre);
       if (!row.failing_mode.empty())
-        made_.tests.back().fails_first = fmt::format("{}, {:.0f} %", row.failing_mode, 100 * row.failing_mode_share);
+        made_.back().fails_first = fmt::format("{}, {:.0f} %", row.failing_mode, 100 * row.failing_mode_share);
     }
   }
 
-  const Emulation& made() const { return made_; }
+  const std::vector<EmulatedTest>& made() const { return made_; }
 
  private:
   ObservedLife life_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& variants) {
@@ -84,9 +119,9 @@ class RoundEmulation {
     life.specimens = observation.outcome == ObservedEnd::rating ? 1 : observation.specimens;
     life.unshared_spread = observation.unshared_log10 * std::numbers::ln10;
     for (const RoundOfJobs::Runs& runs : variants) {
-      life.variants.push_back(
-          variant_of(observation, runs, log_life_of(observation, row_of(test, runs.centre))));
-      life.common_share = std::max(life.common_share, common_share(runs, life.variants.back()));
+      const RankingRow& row = row_of(test, runs.centre);
+      life.variants.push_back(variant_of(observation, runs, row));
+      life.common_share = std::max(life.common_share, common_share(runs, log_life_of(observation, row)));
     }
     return life;
   }
@@ -164,46 +199,32 @@ class RoundEmulation {
     return made;
   }
 
-  LifeVariant variant_of(const Observation& observation, const RoundOfJobs::Runs& runs,
-                         const LogLife& middle) {
-    VectorXd low_life = VectorXd::Constant(uncertain_count, middle.median), high_life = low_life;
-    VectorXd low_spread = VectorXd::Constant(uncertain_count, middle.spread), high_spread = low_spread;
-    for (std::size_t p = 0; p < uncertain_count; ++p) {
-      if (!runs.arms[p]) continue;
-      const auto at = static_cast<Index>(p);
-      const auto side = [&](std::size_t job) -> std::optional<LogLife> {
-        const RankingRow* row = rows_.done(job);
-        return row ? std::optional(log_life_of(observation, *row)) : std::nullopt;
-      };
-      std::optional<LogLife> low = side(runs.arms[p]->low), high = side(runs.arms[p]->high);
-      if (!low || !high)
-        made_.notes.insert(fmt::format(
-            "'{}': a job to one side of {} failed ({}); the other side alone tells of it", observation.name,
-            uncertain_parameters()[p].name, rows_.failure(low ? runs.arms[p]->high : runs.arms[p]->low)));
-      const auto mirrored = [&](const std::optional<LogLife>& of) {
-        return of ? LogLife{2 * middle.median - of->median, 2 * middle.spread - of->spread} : middle;
-      };
-      if (!low) low = mirrored(high);
-      if (!high) high = mirrored(low);
-      low_life[at] = low->median, high_life[at] = high->median;
-      low_spread[at] = low->spread, high_spread[at] = high->spread;
-    }
-    return {{round_.centre(), round_.step(), middle.median, low_life, high_life},
-            {round_.centre(), round_.step(), middle.spread, low_spread, high_spread}};
+  LifeVariant variant_of(const Observation& observation, const RoundOfJobs::Runs& runs, const RankingRow& row) {
+    const LogLife centre = log_life_of(observation, row);
+    if (row.life_response.empty() || centre.median >= endless_log_life) return [centre](const VectorXd&) {
+      return LifeAt{centre.median, std::exp(centre.spread)};
+    };
+    const auto life = std::make_shared<const LifeOverParameters>(modes_from_text(row.life_response), runs.moves);
+    const LifeAt modelled = life->at(VectorXd::Zero(uncertain_count));
+    return [life, centre, modelled, at = round_.centre()](const VectorXd& z) {
+      const LifeAt here = life->at(z - at);
+      return LifeAt{std::min(endless_log_life, centre.median + here.log_median - modelled.log_median),
+                    std::exp(centre.spread) * here.spread / modelled.spread};
+    };
   }
 
   /// Of the variance of a specimen's ln life, what all of a spool have in common.
-  double common_share(const RoundOfJobs::Runs& runs, const LifeVariant& variant) const {
+  double common_share(const RoundOfJobs::Runs& runs, const LogLife& centre) const {
     const Fatigue& fatigue = round_.study().jobs[runs.centre].job->fatigue;
     const double wires = fatigue.scatter_log10 * fatigue.scatter_factor * std::numbers::ln10;
-    const double spread = std::exp(variant.log_spread.at_centre());
+    const double spread = std::exp(centre.spread);
     return std::min(1.0, fatigue.scatter_shared * wires * wires / (spread * spread));
   }
 
   const RoundOfJobs& round_;
   RowsByJob rows_;
   const StudyPlaces& places_;
-  Emulation made_;
+  std::vector<EmulatedTest> made_;
 };
 
 }  // namespace
@@ -215,7 +236,7 @@ double EmulatedTest::log_likelihood_at(const VectorXd& z) const {
   return log_mean(terms);
 }
 
-Emulation emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
+std::vector<EmulatedTest> emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
                   const std::vector<RankingRow>& rows, const StudyPlaces& places) {
   return RoundEmulation(tests, round, rows, places).made();
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -26,14 +25,9 @@ struct EmulatedTest {
   double log_likelihood_at(const Eigen::VectorXd& z) const;
 };
 
-struct Emulation {
-  std::vector<EmulatedTest> tests;
-  std::set<std::string> notes;  ///< jobs that failed beside a centre that did not
-};
-
 /// rows: of the round's jobs, in any order, with their files at `places`. Errors: InputError at the row of a
 /// test whose job at the centre failed, or tells nothing of how its cable bends.
-Emulation emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
+std::vector<EmulatedTest> emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
                   const std::vector<RankingRow>& rows, const StudyPlaces& places);
 
 /// One of each test, over the axes. The result refers to both arguments.

@@ -36,9 +36,8 @@ Foretold foretold(const ObservedLife& life, const Eigen::MatrixXd& draws, bool w
     double left = numbers.uniform() * sum;
     std::size_t chosen = 0;
     while (chosen + 1 < weight.size() && left > weight[chosen]) left -= weight[chosen++];
-    const LifeVariant& variant = life.variants[chosen];
-    const double spread = std::hypot(std::exp(variant.log_spread(z)), life.unshared_spread);
-    lives.push_back(variant.log_life(z) + spread * numbers.normal());
+    const LifeAt at = life.variants[chosen](z);
+    lives.push_back(at.log_median + std::hypot(at.spread, life.unshared_spread) * numbers.normal());
   }
   Foretold told = quantiles(lives);
   for (double& one : told) one = one >= endless_log_life - 3 ? HUGE_VAL : std::exp(one);

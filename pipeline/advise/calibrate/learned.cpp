@@ -106,8 +106,8 @@ std::string learned_table(const Learned& learned) {
       "\nParameters: factors of the job's keys (slope: added to b), median and 80 % range.\nPredicted: the life after which 10 % "
       "of such specimens have failed (half, 90 %), over the uncertain parameters, the unknowns of the test and scatter;\nof a "
       "bending test its largest moment. Before: from the prior. By the others: without this observation.\n"
-      "Fails first: in which share of the samples. For a plan take the hours of dresslife run with this calibration: run "
-      "evaluates more\ncombinations of the parameters.\n";
+      "Fails first: in which share of the samples. For a plan take the hours of dresslife run with this calibration: it "
+      "computes the strains\nat the medians above.\n";
   if (!learned.settled)
     text += fmt::format("warning: after {} rounds the centre still moves; the draws rest on runs beside it\n",
                         learned.rounds);

@@ -29,7 +29,8 @@ double log_all_within(double margin, double common, double own, int specimens) {
 }
 
 double log_likelihood(const ObservedLife& observed, const LifeVariant& variant, const Eigen::VectorXd& z) {
-  const double margin = variant.log_life(z) - observed.log_life, spread = std::exp(variant.log_spread(z));
+  const auto [median, spread] = variant(z);
+  const double margin = median - observed.log_life;
   const double common = std::hypot(std::sqrt(observed.common_share) * spread, observed.unshared_spread);
   const double own = std::sqrt(1 - observed.common_share) * spread, all = std::hypot(common, own);
   const int n = observed.specimens;

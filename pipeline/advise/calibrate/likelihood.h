@@ -27,10 +27,11 @@ using LogLikelihood = std::function<double(const Eigen::VectorXd& z)>;
 
 enum class LifeEnd { broken, at_least, at_most };
 
-struct LifeVariant {
-  Emulator log_life;    ///< ln m(z)
-  Emulator log_spread;  ///< ln s(z), of ln life
+struct LifeAt {
+  double log_median = 0;  ///< ln m(z)
+  double spread = 0;      ///< s(z), of ln life, > 0
 };
+using LifeVariant = std::function<LifeAt(const Eigen::VectorXd& z)>;
 
 struct ObservedLife {
   double log_life = 0;  ///< x

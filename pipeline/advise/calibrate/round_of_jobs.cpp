@@ -61,7 +61,6 @@ RoundOfJobs::RoundOfJobs(const std::vector<ObservedTest>& tests, const std::vect
     : sets_(sets), centre_(std::move(centre)), step_(std::move(step)) {
   const Sources read_once;
   study_.name = std::move(name);
-  sets_.push_back("uncertainty.enabled=false");
   for (const ObservedTest& test : tests) {
     runs_.emplace_back();
     for (const ObservedTest::Variant& variant : test.variants) runs_.back().push_back(runs_of(test, variant));
@@ -84,14 +83,16 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
     if (plain.uncertainty.spread != Uncertainty::default_spread())
       refuse("its job gives spreads of its own, but what is learned has one prior for all rows",
              "leave section uncertainty out of its job");
-    runs.centre = add(variant, centre_);
+    runs.centre = add(test, variant, centre_);
     for (std::size_t p = 0; p < uncertain_count; ++p) {
       if (!acts(plain, static_cast<Uncertain>(p))) continue;
       if (!test.observation.is_life() && !uncertain_parameters()[p].of_strain) continue;
+      runs.moves[p] = true;
+      if (test.observation.is_life()) continue;
       VectorXd low = centre_, high = centre_;
       low[static_cast<Index>(p)] -= step_[static_cast<Index>(p)];
       high[static_cast<Index>(p)] += step_[static_cast<Index>(p)];
-      runs.arms[p] = Arms{add(variant, low), add(variant, high)};
+      runs.arms[p] = Arms{add(test, variant, low), add(test, variant, high)};
     }
   } catch (const InputError& problem) {
     if (std::string(problem.what()).find("'" + test.observation.name + "': ") != std::string::npos) throw;
@@ -101,8 +102,9 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
 }
 
 /// The job's place in the study; one that is there already under the same settings is not added again.
-std::size_t RoundOfJobs::add(const ObservedTest::Variant& variant, const VectorXd& z) {
+std::size_t RoundOfJobs::add(const ObservedTest& test, const ObservedTest::Variant& variant, const VectorXd& z) {
   std::vector<std::string> sets = sets_;
+  sets.push_back(fmt::format("uncertainty.enabled={}", test.observation.is_life()));
   for (const std::string& set : sets_at(std::vector<double>(z.begin(), z.end()))) sets.push_back(set);
   const auto job = std::make_shared<const Job>(job_from(variant.job, sets));
   const std::string settings =
@@ -117,7 +119,7 @@ Axes::Axes(const RoundOfJobs& round) {
   for (std::size_t p = 0; p < uncertain_count; ++p)
     if (std::any_of(round.runs().begin(), round.runs().end(), [&](const auto& variants) {
           return std::any_of(variants.begin(), variants.end(),
-                             [&](const auto& runs) { return runs.arms[p].has_value(); });
+                             [&](const auto& runs) { return runs.moves[p]; });
         }))
       places_.push_back(static_cast<Index>(p));
 }

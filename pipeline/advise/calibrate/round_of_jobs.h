@@ -1,5 +1,6 @@
-// What is run to learn of observations: the model at a centre of what is not known, and one step to either
-// side along every parameter that moves it.
+// What is run to learn from observations: the model at a centre of the uncertain parameters. Of a life the file itself says
+// how it depends on them (pipeline/life/life_response.h); a bending test is also run one step to either side along every
+// parameter that moves it.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +16,7 @@
 
 namespace dresslife::pipeline {
 
-/// The jobs of a round: of each variant one at the centre and two along each axis that moves it. One with the
-/// same settings as another is there once.
+/// The jobs of a round. One with the same settings as another is there once.
 class RoundOfJobs {
  public:
   struct Arms {
@@ -24,8 +24,8 @@ class RoundOfJobs {
   };
   struct Runs {
     std::size_t centre;  ///< job
-    std::array<std::optional<Arms>, uncertain_count>
-        arms;  ///< (parameter); nothing: it does not move the job
+    std::array<bool, uncertain_count> moves{};              ///< (parameter) whether it can move the job
+    std::array<std::optional<Arms>, uncertain_count> arms;  ///< (parameter) of a bending test that it moves
   };
 
   /// sets: for every job. centre, step: of z, (parameter). Errors: InputError at the row of a job that cannot
@@ -40,7 +40,7 @@ class RoundOfJobs {
 
  private:
   Runs runs_of(const ObservedTest& test, const ObservedTest::Variant& variant);
-  std::size_t add(const ObservedTest::Variant& variant, const Eigen::VectorXd& z);
+  std::size_t add(const ObservedTest& test, const ObservedTest::Variant& variant, const Eigen::VectorXd& z);
 
   std::vector<std::string> sets_;
   Eigen::VectorXd centre_, step_;

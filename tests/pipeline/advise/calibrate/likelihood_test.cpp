@@ -16,7 +16,7 @@ ObservedLife life(LifeEnd end, double observed, double median, double spread, in
   one.log_life = observed;
   one.end = end;
   one.specimens = specimens;
-  one.variants = {{Emulator(median), Emulator(std::log(spread))}};
+  one.variants = {[=](const VectorXd&) { return LifeAt{median, spread}; }};
   return one;
 }
 const VectorXd nowhere = VectorXd::Zero(1);
@@ -59,7 +59,7 @@ TEST_CASE("likelihood: several specimens share what their spool does to them") {
 
 TEST_CASE("likelihood: what is not known of a test counts each way alike") {
   ObservedLife mixed = life(LifeEnd::broken, 0, 0, 1);
-  mixed.variants.push_back({Emulator(3), Emulator(0)});
+  mixed.variants.push_back([](const VectorXd&) { return LifeAt{3, 1}; });
   CHECK(value(mixed) == Approx(std::log((1 + std::exp(-4.5)) / 2)));
 }
 

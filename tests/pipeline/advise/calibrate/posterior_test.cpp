@@ -29,7 +29,7 @@ ObservedLife life(LifeEnd end, double observed, const Emulator& emulator, double
   ObservedLife one;
   one.log_life = observed;
   one.end = end;
-  one.variants = {{emulator, Emulator(std::log(spread))}};
+  one.variants = {[=](const VectorXd& z) { return LifeAt{emulator(z), spread}; }};
   return one;
 }
 LogLikelihood term(ObservedLife observed) {
