@@ -169,6 +169,40 @@ TEST_CASE(
         std::string::npos);
 }
 
+TEST_CASE("calibrate: the prior predicts the hours that a run predicts") {
+  // Friction, strength, slope, scatter and the model's factor act together here.
+  const Scratch scratch;
+  const std::string job =
+      "{motion: {rig: {kind: torsion, length_m: 1, twist_deg_per_m: 180}}, dresspack: {cable: {from: spot_welding, part: signal cable}}}";
+  scratch.write("job.yaml", job);
+  REQUIRE(run(scratch, "dresslife", "run job.yaml --quiet").status == 0);
+  scratch.write("o.yaml", "observations:\n  - name: one\n    job: " + job +
+                              "\n    what: twisted\n    source: made for the tests\n    hours: 1\n    outcome: run_out\n");
+  const Outcome outcome = run(scratch, "dresslife", "calibrate o.yaml --quiet");
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.status == 0);
+  std::string line = outcome.out.substr(outcome.out.find("\none ") + 5);
+  line = line.substr(line.find(" h ") + 3);
+  std::erase(line, ',');
+  std::istringstream numbers(line);
+  char bracket = 0;
+  double early = 0, median = 0, late = 0;
+  numbers >> early >> bracket >> median >> late;
+  const std::string csv = content(scratch / "runs/job/ranking.csv");
+  const auto cell = [&](const std::string& name) {
+    std::istringstream keys(csv.substr(0, csv.find('\n'))), cells(csv.substr(csv.find('\n') + 1));
+    std::string key, value;
+    while (std::getline(keys, key, ',') && std::getline(cells, value, ','))
+      if (key == name) return std::stod(value);
+    FAIL(name);
+    return 0.0;
+  };
+  // Deciles of 2,000 draws are good to 0.04 of a deviation, which is a decade here; two digits are printed.
+  CHECK(early == Approx(cell("life_hours_p10")).epsilon(0.2));
+  CHECK(median == Approx(cell("life_hours_p50")).epsilon(0.2));
+  CHECK(late == Approx(cell("life_hours_p90")).epsilon(0.2));
+}
+
 TEST_CASE("calibrate: rows that cannot be used are named at their place") {
   Scratch scratch;
   const auto refused = [&](const std::string& text) {
