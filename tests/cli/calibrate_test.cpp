@@ -170,14 +170,14 @@ TEST_CASE(
 }
 
 TEST_CASE("calibrate: the prior predicts the hours that a run predicts") {
-  // Friction, strength, slope, scatter and the model's factor act together here.
+  // Friction and slack act together here: the sum of their effects alone has a p90 of half the hours.
   const Scratch scratch;
   const std::string job =
-      "{motion: {rig: {kind: torsion, length_m: 1, twist_deg_per_m: 180}}, dresspack: {cable: {from: spot_welding, part: signal cable}}}";
+      "{motion: {rig: {kind: torsion, length_m: 1, twist_deg_per_m: 180}}, dresspack: spot_welding, strain: {cable_elements_per_segment: 2}}";
   scratch.write("job.yaml", job);
   REQUIRE(run(scratch, "dresslife", "run job.yaml --quiet").status == 0);
   scratch.write("o.yaml", "observations:\n  - name: one\n    job: " + job +
-                              "\n    what: twisted\n    source: made for the tests\n    hours: 1\n    outcome: run_out\n");
+                              "\n    what: twisted\n    source: made for the tests\n    hours: 1\n    outcome: run_out\n    unshared_log10: 0.01\n");
   const Outcome outcome = run(scratch, "dresslife", "calibrate o.yaml --quiet");
   INFO(outcome.out << outcome.err);
   REQUIRE(outcome.status == 0);
