@@ -242,7 +242,7 @@ void take_from_construction(Dresspack& dresspack) {
        dresspack.bending_stiffness);
   if (dresspack.bending_from_construction) {
     dresspack.bending_friction.clear();
-    if (dresspack.loss_factor && dresspack.construction_state == SlipState::friction)
+    if (dresspack.construction_state == SlipState::friction)
       dresspack.bending_friction = friction_of_construction(
           dresspack, stiffness_of_construction(dresspack, SlipState::sliding, 1).bending);
   }

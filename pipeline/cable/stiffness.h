@@ -13,8 +13,8 @@
 //
 // state: `sliding`, nothing rubs; `stuck`, nothing slides; `friction`, what friction and pressures hold at
 // construction_curvature. That is the secant of the first bend. A bend to and fro between -kappa and kappa
-// ends where the first bend did (Masing). A hose with a loss factor moves with the sliding stiffness and its friction
-// beside it (bending_friction).
+// ends where the first bend did (Masing). In that state a simulated hose moves with the sliding stiffness and its friction
+// beside it (bending_friction), never with the secant as a spring.
 // Twist is alike all along a lay, so slip does not reduce it: G J has two values only.
 //
 // The wall of a corrugated hose is a folded beam (W22): pulled by F per length around, a corrugation gives by

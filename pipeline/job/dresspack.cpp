@@ -119,8 +119,8 @@ void describe(Fields& f, Dresspack& dresspack) {
                    "The mass of the filled hose. from_construction: the sum of its parts and its wall.");
   f.number_or_word("bending_stiffness_Nm2", dresspack.bending_stiffness, dresspack.bending_from_construction,
                    from, need, range,
-                   "E I of the filled hose. from_construction: of its parts, wall and core in "
-                   "construction_state.");
+                   "E I of the filled hose. from_construction: of its parts, wall and core in construction_state; in the state "
+                   "friction the simulation bends the sliding parts and, beside them, their friction.");
   f.number_or_word("torsional_stiffness_Nm2", dresspack.torsional_stiffness,
                    dresspack.torsional_from_construction, from, need, range,
                    "G J of the filled hose. from_construction: as for bending.");
@@ -149,8 +149,7 @@ void describe(Fields& f, Dresspack& dresspack) {
            "The Kelvin-Voigt time of twist and, without loss_factor, of bending, from a decay test.");
   f.maybe_number("loss_factor", dresspack.loss_factor, between(0, 0.7),
                  "The loss factor of bending without friction, the same from 0.8 to 30 Hz: twice the damping ratio of a "
-                 "swing against bending alone. With it a bending stiffness from_construction is that of sliding parts at "
-                 "1 Hz, and their friction.");
+                 "swing against bending alone. The stiffness without friction is then that at 1 Hz.");
   if (!dresspack.bending_from_construction)
     f.list("bending_friction", dresspack.bending_friction, Need::optional,
            "The share of bending_stiffness_Nm2 that friction holds, as at most four elements. That stiffness is then moment "

@@ -167,6 +167,7 @@ class Estimates {
     estimate(dresspack_, "friction_coefficient", estimated_friction);
     if (dresspack_.find("damping_time_ms") || dresspack_.find("damping_source")) return;
     list_.note("damping_time_ms", add(dresspack_, "damping_time_ms", rounded(estimated_damping_time)).text, "");
+    estimate(dresspack_, "loss_factor", is_hose(dresspack_) ? estimated_hose_loss : estimated_cable_loss);
     add(dresspack_, "damping_source",
         "ESTIMATE, the default of dresslife; a decay test of a hanging length decides");
   }

@@ -21,9 +21,13 @@ inline constexpr double estimated_jacket_pressure = 0.17e6;
 /// from a cable on its ring. Makers of dresspacks ask for cables that feel no pull.
 inline constexpr double estimated_slack = 1;
 
-/// Kelvin-Voigt time of bending and twist [ms]. ESTIMATE: a damping ratio of 0.115 at 1.8 Hz, the median of the
-/// swings of eight hanging cables (Tiburzio and others 2024; 10 .. 90 %: 0.04 .. 0.34).
+/// Kelvin-Voigt time of twist [ms]. ESTIMATE: a damping ratio of 0.1 at 1.8 Hz.
 inline constexpr double estimated_damping_time = 20;
+
+/// Loss factor of bending besides friction, of a filled hose and of a jacketed cable. ESTIMATE: eight hanging cables
+/// (Tiburzio and others 2024) swing as with 0.6 and the friction of their loops at rest; their damping ratios extrapolated to
+/// a hose are 0.15 (10 .. 90 %: 0.06 .. 0.33).
+inline constexpr double estimated_hose_loss = 0.3, estimated_cable_loss = 0.6;
 
 /// Axial stiffness of a hose with cables of which none is known to carry [N]. ESTIMATE: that of spot_welding, whose own
 /// mass stretches it by less than 1e-3; a hose on a robot does not get longer.

@@ -174,9 +174,12 @@ TEST_CASE("stiffness: a job takes it, tells it in words, and simulates by the nu
   const Job again = job_from(parse_yaml(job_text(taken), "job.yaml"));
   CHECK(again.dresspacks[0].dresspack.bending_stiffness == dresspack.bending_stiffness);
   CHECK(part_text(again, Part::sim) == part_text(taken, Part::sim));
-  const Job number = job_with(
-      {fmt::format("dresspack.bending_stiffness_Nm2={:.17g}", dresspack.bending_stiffness), wall, profile});
-  CHECK(part_text(number, Part::sim) == part_text(taken, Part::sim));
+  const Job sliding = job_with({words, wall, profile, "dresspack.construction_state=sliding"});
+  const Job number = job_with({fmt::format("dresspack.bending_stiffness_Nm2={:.17g}",
+                                           sliding.dresspacks[0].dresspack.bending_stiffness),
+                               wall, profile});
+  CHECK(part_text(number, Part::sim) == part_text(sliding, Part::sim));
+  CHECK(part_text(number, Part::sim) != part_text(taken, Part::sim));  // which bends with friction, too
   CHECK(part_text(job_with({words, wall, profile, "dresspack.construction_state=stuck"}), Part::sim) !=
         part_text(taken, Part::sim));
   CHECK_THAT(stiffness_text(dresspack), Contains("E I 1.") &&
@@ -216,9 +219,10 @@ TEST_CASE("stiffness: friction's elements follow the construction's own moment o
   }
 }
 
-TEST_CASE("stiffness: a hose with a loss factor keeps its secant, and its links get spring and friction apart") {
+TEST_CASE("stiffness: a hose from its construction keeps its secant, and its links get spring and friction apart") {
   const std::string words = "dresspack.bending_stiffness_Nm2=from_construction", loss = "dresspack.loss_factor=0.3";
   const Job job = job_with({words, loss});
+  CHECK(job_with({words}).dresspacks[0].dresspack.bending_friction.size() == most_bending_frictions);
   const Dresspack& dresspack = job.dresspacks[0].dresspack;
   const double sliding = in_state(dresspack, SlipState::sliding).bending;
   CHECK(dresspack.bending_stiffness == in_state(dresspack, SlipState::friction).bending);
