@@ -189,7 +189,7 @@ class QuickChecks {
       if (resting) look(now = next);
       else unfound = std::max(0.0, all[next]) * path_->duration();
     }
-    if (found.status != EquilibriumStatus::converged) unfound = 0;
+    if (!resting && !unfound) unfound = 0;
     return unfound ? std::vector<Check>{} : checks.table();
   }
 
