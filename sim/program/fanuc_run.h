@@ -97,6 +97,7 @@ class FanucRun {
   struct Options {
     std::optional<FanucPosition> offset, tool_offset;
     bool remote = false, failed = false, skips = false, coordinated = false;
+    bool camera = false;  // the offset is what a camera finds
     std::string calls;  // programs that run before or behind the point
     std::string jumps;  // "[1]": the label of Skip or SkipJump, where the move goes on there
   };
@@ -114,6 +115,7 @@ class FanucRun {
   bool place_via(const FanucPosition& via, const FanucPosition& target, const Options& own,
                  const Options& options, Instruction& move);
   std::optional<std::pair<NamedFrame, NamedFrame>> frames_of(FanucPosition& p);
+  bool offsets_are_frames() const;
   bool place(const FanucPosition& position, const Options& options, Instruction& move, Frame& pose);
   bool read_speed(FanucCursor& at, Instruction& move);
   std::optional<double> override_share();
@@ -150,7 +152,6 @@ class FanucRun {
   std::map<std::pair<bool, int>, std::optional<Frame>> frames_;  // (tool?, number) that the program assigned
   std::optional<FanucPosition> last_;                            // where the robot is: JPOS and LPOS
   std::string offset_condition_, tool_offset_condition_;         // PR[n] of OFFSET CONDITION
-  bool to_remote_ = false;                                       // the move that is read leads a remote tool
   std::string skip_condition_;
   std::map<std::pair<const FanucListing*, std::size_t>, Endless> endless_;
   std::set<std::string> noted_;
