@@ -9,7 +9,7 @@ namespace {
 // hundred readings; a reading of a large backup takes some hundredths of a second.
 constexpr int most_readings = 150;
 constexpr long most_work = ImportLimits::executed;  // of all readings together: a second or two
-constexpr int barren_in_a_row = 4;  // readings that met nothing new, before it is taken that there is nothing
+constexpr int barren_in_a_row = 8;  // readings that met nothing new, before it is taken that there is nothing
 
 }  // namespace
 
@@ -24,9 +24,14 @@ int Exploration::choose(const std::string& place, int ways) {
   guessing_ = true;
   std::vector<int>& taken = taken_[place];
   taken.resize(std::max(taken.size(), static_cast<std::size_t>(ways)));
-  const auto least = std::min_element(taken.begin(), taken.begin() + ways);
-  if ((*least)++ == 0) ++news_;
-  return static_cast<int>(least - taken.begin());
+  // By lot once all were taken: in turns, two places that follow each other would always take the same of their ways together.
+  auto way = std::find(taken.begin(), taken.begin() + ways, 0);
+  if (way == taken.begin() + ways)
+    way = taken.begin() + static_cast<std::ptrdiff_t>(lot_() % static_cast<unsigned long>(ways));
+  else
+    ++news_;
+  ++*way;
+  return static_cast<int>(way - taken.begin());
 }
 
 void Exploration::follow(const std::string& line) {

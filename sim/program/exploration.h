@@ -1,11 +1,12 @@
 // The search for all that a program asks, so that one round of answers is enough.
 //
 // Where nobody knows which way a program takes, a reading asks, and goes on along one of the ways as if that were the answer.
-// The next reading takes the way that was taken least often, until several readings in a row meet nothing new. What such a
+// The next reading takes a way that was not taken yet, and by lot once all were, until several readings in a row meet nothing new. What such a
 // reading meets behind the first guess may never happen: its questions count, its mistakes do not.
 #pragma once
 
 #include <map>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ class Exploration {
  public:
   /// Begins a reading. False: enough is known.
   bool next_reading();
-  /// The way, 0 .. ways - 1, that was taken least often from this place so far.
+  /// A way, 0 .. ways - 1: the first that was not taken from this place so far, else one by lot (the same in every run).
   int choose(const std::string& place, int ways);
   /// Whether this reading has chosen a way.
   bool guessing() const { return guessing_; }
@@ -47,6 +48,7 @@ class Exploration {
 
  private:
   std::map<std::string, std::vector<int>> taken_;  // place -> how often each way was taken
+  std::minstd_rand lot_;
   std::set<const void*> met_;
   std::set<std::string> asked_, followed_;
   std::map<std::string, std::string> supposed_;  // name -> name of the delivered value

@@ -69,6 +69,7 @@ class FanucRun {
   void jump(FanucCursor& at, bool certain);
   void jump_to(std::size_t target, bool certain);
   bool goes_on(std::size_t label);  // an endless loop for another pass
+  bool waits(std::size_t label);
   bool still_new(std::size_t label);
   void call_statement(const std::string& text, bool beside);
   std::vector<FanucValues::Argument> arguments_in(FanucCursor& at);

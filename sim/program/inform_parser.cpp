@@ -451,13 +451,44 @@ class InformParser {
     into.push_back(std::move(branch));
   }
 
-  /// JUMP *LABEL, JUMP JOB:NAME, each with IF.
+  /// Labels of the job that are numbers, each once.
+  std::set<std::string> numbered_labels() const {
+    std::set<std::string> labels;
+    for (std::size_t line = 0; line < lines_.size(); ++line) {
+      Words at(lines_[line], file_, static_cast<int>(line) + 1);
+      if (!at.take_sign("*")) continue;
+      const std::string name = lower_case(at.item());
+      if (!name.empty() && name.size() < 9 && name.find_first_not_of("0123456789") == std::string::npos) labels.insert(name);
+    }
+    return labels;
+  }
+
+  /// JUMP LABEL: B000 goes to the label whose name is the number: a choice among them.
+  Statement jump_by_number(Words& at, const Statement& s) {
+    Statement made = s;
+    made.kind = Kind::choose;
+    made.arguments.push_back(at.operand());
+    for (const std::string& label : numbered_labels()) {
+      Branch way;
+      way.place = s.place;
+      Words number(label, file_, s.place.line);
+      way.conditions.push_back(number.operand());
+      way.body.push_back(s);
+      way.body.back().kind = Kind::jump;
+      way.body.back().name = label;
+      made.branches.push_back(std::move(way));
+    }
+    return made;
+  }
+
+  /// JUMP *LABEL, JUMP LABEL: B000, JUMP JOB:NAME, each with IF.
   void jump(Words& at, Statement s, std::vector<Statement>& into) {
     if (at.take_sign("*")) {
       s.kind = Kind::jump;
       s.name = lower_case(at.item());
       return only_if(at, std::move(s), into);
     }
+    if (at.take("LABEL") && at.take_sign(":")) return only_if(at, jump_by_number(at, s), into);
     if (!at.take("JOB") || !at.take_sign(":"))
       at.fail("jumps to a label or job whose name is worked out while the robot runs");
     s.name = "job:" + at.word(true);

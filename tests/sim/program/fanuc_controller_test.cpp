@@ -193,6 +193,29 @@ TEST_CASE("fanuc positions: a remote tool stands in the user frame, the robot ca
   CHECK((flange(r.move(2)).position - Vector3(2, 0, 0.7)).norm() < rounding);
 }
 
+TEST_CASE("fanuc loops: one that changes nothing waits, and the motion goes on behind it") {
+  // Whoever waits for DI[1] says what it is, not when it changes.
+  for (const char* wait : {"", "   2:  WAIT .10(sec) ;\n", "   2:  R[5]=3 ;\n   2:  F[1]=OFF ;\n"}) {
+    const Reading r = run(std::string("   1:  LBL[1] ;\n") + wait +
+                              "   3:  IF DI[1]=OFF,JMP LBL[1] ;\n   4:J P[1] 100% FINE ;\n",
+                          {.values = {{"DI[1]", "OFF"}}});
+    INFO(wait << r.problem());
+    REQUIRE(r.problems.empty());
+    CHECK(stops(r) == std::vector<int>{1});
+    INFO(r.program.skipped.size());
+    CHECK(std::any_of(r.program.skipped.begin(), r.program.skipped.end(),
+                      [](const Skipped& s) { return s.what.find("waits in a loop") == 0; }));
+  }
+  // Nothing is behind a loop without a condition.
+  CHECK(stops(run("   1:J P[1] 100% FINE ;\n   2:  LBL[1] ;\n   3:  JMP LBL[1] ;\n   4:J P[2] 100% FINE ;\n")) ==
+        std::vector<int>{1});
+  // A loop that counts or moves ends by itself.
+  CHECK(stops(run("   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:  R[1]=R[1]+1 ;\n   4:  IF R[1]<900,JMP LBL[1] ;\n   "
+                  "5:J P[1] R[1]msec FINE ;\n")) == std::vector<int>{1});
+  CHECK(stops(run("   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:J P[1] 100% FINE ;\n   4:  R[1]=R[1]+1 ;\n   5:  IF R[1]<5,JMP LBL[1] ;\n"))
+            .size() == 5);
+}
+
 TEST_CASE("fanuc positions: an offset adds up in the form of the position, or is a frame before it") {
   const auto moved = [](const std::string& offset, Asked asked = {}, const std::string& to = "P[3]") {
     asked.values["PR[1]"] = offset;
