@@ -153,8 +153,8 @@ class VariableFile {
 
 // ---- folders ---------------------------------------------------------------------------------------------
 
-constexpr std::array variable_files{"numreg.va", "posreg.va", "sysframe.va", "framevar.va", "sysmacro.va",
-                                    "system.va"};
+constexpr std::array variable_files{"numreg.va",   "posreg.va",   "sysframe.va",
+                                    "framevar.va", "sysmacro.va", "system.va"};
 
 bool is_listing(const fs::path& file) { return lower_case(file.extension().string()) == ".ls"; }
 bool is_variables(const fs::path& file) {

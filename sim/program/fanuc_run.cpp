@@ -388,7 +388,8 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
     }
   }
   if (!certain && target <= here && !looking && waits(target)) {
-    note("waits in a loop that changes nothing, until what this branch depends on changes: the motion goes on behind it");
+    note(
+        "waits in a loop that changes nothing, until what this branch depends on changes: the motion goes on behind it");
     return;
   }
   routine().at = target;  // the label itself: the statement behind it may be the one that jumps
@@ -398,8 +399,9 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
 bool FanucRun::waits(std::size_t label) {
   Endless& loop = endless_[{routine().listing, label}];
   const auto& made = program_.instructions;
-  const bool moved = std::any_of(made.begin() + static_cast<std::ptrdiff_t>(std::min(loop.begin, made.size())), made.end(),
-                                 [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
+  const bool moved =
+      std::any_of(made.begin() + static_cast<std::ptrdiff_t>(std::min(loop.begin, made.size())), made.end(),
+                  [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
   loop.begin = made.size();
   ++loop.passes;
   // A state is a long text: it is looked at behind 1, 2, 4, 8 ... passes and the pass that follows each.

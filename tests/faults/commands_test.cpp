@@ -15,22 +15,23 @@ namespace {
 struct Command {
   std::string program, arguments;
 };
-const std::vector<Command> commands{{"dresslife", "status study.yaml"},
-                                    {"dresslife", "report study.yaml"},
-                                    {"dresslife", "page runs/study/a"},
-                                    {"dresslife", "plot runs/study/a --what cycles -o cycles.svg"},
-                                    {"dresslife", "export runs/study/a --paraview job.xdmf"},
-                                    {"dresslife", "preview job.yaml -o job.html"},
-                                    {"dresslife", "draw hose.yaml -o hose.svg"},
-                                    {"dresslife", "show job.yaml"},
-                                    {"dresslife", "show runs/study/a"},
-                                    {"dresslife", "check job.yaml"},
-                                    {"dresslife", "new --robot abb_irb6640_185_280 --program swing.mod new.yaml"},
-                                    {"dresslife", "submit study.yaml --only-write"},
-                                    {"dresslife", "clean lives.yaml"},
-                                    {"dresslife", "run study.yaml --quiet"},
-                                    {"dresslife-import", "swing.mod -o swing.yaml"},
-                                    {"dresslife-import", "asks.mod -o asks.yaml --answers answers.yaml"}};
+const std::vector<Command> commands{
+    {"dresslife", "status study.yaml"},
+    {"dresslife", "report study.yaml"},
+    {"dresslife", "page runs/study/a"},
+    {"dresslife", "plot runs/study/a --what cycles -o cycles.svg"},
+    {"dresslife", "export runs/study/a --paraview job.xdmf"},
+    {"dresslife", "preview job.yaml -o job.html"},
+    {"dresslife", "draw hose.yaml -o hose.svg"},
+    {"dresslife", "show job.yaml"},
+    {"dresslife", "show runs/study/a"},
+    {"dresslife", "check job.yaml"},
+    {"dresslife", "new --robot abb_irb6640_185_280 --program swing.mod new.yaml"},
+    {"dresslife", "submit study.yaml --only-write"},
+    {"dresslife", "clean lives.yaml"},
+    {"dresslife", "run study.yaml --quiet"},
+    {"dresslife-import", "swing.mod -o swing.yaml"},
+    {"dresslife-import", "asks.mod -o asks.yaml --answers answers.yaml"}};
 /// Results of a study and a user's own files beside them.
 void write_inputs(const Scratch& scratch) {
   write_small_job(scratch);

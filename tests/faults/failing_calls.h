@@ -31,9 +31,9 @@ inline Outcome run_failing(const Scratch& scratch, const Fault& fault, const std
                            const std::string& arguments) {
   return run_with(scratch,
                   // so that a sanitized program lets a library be preloaded
-                  "env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=" + fault.call +
-                      " FAULT_AT=" + std::to_string(fault.at) + " FAULT_MODE=" + fault.mode + " FAULT_PATH='" +
-                      fault.path + "' FAULT_MORE=" + fault.more + " FAULT_PROGRAM=" + program + " FAULT_COUNT='" +
+                  "env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=" + fault.call + " FAULT_AT=" +
+                      std::to_string(fault.at) + " FAULT_MODE=" + fault.mode + " FAULT_PATH='" + fault.path +
+                      "' FAULT_MORE=" + fault.more + " FAULT_PROGRAM=" + program + " FAULT_COUNT='" +
                       (scratch / "count").string() + "' LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "' timeout 300",
                   program, arguments);
 }
@@ -73,20 +73,31 @@ struct Kind {
   std::string call, mode, path;
 };
 /// A disk that is full, broken or slow to tell, in every call by which a program can notice.
-inline const std::vector<Kind> kinds{{"write", "ENOSPC", ""},    {"sync", "EIO", ""},        {"close", "EIO", ""},
-                              {"cut", "EIO", ""},         {"rename", "EIO", ""},      {"link", "EPERM", "dresslife-"},
-                              {"remove", "EIO", "dresslife-"}, {"make", "EACCES", "dresslife-"}, {"read", "EIO", "dresslife-"},
-                              {"read", "end", ".h5"},     {"read", "short", ".h5"},   {"read", "flip", ".h5"},
-                              {"look", "EIO", "dresslife-"}, {"open", "EIO", "dresslife-"}, {"open", "EMFILE", "dresslife-"},
-                              {"list", "EIO", "dresslife-"}, {"lock", "ENOLCK", ""}};
+inline const std::vector<Kind> kinds{{"write", "ENOSPC", ""},
+                                     {"sync", "EIO", ""},
+                                     {"close", "EIO", ""},
+                                     {"cut", "EIO", ""},
+                                     {"rename", "EIO", ""},
+                                     {"link", "EPERM", "dresslife-"},
+                                     {"remove", "EIO", "dresslife-"},
+                                     {"make", "EACCES", "dresslife-"},
+                                     {"read", "EIO", "dresslife-"},
+                                     {"read", "end", ".h5"},
+                                     {"read", "short", ".h5"},
+                                     {"read", "flip", ".h5"},
+                                     {"look", "EIO", "dresslife-"},
+                                     {"open", "EIO", "dresslife-"},
+                                     {"open", "EMFILE", "dresslife-"},
+                                     {"list", "EIO", "dresslife-"},
+                                     {"lock", "ENOLCK", ""}};
 
 inline bool is_of_the_test(const std::string& name) {
   return name == ".out" || name == ".err" || name == "call.sh" || name == "count";
 }
 /// What a runner notes for itself: later runs repair it.
 inline bool is_a_note(const std::string& name) {
-  return name.find(".stage") != std::string::npos || name.ends_with(".lock") || name.ends_with("build.ninja") ||
-         name.ends_with("/log");
+  return name.find(".stage") != std::string::npos || name.ends_with(".lock") ||
+         name.ends_with("build.ninja") || name.ends_with("/log");
 }
 
 inline std::map<std::string, std::string> files_in(const fs::path& folder) {

@@ -19,10 +19,11 @@ const std::vector<Stage> stages{{"dresslife-sim", "job.yaml", "motion.h5"},
                                 {"dresslife-fatigue", "strain.h5", "life.h5"}};
 
 /// Of a read every way in which it can go wrong without a word; of the others the error.
-const std::vector<Kind> kinds_of_reads{{"read", "EIO", ".h5"},   {"read", "end", ".h5"},   {"read", "flip", ".h5"},
-                              {"read", "short", ".h5"}, {"read", "EIO", ".part"}, {"read", "end", ".part"},
-                              {"read", "flip", ".part"}, {"look", "EIO", "dresslife"}, {"open", "EIO", "dresslife-"},
-                              {"list", "EIO", "dresslife-"}, {"lock", "ENOTSUP", ""}};
+const std::vector<Kind> kinds_of_reads{
+    {"read", "EIO", ".h5"},        {"read", "end", ".h5"},       {"read", "flip", ".h5"},
+    {"read", "short", ".h5"},      {"read", "EIO", ".part"},     {"read", "end", ".part"},
+    {"read", "flip", ".part"},     {"look", "EIO", "dresslife"}, {"open", "EIO", "dresslife-"},
+    {"list", "EIO", "dresslife-"}, {"lock", "ENOTSUP", ""}};
 
 std::map<std::string, std::string> results(const fs::path& folder) {
   std::map<std::string, std::string> files;

@@ -143,12 +143,14 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
         if (!is_long && (before == &inputs || random() % 4 != 0)) continue;
         const auto fail_at = [&](int at) {
           restore(scratch, *before);
-          return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path, more}, "dresslife", command.arguments);
+          return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path, more}, "dresslife",
+                             command.arguments);
         };
         fail_at(0);
         const int total = calls_counted(scratch);
         if (total == 0) continue;
-        for (const int at : some_of(total, before == &half ? rounds(2) : std::max(1, rounds(1) / 4), random)) {
+        for (const int at :
+             some_of(total, before == &half ? rounds(2) : std::max(1, rounds(1) / 4), random)) {
           const Outcome outcome = fail_at(at);
           INFO(kind.call << ' ' << kind.mode << ' ' << at << " of " << total << " (" << more << " more), "
                          << (before == &half ? "resumed" : "from nothing") << ": " << outcome.status << '\n'
@@ -156,7 +158,8 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
           REQUIRE((outcome.status == 0 || outcome.status == 1));
           REQUIRE_FALSE(holds_parts(scratch.folder()));
           for (const auto& [name, bytes] : inputs) REQUIRE(content(scratch / name) == bytes);
-          if (before == &half) REQUIRE(content(scratch / ("runs/" + command.results + "/notes.txt")) == "mine\n");
+          if (before == &half)
+            REQUIRE(content(scratch / ("runs/" + command.results + "/notes.txt")) == "mine\n");
           scratch.write("runs/" + command.results + "/notes.txt", "mine\n");
           if (outcome.status == 0) {
             check_after(outcome);
@@ -171,7 +174,7 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
           }
         }
       }
-    std::cout << command.arguments.substr(0, command.arguments.find(' ')) << ": " << refused << " refused, " << whole
-              << " whole, 0 false, 0 lost\n";
+    std::cout << command.arguments.substr(0, command.arguments.find(' ')) << ": " << refused << " refused, "
+              << whole << " whole, 0 false, 0 lost\n";
   }
 }
