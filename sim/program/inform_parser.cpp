@@ -476,10 +476,11 @@ class InformParser {
     return labels;
   }
 
-  /// JUMP LABEL: B000 goes to the label whose name is the number: a choice among them.
+  /// JUMP LABEL: B000 goes to the label whose name is the number: a choice among them. Without that label the controller stops.
   Statement jump_by_number(Words& at, const Statement& s) {
     Statement made = s;
     made.kind = Kind::choose;
+    const std::string written = "LABEL: " + std::string(at.peek_word());
     made.arguments.push_back(at.operand());
     for (const auto& [label, line] : numbered_labels()) {
       Branch way;
@@ -492,6 +493,12 @@ class InformParser {
       way.body.back().name = label;
       made.branches.push_back(std::move(way));
     }
+    Branch none;
+    none.place = s.place;
+    none.body.push_back(s);
+    none.body.back().kind = Kind::jump;
+    none.body.back().name = written;
+    made.branches.push_back(std::move(none));
     return made;
   }
 

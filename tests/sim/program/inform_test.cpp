@@ -335,7 +335,7 @@ TEST_CASE("inform: what is wrong in a job has its line, and counts where the job
               true));
 }
 
-TEST_CASE("inform: a jump to the label of a number leads there, and one to no label goes on") {
+TEST_CASE("inform: a jump to the label of a number leads there") {
   // A routine by hand: the place to come back to is a number.
   const std::string lines =
       "SET B000 4\nJUMP *SUB\n*4\nMOVL C00000 V=100.0\nSET B000 5\nJUMP *SUB\n*5\nMOVL C00001 V=100.0\nJUMP *LAST\n*SUB\nMOVL "
@@ -344,6 +344,9 @@ TEST_CASE("inform: a jump to the label of a number leads there, and one to no la
   REQUIRE(r.problem() == "no such problem");
   const int first = r.move(0).where.line;
   CHECK(lines_of(r) == std::vector<int>{first, first - 7, first, first - 3});
+  CHECK(run(three, "SET B000 9\nJUMP LABEL: B000\n*4\nMOVL C00000 V=1.0\n")
+            .problem()
+            .find("jumps to 'LABEL: B000', which is no label") != std::string::npos);
   const Reading asked =
       run(three, "GETARG B000 IARG#(1)\nJUMP LABEL: B000\nMOVL C00000 V=1.0\n*7\nMOVL C00001 V=1.0\n");
   REQUIRE(asked.problems.size() == 1);
