@@ -389,7 +389,7 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
   }
   if (!certain && target <= here && !looking && waits(target)) {
     note(
-        "waits in a loop that changes nothing, until what this branch depends on changes: the motion goes on behind it");
+        "waits in a loop that changes nothing, until what this branch depends on changes; the motion goes on behind it");
     return;
   }
   routine().at = target;  // the label itself: the statement behind it may be the one that jumps
