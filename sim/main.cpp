@@ -80,7 +80,8 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
   const sim::RunSummary summary = simulation.run({[&](const sim::Sample& sample) { motion->add(sample); },
                                                   begin, [&](double share) { progress.show(share); }});
   motion->finish(summary, [&](double time) { return simulation.path().step(time); });
-  if (const std::string note = sim::repeats_note(summary); !note.empty()) progress.note(note);
+  for (const std::string& note : {sim::repeats_note(summary), simulation.program_note()})
+    if (!note.empty()) progress.note(note);
   pipeline::note_warnings(*file, call, progress, sim::warnings_of(simulation, summary));
   pipeline::stamp(*file, call, job, "");
   file->commit();

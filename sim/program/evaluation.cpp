@@ -187,7 +187,8 @@ Value* Interpreter::ready(Variable& variable) {
     return &variable.value;
   }
   const Statement& statement = variable.datum->statement;
-  if (variable.rival)
+  const auto copies = variable.rival ? dialect_.form_of_copies(statement.name) : std::nullopt;
+  if (variable.rival && !copies)
     miss(rivals(statement.place, variable.rival->statement.place), statement.place,
          fmt::format("gives '{}' another value than {} does", statement.name,
                      where(variable.rival->statement.place).text()),
@@ -196,6 +197,12 @@ Value* Interpreter::ready(Variable& variable) {
   const int module = std::exchange(module_, variable.datum->module);
   locals_.emplace_back();  // a declaration outside of routines sees no routine's variables
   std::optional<Value> value = given_for(*variable.datum);
+  if (!value && copies) {
+    std::string name = statement.name;
+    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    value = unknown_value(
+        name, fmt::format("is another one in {}", where(variable.rival->statement.place).text()), *copies);
+  }
   if (!value) value = declared_value(statement);
   locals_.pop_back();
   module_ = module;

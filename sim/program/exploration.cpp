@@ -1,6 +1,7 @@
 #include "sim/program/exploration.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace dresslife::sim {
 namespace {
@@ -9,7 +10,10 @@ namespace {
 // hundred readings; a reading of a large backup takes some hundredths of a second.
 constexpr int most_readings = 150;
 constexpr long most_work = ImportLimits::executed;  // of all readings together: a second or two
-constexpr int barren_in_a_row = 4;  // readings that met nothing new, before it is taken that there is nothing
+constexpr int barren_in_a_row =
+    12;  // readings that met nothing new, before it is taken that there is nothing
+constexpr std::size_t remembered_ways =
+    12;  // that must be taken together to get somewhere: conditions of a state
 
 }  // namespace
 
@@ -17,16 +21,34 @@ bool Exploration::next_reading() {
   if (readings_ > 0) barren_ = news_ == news_before_ ? barren_ + 1 : 0;
   news_before_ = news_;
   guessing_ = false;
+  if (news_ > news_told_) tell_ways();
+  last_ways_.clear();
   return ++readings_ <= most_readings && barren_ < barren_in_a_row && spent_ <= most_work;
 }
 
 int Exploration::choose(const std::string& place, int ways) {
   guessing_ = true;
-  std::vector<int>& taken = taken_[place];
-  taken.resize(std::max(taken.size(), static_cast<std::size_t>(ways)));
-  const auto least = std::min_element(taken.begin(), taken.begin() + ways);
-  if ((*least)++ == 0) ++news_;
-  return static_cast<int>(least - taken.begin());
+  std::vector<Way>& known = ways_[place];
+  known.resize(std::max(known.size(), static_cast<std::size_t>(ways)));
+  const auto begin = known.begin(), end = begin + ways;
+  auto way = std::find_if(begin, end, [](const Way& w) { return !w.taken; });
+  if (way != end)
+    ++news_;
+  else if (lot_() % 2 == 0)
+    way = std::max_element(begin, end, [](const Way& a, const Way& b) { return a.led_to < b.led_to; });
+  else
+    way = begin + static_cast<std::ptrdiff_t>(lot_() % static_cast<unsigned long>(ways));
+  way->taken = true;
+  if (last_ways_.size() == remembered_ways) last_ways_.pop_front();
+  last_ways_.emplace_back(&known, way - begin);
+  if (news_ > news_told_) tell_ways();
+  return static_cast<int>(way - begin);
+}
+
+/// The last ways led to something new.
+void Exploration::tell_ways() {
+  news_told_ = news_;
+  for (const auto& [known, way] : last_ways_) (*known)[static_cast<std::size_t>(way)].led_to = news_;
 }
 
 void Exploration::follow(const std::string& line) {

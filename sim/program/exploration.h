@@ -1,13 +1,19 @@
 // The search for all that a program asks, so that one round of answers is enough.
 //
 // Where nobody knows which way a program takes, a reading asks, and goes on along one of the ways as if that were the answer.
-// The next reading takes the way that was taken least often, until several readings in a row meet nothing new. What such a
+// The next reading takes a way that was not taken yet. Where all were, it takes every other time the one that led to something
+// new last, else one by lot: in turns, two places that follow each other would always take the same of their ways together. It
+// ends when several readings in a row meet nothing new. What such a
 // reading meets behind the first guess may never happen: its questions count, its mistakes do not.
 #pragma once
 
+#include <cstddef>
+#include <deque>
 #include <map>
+#include <random>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/program/program.h"
@@ -18,7 +24,7 @@ class Exploration {
  public:
   /// Begins a reading. False: enough is known.
   bool next_reading();
-  /// The way, 0 .. ways - 1, that was taken least often from this place so far.
+  /// A way, 0 .. ways - 1, from this place; lots fall the same in every run.
   int choose(const std::string& place, int ways);
   /// Whether this reading has chosen a way.
   bool guessing() const { return guessing_; }
@@ -46,12 +52,20 @@ class Exploration {
   void spend(long executed) { spent_ += executed; }
 
  private:
-  std::map<std::string, std::vector<int>> taken_;  // place -> how often each way was taken
+  void tell_ways();
+
+  struct Way {
+    bool taken = false;
+    long led_to = 0;  // news() when it last led to something new
+  };
+  std::map<std::string, std::vector<Way>> ways_;                        // by their places
+  std::deque<std::pair<std::vector<Way>*, std::ptrdiff_t>> last_ways_;  // of this reading
+  std::minstd_rand lot_;
   std::set<const void*> met_;
   std::set<std::string> asked_, followed_;
   std::map<std::string, std::string> supposed_;  // name -> name of the delivered value
   bool guessing_ = false;
-  long news_ = 0, news_before_ = 0, spent_ = 0;
+  long news_ = 0, news_before_ = 0, news_told_ = 0, spent_ = 0;
   int readings_ = 0, barren_ = 0;
 };
 

@@ -47,7 +47,7 @@ class VariableFile {
   void line(std::string_view line) {
     if (line.starts_with("[")) {
       if (const std::size_t close = line.find(']'); close + 1 < line.size() && line[close + 1] != ' ')
-        return begin(line.substr(close + 1, line.find(' ', close) - close - 1));
+        return begin(line.substr(close + 1, line.find(' ', close) - close - 1), line);
       element(line);
     } else if (variable_ == Variable::macros) {
       macro(line);
@@ -57,7 +57,7 @@ class VariableFile {
   }
 
   /// [*NUMREG*]$NUMREG  Storage: ...
-  void begin(std::string_view name) {
+  void begin(std::string_view name, std::string_view line) {
     constexpr std::pair<std::string_view, Variable> known[] = {
         {"$NUMREG", Variable::registers},         {"$POSREG", Variable::positions},
         {"$MNUFRAME", Variable::frames},          {"$MNUTOOL", Variable::tools},
@@ -65,6 +65,7 @@ class VariableFile {
         {"$MACROTABLE", Variable::macros}};
     variable_ = Variable::none;
     position_ = nullptr;
+    if (name == "$OFFSET_CART") into_.offsets_are_frames = line.ends_with("TRUE");
     for (const auto& [word, variable] : known)
       if (same_word(name, word)) variable_ = variable;
   }
@@ -152,7 +153,8 @@ class VariableFile {
 
 // ---- folders ---------------------------------------------------------------------------------------------
 
-constexpr std::array variable_files{"numreg.va", "posreg.va", "sysframe.va", "framevar.va", "sysmacro.va"};
+constexpr std::array variable_files{"numreg.va",   "posreg.va",   "sysframe.va",
+                                    "framevar.va", "sysmacro.va", "system.va"};
 
 bool is_listing(const fs::path& file) { return lower_case(file.extension().string()) == ".ls"; }
 bool is_variables(const fs::path& file) {

@@ -9,6 +9,7 @@
 //                [*SYSTEM*]$MNUFRAMENUM         [1] = 2               UFRAME_NUM
 //                [*SYSTEM*]$MNUTOOLNUM          [1] = 2               UTOOL_NUM
 //   sysmacro.va  [*SYSTEM*]$MACROTABLE          $MACRO_NAME, $PROG_NAME   macros
+//   system.va    [*SYSTEM*]$OFFSET_CART         ... = FALSE           how offsets count
 //
 // A folder becomes a Backup by fanuc_backup() of backup.h. The values are those of the moment at which the
 // backup was made. Other variables are not read. Source: backups.
@@ -30,6 +31,7 @@ struct FanucVariables {
   std::map<int, FanucPosition> frames, tools;       ///< likewise
   std::optional<int> frame_number, tool_number;
   std::map<std::string, std::string> macros;  ///< its name in lower case -> its program's
+  bool offsets_are_frames = false;            ///< $OFFSET_CART; FALSE as controllers are delivered
 };
 
 /// Adds what a variable file holds; a file that holds none of these adds nothing.

@@ -111,7 +111,8 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
 /// What makes a position register unknown, which `values_` misses.
 void FanucRun::missing_position(const std::string& name, const char* what) {
   const FanucCauses& causes = values_.causes();
-  if (causes.size() != 1 || causes[0].name != name) return missing_value(fmt::format("{} {} by", what, name));
+  if (causes.size() != 1 || causes[0].name != name)
+    return missing_value(fmt::format("{} {}, which depends on", what, name));
   missing(name, fmt::format("{} {}, which is known only while the robot runs", what, name),
           fmt::format("give posreg.va of the backup (--module), or --value '{}=X ... Y ... Z ... W ... P ... R ...' "
                       "(motion.values)",
@@ -222,27 +223,40 @@ std::optional<std::pair<NamedFrame, NamedFrame>> FanucRun::frames_of(FanucPositi
   return std::pair(*object, *tool);
 }
 
+/// Offsets add up number by number in the form in which the position is written, unless $OFFSET_CART is TRUE: then they are
+/// frames before it (SYSTEM.VA of the backup, or --value). What a camera finds is such a frame always.
+bool FanucRun::offsets_are_frames() const {
+  const auto given = values_.given("$offset_cart");
+  return given ? same_word(*given, "true") : around_.variables.offsets_are_frames;
+}
+
 /// Pose and frames of a move to a Cartesian position. With P the pose of UT in UF, or (remote) its inverse:
-/// flange = UF P UT^-1. Offsets: UF OFFSET P TOOL_OFFSET UT^-1. A remote move stands the other way round: the
-/// tool is UF in the world, the robot carries UT, and the tool's pose in it is P^-1.
+/// flange = UF P UT^-1. Offsets: UF OFFSET P TOOL_OFFSET UT^-1, where OFFSET is a frame, else it is added to the numbers of P.
+/// A remote move stands the other way round: the tool is UF in the world, the robot carries UT, and the tool's pose in it is
+/// P^-1. Source: FANUC, teach pendant instructions, motion options Offset,PR[x] and Tool_Offset,PR[x].
 bool FanucRun::place(const FanucPosition& position, const Options& options, Instruction& move, Frame& pose) {
   FanucPosition p = position;
   const auto frames = frames_of(p);
   if (!frames) return false;
   const auto& [object, tool] = *frames;
-  pose = frame_of_fanuc(p.values);
-  if (p.remote) pose = inverse(pose);
+  const auto counts = [](const auto& offset) { return offset && !nothing(*offset); };
+  const bool as_frame = options.camera || offsets_are_frames();
   for (const auto* offset : {&options.offset, &options.tool_offset}) {
-    if (!*offset || nothing(**offset)) continue;
-    if ((*offset)->form != FanucPosition::Form::pose || p.remote || options.remote) {
-      complain((*offset)->form == FanucPosition::Form::pose ? "is offset on a remote tool by other than zeros"
-                                                            : "is offset by joint angles from a pose",
+    if (!counts(*offset)) continue;
+    const bool joints = (*offset)->form != FanucPosition::Form::pose;
+    if (joints || (offset == &options.offset && p.remote && as_frame)) {
+      complain(joints ? "is offset by joint angles from a pose" : "is offset on a remote tool by a frame",
                "list the program with the position as the robot reached it");
       return false;
     }
-    const Frame by = frame_of_fanuc((*offset)->values);
-    pose = offset == &options.offset ? by * pose : pose * by;
   }
+  if (counts(options.offset) && !as_frame)
+    for (std::size_t i = 0; i < p.values.size() && i < options.offset->values.size(); ++i)
+      p.values[i] += options.offset->values[i];
+  pose = frame_of_fanuc(p.values);
+  if (p.remote) pose = inverse(pose);
+  if (counts(options.offset) && as_frame) pose = frame_of_fanuc(options.offset->values) * pose;
+  if (counts(options.tool_offset)) pose = pose * frame_of_fanuc(options.tool_offset->values);
   if (options.remote && move.kind != Instruction::Kind::joint) {
     pose = inverse(pose);
     NamedFrame standing = object;
@@ -353,11 +367,10 @@ void FanucRun::offset_by(FanucCursor& at, std::optional<FanucPosition>& into, co
     return;
   }
   into.reset();
-  const char* const how = to_remote_ ? "is offset on a remote tool (only zeros are read) by" : "is offset by";
-  if (!index || !index->number) return missing_value(how);
+  if (!index || !index->number) return missing_value("is offset by");
   values_.forget_missing();
   values_.miss_position(whole(*index->number));
-  missing_position(fmt::format("PR[{}]", whole(*index->number)), how);
+  missing_position(fmt::format("PR[{}]", whole(*index->number)), "is offset by");
 }
 
 /// What a camera finds: ",VR[n]".
@@ -416,6 +429,7 @@ bool FanucRun::read_option(FanucCursor& at, Instruction& move, Options& options)
     options.failed |= !options.offset;
   } else if (at.take("VOFFSET")) {
     offset_by_camera(at, options.offset);
+    options.camera = true;
     options.failed |= !options.offset;
   } else if (at.take("INC")) {
     complain("is an incremental move", "write the target itself");
@@ -536,7 +550,6 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
   if (!target && at.offset() == begin) return;
   if (target && target->form == FanucPosition::Form::other_groups)
     return note("moves other groups than the robot");
-  to_remote_ = target && target->remote;
   const bool fast = read_speed(at, move), set = read_options(at, move, options);
   if (!target || !fast || !set) {  // what else it lacks is asked for in the same round
     FanucPosition there;

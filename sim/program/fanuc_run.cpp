@@ -387,7 +387,29 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
       throw Stop{};
     }
   }
-  routine().at = target + 1;
+  if (!certain && target <= here && !looking && waits(target)) {
+    note(
+        "waits in a loop that changes nothing, until what this branch depends on changes; the motion goes on behind it");
+    return;
+  }
+  routine().at = target;  // the label itself: the statement behind it may be the one that jumps
+}
+
+/// Whether a loop is back at its label without a move and with all values as they were: no pass of it will be another one.
+bool FanucRun::waits(std::size_t label) {
+  Endless& loop = endless_[{routine().listing, label}];
+  const auto& made = program_.instructions;
+  const bool moved =
+      std::any_of(made.begin() + static_cast<std::ptrdiff_t>(std::min(loop.begin, made.size())), made.end(),
+                  [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
+  loop.begin = made.size();
+  ++loop.passes;
+  // A state is a long text: it is looked at behind 1, 2, 4, 8 ... passes and the pass that follows each.
+  const auto is_power_of_two = [](int number) { return (number & (number - 1)) == 0; };
+  const bool again = !moved && is_power_of_two(loop.passes - 1) && loop.states.contains(values_.state());
+  loop.states.clear();
+  if (is_power_of_two(loop.passes) && !again) loop.states.insert(values_.state());
+  return again;
 }
 
 /// Whether one of the last passes of a loop met something new, in a reading that only looks for questions.

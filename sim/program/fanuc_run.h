@@ -69,6 +69,7 @@ class FanucRun {
   void jump(FanucCursor& at, bool certain);
   void jump_to(std::size_t target, bool certain);
   bool goes_on(std::size_t label);  // an endless loop for another pass
+  bool waits(std::size_t label);
   bool still_new(std::size_t label);
   void call_statement(const std::string& text, bool beside);
   std::vector<FanucValues::Argument> arguments_in(FanucCursor& at);
@@ -97,6 +98,7 @@ class FanucRun {
   struct Options {
     std::optional<FanucPosition> offset, tool_offset;
     bool remote = false, failed = false, skips = false, coordinated = false;
+    bool camera = false;  // the offset is what a camera finds
     std::string calls;  // programs that run before or behind the point
     std::string jumps;  // "[1]": the label of Skip or SkipJump, where the move goes on there
   };
@@ -114,6 +116,7 @@ class FanucRun {
   bool place_via(const FanucPosition& via, const FanucPosition& target, const Options& own,
                  const Options& options, Instruction& move);
   std::optional<std::pair<NamedFrame, NamedFrame>> frames_of(FanucPosition& p);
+  bool offsets_are_frames() const;
   bool place(const FanucPosition& position, const Options& options, Instruction& move, Frame& pose);
   bool read_speed(FanucCursor& at, Instruction& move);
   std::optional<double> override_share();
@@ -150,7 +153,6 @@ class FanucRun {
   std::map<std::pair<bool, int>, std::optional<Frame>> frames_;  // (tool?, number) that the program assigned
   std::optional<FanucPosition> last_;                            // where the robot is: JPOS and LPOS
   std::string offset_condition_, tool_offset_condition_;         // PR[n] of OFFSET CONDITION
-  bool to_remote_ = false;                                       // the move that is read leads a remote tool
   std::string skip_condition_;
   std::map<std::pair<const FanucListing*, std::size_t>, Endless> endless_;
   std::set<std::string> noted_;

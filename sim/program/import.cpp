@@ -396,8 +396,10 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
   return motion;
 }
 
-pipeline::Motion resolved_motion(const pipeline::Motion& motion) {
-  return motion.program.empty() ? motion : motion_of(read_program(motion), motion);
+RunMotion run_motion_of(const pipeline::Motion& motion) {
+  if (motion.program.empty()) return {motion, ""};
+  const Program program = read_program(motion);
+  return {motion_of(program, motion), waits_note(program)};
 }
 
 namespace {
@@ -425,6 +427,19 @@ void add_to_group(SkippedGroup& group, const Skipped& skipped) {
 }
 
 }  // namespace
+
+std::string waits_note(const Program& program) {
+  static const std::set<std::string> waits{"wait",   "waitdi", "waitdo",       "waitgi",   "waitgo",
+                                           "waitai", "waitao", "waitsynctask", "waituntil"};
+  const auto count = std::count_if(
+      program.skipped.begin(), program.skipped.end(),
+      [](const Skipped& skipped) { return waits.contains(lower_case(name_and_reason(skipped.what).first)); });
+  if (count == 0) return "";
+  return fmt::format(
+      "{} {} 0 s: the cycle is shorter than in the plant. Count no waits in fatigue.operating_hours_per_week, or write their "
+      "times into a copy of the program",
+      count, count == 1 ? "wait for signals counts" : "waits for signals count");
+}
 
 std::vector<pipeline::Warning> moves_left_out(const Program& program) {
   std::vector<SkippedGroup> groups;
@@ -475,6 +490,7 @@ std::vector<std::string> skipped_lines(const Program& program) {
           fmt::format("{}{}{}", list.empty() ? "" : ", ", name, count > 1 ? fmt::format(" x{}", count) : "");
     lines.push_back(fmt::format("skipped: {}: {}", reason, list));
   }
+  if (std::string note = waits_note(program); !note.empty()) lines.push_back("note: " + note);
   return lines;
 }
 

@@ -38,8 +38,17 @@ Language language_of(const pipeline::Motion& motion);
 /// `defaults`'.
 pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defaults);
 
-/// The motion that is run: itself, or its program's.
-pipeline::Motion resolved_motion(const pipeline::Motion& motion);
+/// The motion that is run, and what a run notes of its program; empty: nothing.
+struct RunMotion {
+  pipeline::Motion motion;
+  std::string note;
+};
+
+/// The motion itself, or its program's.
+RunMotion run_motion_of(const pipeline::Motion& motion);
+
+/// "3 waits for signals count 0 s ...": lines whose wait ends when something outside of the program happens; empty: none.
+std::string waits_note(const Program& program);
 
 /// What was skipped and may move the robot, or change how it moves: each thing once, with the lines where it
 /// stands.

@@ -146,6 +146,10 @@ class Inform final : public Dialect {
   bool harmless(const std::string& name) const override { return harmless_words().contains(name); }
   bool writes(const std::string&, int position, const Expression&) const override { return position == 0; }
   const RecordType* type_of(const std::string& name) const override { return code_.record(name); }
+  /// A job holds the positions of the controller as they were when it was saved.
+  std::optional<std::string> form_of_copies(const std::string& name) const override {
+    return name.starts_with("p") ? std::optional<std::string>(position_form) : std::nullopt;
+  }
   std::string form_of(const std::string& type) const override { return type == "number" ? "a number" : ""; }
   Value initial(const std::string& type) const override {
     return type == "number" ? number_value(0) : Value{};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
 
 #include "sim/program/inform.h"
@@ -35,6 +36,17 @@ Expression number_at(const Place& place, double number) {
 
 Expression name_at(const Place& place, std::string name) {
   return made(Expression::Kind::name, place, std::move(name));
+}
+
+/// Without what stands behind an instruction as a comment: SET P001 PX124 'start. A line that begins so is one as a whole.
+std::string_view without_comment(std::string_view line) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    quoted ^= line[i] == '"';
+    if (i > 0 && !quoted && line[i] == '\'' && (line[i - 1] == ' ' || line[i - 1] == '\t'))
+      return line.substr(0, i);
+  }
+  return line;
 }
 
 /// One line: a cursor over its words, and the expressions in it.
@@ -221,7 +233,7 @@ class InformParser {
     const std::string_view text = code.files[file].text();
     for (std::size_t begin = 0; begin <= text.size() && lines_.size() < ImportLimits::tokens;) {
       const std::size_t end = std::min(text.find('\n', begin), text.size());
-      lines_.push_back(text.substr(begin, end - begin));
+      lines_.push_back(without_comment(text.substr(begin, end - begin)));
       while (!lines_.back().empty() && static_cast<unsigned char>(lines_.back().back()) <= ' ')
         lines_.back().remove_suffix(1);
       begin = end + 1;
@@ -451,13 +463,53 @@ class InformParser {
     into.push_back(std::move(branch));
   }
 
-  /// JUMP *LABEL, JUMP JOB:NAME, each with IF.
+  /// Labels of the job that are numbers, with their lines.
+  std::map<std::string, int> numbered_labels() const {
+    std::map<std::string, int> labels;
+    for (std::size_t line = 0; line < lines_.size(); ++line) {
+      Words at(lines_[line], file_, static_cast<int>(line) + 1);
+      if (!at.take_sign("*")) continue;
+      const std::string name = lower_case(at.item());
+      if (!name.empty() && name.size() < 9 && name.find_first_not_of("0123456789") == std::string::npos)
+        labels.emplace(name, static_cast<int>(line) + 1);
+    }
+    return labels;
+  }
+
+  /// JUMP LABEL: B000 goes to the label whose name is the number: a choice among them. Without that label the controller stops.
+  Statement jump_by_number(Words& at, const Statement& s) {
+    Statement made = s;
+    made.kind = Kind::choose;
+    const std::string written = "LABEL: " + std::string(at.peek_word());
+    made.arguments.push_back(at.operand());
+    for (const auto& [label, line] : numbered_labels()) {
+      Branch way;
+      way.place = s.place;
+      Words number(label, file_, s.place.line);
+      way.conditions.push_back(number.operand());
+      way.conditions.back().place = {file_, line, 2};  // behind its *
+      way.body.push_back(s);
+      way.body.back().kind = Kind::jump;
+      way.body.back().name = label;
+      made.branches.push_back(std::move(way));
+    }
+    Branch none;
+    none.place = s.place;
+    none.body.push_back(s);
+    none.body.back().kind = Kind::jump;
+    none.body.back().name = written;
+    made.branches.push_back(std::move(none));
+    return made;
+  }
+
+  /// JUMP *LABEL, JUMP LABEL: B000, JUMP JOB:NAME, each with IF.
   void jump(Words& at, Statement s, std::vector<Statement>& into) {
     if (at.take_sign("*")) {
       s.kind = Kind::jump;
       s.name = lower_case(at.item());
       return only_if(at, std::move(s), into);
     }
+    if (at.take("LABEL") && at.take_sign(":")) return only_if(at, jump_by_number(at, s), into);
     if (!at.take("JOB") || !at.take_sign(":"))
       at.fail("jumps to a label or job whose name is worked out while the robot runs");
     s.name = "job:" + at.word(true);

@@ -107,6 +107,9 @@ class Dialect {
   virtual const RecordType* type_of(const std::string& name) const = 0;
   /// How a value of a type is written: "a number"; empty: as it is in the program.
   virtual std::string form_of(const std::string& type) const = 0;
+  /// Where files hold copies of data of the controller, which differ if they were saved at different times: how such a value is
+  /// written, which is asked for then. Absent: two files that differ are a mistake.
+  virtual std::optional<std::string> form_of_copies(const std::string&) const { return {}; }
   /// The number that a text of one letter stands for; absent: none in this language.
   virtual std::optional<double> letter(const Value& text) const {
     static_cast<void>(text);

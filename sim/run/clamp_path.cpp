@@ -59,14 +59,16 @@ std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup) {
   return std::make_unique<RobotPath>(setup);
 }
 
-RobotPath::RobotPath(const pipeline::Setup& setup) : RobotPath(setup, resolved_motion(setup.motion)) {}
+RobotPath::RobotPath(const pipeline::Setup& setup) : RobotPath(setup, run_motion_of(setup.motion)) {}
 
-RobotPath::RobotPath(const pipeline::Setup& setup, const pipeline::Motion& motion)
+RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
     : kinematics_(setup.robot),
-      motion_(motion, setup.robot),
-      doubts_(pipeline::joined(pipeline::joined(motion.left_out, missing_external_axes(motion, setup.robot)),
-                               setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
-                                                             : pipeline::plausibility_of_steps(motion))),
+      motion_(run.motion, setup.robot),
+      doubts_(pipeline::joined(
+          pipeline::joined(run.motion.left_out, missing_external_axes(run.motion, setup.robot)),
+          setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
+                                       : pipeline::plausibility_of_steps(run.motion))),
+      note_(run.note),
       mounting_pose_(motion_.position(0)) {
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const pipeline::Routing& routing = mounted.routing;

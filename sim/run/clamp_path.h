@@ -48,6 +48,8 @@ class ClampPath {
   virtual const std::vector<std::string>& step_texts() const = 0;
 };
 
+struct RunMotion;  // sim/program/import.h
+
 /// The clamps carried by a robot that runs a joint program.
 class RobotPath final : public ClampPath {
  public:
@@ -62,6 +64,7 @@ class RobotPath final : public ClampPath {
   const JointMotion& motion() const { return motion_; }
   /// Of the robot program (Motion::left_out, external axes that the robot lacks) and of unusual steps.
   const std::vector<pipeline::Warning>& doubts() const { return doubts_; }
+  const std::string& note() const { return note_; }  ///< what a run says of its program; empty: nothing
   Pose pose(const Eigen::VectorXd& joints) const;
   /// (end, as ClampFrames counts them) index of the link that carries it; no_link: a free end.
   const std::vector<int>& end_links() const { return end_links_; }
@@ -76,12 +79,13 @@ class RobotPath final : public ClampPath {
   void turn_clamp(int end, double roll);
 
  private:
-  RobotPath(const pipeline::Setup& setup, const pipeline::Motion& motion);
+  RobotPath(const pipeline::Setup& setup, const RunMotion& run);
   void add_dresspack(const pipeline::Setup& setup, const pipeline::Routing& routing);
 
   RobotKinematics kinematics_;
   JointMotion motion_;
   std::vector<pipeline::Warning> doubts_;
+  std::string note_;
   std::vector<int> end_links_, ring_links_;
   std::vector<int> end_clamps_;  // (end) index into clamps_; a free end names the clamp before it
   std::vector<int> clamp_links_;

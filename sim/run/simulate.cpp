@@ -86,6 +86,8 @@ std::vector<pipeline::Warning> Simulation::doubts() const {
   return robot_ ? robot_->doubts() : std::vector<pipeline::Warning>{};
 }
 
+std::string Simulation::program_note() const { return robot_ ? robot_->note() : ""; }
+
 std::string Simulation::moment(double time) const {
   const int step = path_->step(time);
   return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1, path_->step_texts()[step]);

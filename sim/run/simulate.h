@@ -98,6 +98,7 @@ class Simulation {
   const Rod& rod() const { return rod_; }
   /// Of the robot program that was read (Motion::left_out); nothing without one.
   std::vector<pipeline::Warning> doubts() const;
+  std::string program_note() const;  ///< what a run says of that program; empty: nothing
   /// As given; simulation.time_step is the step that the run begins with.
   const pipeline::Setup& setup() const { return setup_; }
   std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'"

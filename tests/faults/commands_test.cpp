@@ -2,7 +2,6 @@
 // what it leaves then is what it says and leaves without the fault; with status 1 it says why; nothing is half made, and
 // no file of the user is lost.
 #include <iostream>
-#include <map>
 #include <random>
 
 #include "tests/catch.h"
@@ -16,59 +15,23 @@ namespace {
 struct Command {
   std::string program, arguments;
 };
-const std::vector<Command> commands{{"dresslife", "status study.yaml"},
-                                    {"dresslife", "report study.yaml"},
-                                    {"dresslife", "page runs/study/a"},
-                                    {"dresslife", "plot runs/study/a --what cycles -o cycles.svg"},
-                                    {"dresslife", "export runs/study/a --paraview job.xdmf"},
-                                    {"dresslife", "preview job.yaml -o job.html"},
-                                    {"dresslife", "draw hose.yaml -o hose.svg"},
-                                    {"dresslife", "show job.yaml"},
-                                    {"dresslife", "show runs/study/a"},
-                                    {"dresslife", "check job.yaml"},
-                                    {"dresslife", "new --robot abb_irb6640_185_280 --program swing.mod new.yaml"},
-                                    {"dresslife", "submit study.yaml --only-write"},
-                                    {"dresslife", "clean lives.yaml"},
-                                    {"dresslife", "run study.yaml --quiet"},
-                                    {"dresslife-import", "swing.mod -o swing.yaml"},
-                                    {"dresslife-import", "asks.mod -o asks.yaml --answers answers.yaml"}};
-struct Kind {
-  std::string call, mode, path;
-};
-/// A disk that is full, broken or slow to tell, in every call by which a program can notice.
-const std::vector<Kind> kinds{{"write", "ENOSPC", ""},    {"sync", "EIO", ""},        {"close", "EIO", ""},
-                              {"cut", "EIO", ""},         {"rename", "EIO", ""},      {"link", "EPERM", "dresslife-"},
-                              {"remove", "EIO", "dresslife-"}, {"make", "EACCES", "dresslife-"}, {"read", "EIO", "dresslife-"},
-                              {"read", "end", ".h5"},     {"read", "short", ".h5"},   {"read", "flip", ".h5"},
-                              {"look", "EIO", "dresslife-"}, {"open", "EIO", "dresslife-"}, {"open", "EMFILE", "dresslife-"},
-                              {"list", "EIO", "dresslife-"}, {"lock", "ENOLCK", ""}};
-
-bool is_of_the_test(const std::string& name) {
-  return name == ".out" || name == ".err" || name == "call.sh" || name == "count";
-}
-/// What a runner notes for itself: later runs repair it.
-bool is_a_note(const std::string& name) {
-  return name.find(".stage") != std::string::npos || name.ends_with(".lock") || name.ends_with("build.ninja") ||
-         name.ends_with("/log");
-}
-
-std::map<std::string, std::string> files_in(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (const std::string name = fs::relative(entry.path(), folder).string();
-        entry.is_regular_file() && !is_of_the_test(name))
-      files[name] = content(entry.path());
-  return files;
-}
-
-/// As it was before, but for the dates of files that did not change.
-void restore(const Scratch& scratch, const std::map<std::string, std::string>& before) {
-  for (const auto& [name, bytes] : files_in(scratch.folder()))
-    if (!before.contains(name)) fs::remove(scratch / name);
-  for (const auto& [name, bytes] : before)
-    if (!fs::exists(scratch / name) || content(scratch / name) != bytes) scratch.write(name, bytes);
-}
-
+const std::vector<Command> commands{
+    {"dresslife", "status study.yaml"},
+    {"dresslife", "report study.yaml"},
+    {"dresslife", "page runs/study/a"},
+    {"dresslife", "plot runs/study/a --what cycles -o cycles.svg"},
+    {"dresslife", "export runs/study/a --paraview job.xdmf"},
+    {"dresslife", "preview job.yaml -o job.html"},
+    {"dresslife", "draw hose.yaml -o hose.svg"},
+    {"dresslife", "show job.yaml"},
+    {"dresslife", "show runs/study/a"},
+    {"dresslife", "check job.yaml"},
+    {"dresslife", "new --robot abb_irb6640_185_280 --program swing.mod new.yaml"},
+    {"dresslife", "submit study.yaml --only-write"},
+    {"dresslife", "clean lives.yaml"},
+    {"dresslife", "run study.yaml --quiet"},
+    {"dresslife-import", "swing.mod -o swing.yaml"},
+    {"dresslife-import", "asks.mod -o asks.yaml --answers answers.yaml"}};
 /// Results of a study and a user's own files beside them.
 void write_inputs(const Scratch& scratch) {
   write_small_job(scratch);

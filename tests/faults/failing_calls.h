@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <random>
 #include <string>
@@ -25,15 +26,15 @@ struct Fault {
   std::string mode{}, path{}, more = "0";
 };
 
-/// Runs a program with such a fault. Programs that it starts are left alone.
+/// Runs a program with such a fault. Programs that it starts are left alone. One that hangs ends with status 124.
 inline Outcome run_failing(const Scratch& scratch, const Fault& fault, const std::string& program,
                            const std::string& arguments) {
   return run_with(scratch,
                   // so that a sanitized program lets a library be preloaded
-                  "env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=" + fault.call +
-                      " FAULT_AT=" + std::to_string(fault.at) + " FAULT_MODE=" + fault.mode + " FAULT_PATH='" +
-                      fault.path + "' FAULT_MORE=" + fault.more + " FAULT_PROGRAM=" + program + " FAULT_COUNT='" +
-                      (scratch / "count").string() + "' LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "' ",
+                  "env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=" + fault.call + " FAULT_AT=" +
+                      std::to_string(fault.at) + " FAULT_MODE=" + fault.mode + " FAULT_PATH='" + fault.path +
+                      "' FAULT_MORE=" + fault.more + " FAULT_PROGRAM=" + program + " FAULT_COUNT='" +
+                      (scratch / "count").string() + "' LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "' timeout 300",
                   program, arguments);
 }
 inline Outcome run_failing(const Scratch& scratch, const std::string& call, int at,
@@ -66,6 +67,54 @@ inline bool holds_parts(const fs::path& folder) {
 inline bool is_one_error(const std::string& words) {
   return std::count(words.begin(), words.end(), '\n') == 1 && words.find(": error: ") != std::string::npos &&
          words.find("; ") != std::string::npos;
+}
+
+struct Kind {
+  std::string call, mode, path;
+};
+/// A disk that is full, broken or slow to tell, in every call by which a program can notice.
+inline const std::vector<Kind> kinds{{"write", "ENOSPC", ""},
+                                     {"sync", "EIO", ""},
+                                     {"close", "EIO", ""},
+                                     {"cut", "EIO", ""},
+                                     {"rename", "EIO", ""},
+                                     {"link", "EPERM", "dresslife-"},
+                                     {"remove", "EIO", "dresslife-"},
+                                     {"make", "EACCES", "dresslife-"},
+                                     {"read", "EIO", "dresslife-"},
+                                     {"read", "end", ".h5"},
+                                     {"read", "short", ".h5"},
+                                     {"read", "flip", ".h5"},
+                                     {"look", "EIO", "dresslife-"},
+                                     {"open", "EIO", "dresslife-"},
+                                     {"open", "EMFILE", "dresslife-"},
+                                     {"list", "EIO", "dresslife-"},
+                                     {"lock", "ENOLCK", ""}};
+
+inline bool is_of_the_test(const std::string& name) {
+  return name == ".out" || name == ".err" || name == "call.sh" || name == "count";
+}
+/// What a runner notes for itself: later runs repair it.
+inline bool is_a_note(const std::string& name) {
+  return name.find(".stage") != std::string::npos || name.ends_with(".lock") ||
+         name.ends_with("build.ninja") || name.ends_with("/log");
+}
+
+inline std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (const std::string name = fs::relative(entry.path(), folder).string();
+        entry.is_regular_file() && !is_of_the_test(name))
+      files[name] = content(entry.path());
+  return files;
+}
+
+/// As it was before, but for the dates of files that did not change.
+inline void restore(const Scratch& scratch, const std::map<std::string, std::string>& before) {
+  for (const auto& [name, bytes] : files_in(scratch.folder()))
+    if (!before.contains(name)) fs::remove(scratch / name);
+  for (const auto& [name, bytes] : before)
+    if (!fs::exists(scratch / name) || content(scratch / name) != bytes) scratch.write(name, bytes);
 }
 
 }  // namespace dresslife::tests

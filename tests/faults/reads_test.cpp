@@ -18,14 +18,12 @@ const std::vector<Stage> stages{{"dresslife-sim", "job.yaml", "motion.h5"},
                                 {"dresslife-strain", "motion.h5", "strain.h5"},
                                 {"dresslife-fatigue", "strain.h5", "life.h5"}};
 
-struct Kind {
-  std::string call, mode, path;
-};
 /// Of a read every way in which it can go wrong without a word; of the others the error.
-const std::vector<Kind> kinds{{"read", "EIO", ".h5"},   {"read", "end", ".h5"},   {"read", "flip", ".h5"},
-                              {"read", "short", ".h5"}, {"read", "EIO", ".part"}, {"read", "end", ".part"},
-                              {"read", "flip", ".part"}, {"look", "EIO", "dresslife"}, {"open", "EIO", "dresslife-"},
-                              {"list", "EIO", "dresslife-"}, {"lock", "ENOTSUP", ""}};
+const std::vector<Kind> kinds_of_reads{
+    {"read", "EIO", ".h5"},        {"read", "end", ".h5"},       {"read", "flip", ".h5"},
+    {"read", "short", ".h5"},      {"read", "EIO", ".part"},     {"read", "end", ".part"},
+    {"read", "flip", ".part"},     {"look", "EIO", "dresslife"}, {"open", "EIO", "dresslife-"},
+    {"list", "EIO", "dresslife-"}, {"lock", "ENOTSUP", ""}};
 
 std::map<std::string, std::string> results(const fs::path& folder) {
   std::map<std::string, std::string> files;
@@ -54,7 +52,7 @@ TEST_CASE("each read, look and lock that fails in a stage fails it in words, or 
   std::cout << "failing reads with seed " << seed << '\n';
   for (const Stage& stage : stages) {
     int refused = 0, whole = 0;
-    for (const Kind& kind : kinds) {
+    for (const Kind& kind : kinds_of_reads) {
       const auto fail_at = [&](int at) {
         fs::remove_all(scratch / "out");
         fs::create_directories(scratch / "out");

@@ -193,6 +193,67 @@ TEST_CASE("fanuc positions: a remote tool stands in the user frame, the robot ca
   CHECK((flange(r.move(2)).position - Vector3(2, 0, 0.7)).norm() < rounding);
 }
 
+TEST_CASE("fanuc loops: one that changes nothing waits, and the motion goes on behind it") {
+  // Whoever waits for DI[1] says what it is, not when it changes.
+  for (const char* wait : {"", "   2:  WAIT .10(sec) ;\n", "   2:  R[5]=3 ;\n   2:  F[1]=OFF ;\n"}) {
+    const Reading r = run(std::string("   1:  LBL[1] ;\n") + wait +
+                              "   3:  IF DI[1]=OFF,JMP LBL[1] ;\n   4:J P[1] 100% FINE ;\n",
+                          {.values = {{"DI[1]", "OFF"}}});
+    INFO(wait << r.problem());
+    REQUIRE(r.problems.empty());
+    CHECK(stops(r) == std::vector<int>{1});
+    INFO(r.program.skipped.size());
+    CHECK(std::any_of(r.program.skipped.begin(), r.program.skipped.end(),
+                      [](const Skipped& s) { return s.what.find("waits in a loop") == 0; }));
+  }
+  // Nothing is behind a loop without a condition.
+  CHECK(stops(run(
+            "   1:J P[1] 100% FINE ;\n   2:  LBL[1] ;\n   3:  JMP LBL[1] ;\n   4:J P[2] 100% FINE ;\n")) ==
+        std::vector<int>{1});
+  // A loop that counts or moves ends by itself.
+  CHECK(
+      stops(run("   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:  R[1]=R[1]+1 ;\n   4:  IF R[1]<900,JMP LBL[1] ;\n   "
+                "5:J P[1] R[1]msec FINE ;\n")) == std::vector<int>{1});
+  CHECK(
+      stops(
+          run("   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:J P[1] 100% FINE ;\n   4:  R[1]=R[1]+1 ;\n   5:  IF R[1]<5,JMP LBL[1] ;\n"))
+          .size() == 5);
+}
+
+TEST_CASE("fanuc positions: an offset adds up in the form of the position, or is a frame before it") {
+  const auto moved = [](const std::string& offset, Asked asked = {}, const std::string& to = "P[3]") {
+    asked.values["PR[1]"] = offset;
+    const Reading r = run("   1:L " + to + " 100mm/sec FINE Offset,PR[1] ;\n", asked);
+    REQUIRE(r.problem() == "no such problem");
+    return r.move(0).target.pose;
+  };
+  const Vector3 place = run("   1:L P[3] 100mm/sec FINE ;\n").move(0).target.pose.position;
+  const std::string turn = "X 10 Y 0 Z 0 W 0 P 0 R 90";
+  CHECK((moved(turn).position - place - Vector3(0.01, 0, 0)).norm() < rounding);
+  const Asked frames{.values = {{"$OFFSET_CART", "TRUE"}}};
+  CHECK((moved(turn, frames).position - Vector3(0.01 - place.y(), place.x(), place.z())).norm() < rounding);
+  // Both turn the tool alike: R is the last of the turns.
+  CHECK(std::abs(moved(turn).orientation.dot(moved(turn, frames).orientation)) ==
+        Approx(1).epsilon(rounding));
+  // A backup says it.
+  const Reading backup =
+      run("   1:L P[3] 100mm/sec FINE Offset,PR[1] ;\n", {.values = {{"PR[1]", turn}}},
+          {{"system.va", "[*SYSTEM*]$OFFSET_CART  Storage: CMOS  Access: RW  : BOOLEAN = TRUE\n"}});
+  CHECK((backup.move(0).target.pose.position - moved(turn, frames).position).norm() < rounding);
+  // RX ... of a remote tool: 110 mm instead of 100 mm, of which the pose is the inverse.
+  CHECK((moved("X 10 Y 0 Z 0 W 0 P 0 R 0", {}, "P[4]").position - Vector3(0, 0.11, -0.3)).norm() < rounding);
+  CHECK(run("   1:L P[4] 100mm/sec FINE Offset,PR[1] ;\n",
+            {.values = {{"PR[1]", turn}, {"$OFFSET_CART", "TRUE"}}})
+            .problems.at(0)
+            .what == "is offset on a remote tool by a frame");
+  // A tool's offset is in its own axes: 10 mm along z of the tool that the robot carries.
+  const Reading tool = run("   1:L P[4] 100mm/sec FINE ;\n   2:L P[4] 100mm/sec FINE Tool_Offset,PR[1] ;\n",
+                           {.values = {{"PR[1]", "X 0 Y 0 Z 10 W 0 P 0 R 0"}}});
+  const Frame &before = tool.move(0).target.pose, &after = tool.move(1).target.pose;
+  CHECK((before.orientation.conjugate() * (after.position - before.position) - Vector3(0, 0, 0.01)).norm() <
+        rounding);
+}
+
 TEST_CASE("fanuc values: KAREL programs and macros may write registers") {
   const Reading asked =
       run("   1:  R[1]=3 ;\n   2:  CALL GETCOUNT(1) ;\n   3:  FOR R[2]=1 TO R[1] ;\n   4:J P[1] 100% FINE "

@@ -216,6 +216,42 @@ TEST_CASE("import: a copy beside the named program does not count") {
   CHECK(read.skipped[0].what.find("load_old.src:1") != std::string::npos);
 }
 
+TEST_CASE("import: waits for signals count no time, and are counted, in every language") {
+  const pipeline::Scratch scratch;
+  const auto note = [&](const std::string& file, const std::string& text) {
+    pipeline::Motion motion;
+    motion.program = scratch.write(file, text);
+    return run_motion_of(motion).note;
+  };
+  const std::string rest =
+      " 0 s: the cycle is shorter than in the plant. Count no waits in fatigue.operating_hours_per_week, "
+      "or write their times into a copy of the program";
+  const std::string joints = "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n";
+  CHECK(
+      note(
+          "w.mod",
+          "MODULE w\nPROC main()\nMoveAbsJ " + joints +
+              "FOR i FROM 1 TO 9 DO\nWaitDI di1,1;\nENDFOR\nWaitUntil di2=1;\nWaitTime 2;\nSetDO do1,1;\nMoveAbsJ " +
+              joints + "ENDPROC\nENDMODULE\n") == "2 waits for signals count" + rest);
+  CHECK(
+      note("w.src", "DEF w()\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}\nWAIT FOR $IN[1]\nWAIT SEC 1\nEND\n") ==
+      "1 wait for signals counts" + rest);
+  CHECK(
+      note(
+          "w.ls",
+          "/PROG W\n/MN\n 1:J P[1] 100% FINE ;\n 2:  WAIT DI[1]=ON ;\n 3:  WAIT .50(sec) ;\n/POS\nP[1]{\n GP1:\n UF : 0, "
+          "UT : 1,\n J1=0 deg,J2=0 deg,J3=0 deg,J4=0 deg,J5=0 deg,J6=0 deg\n};\n/END\n") ==
+      "1 wait for signals counts" + rest);
+  CHECK(
+      note(
+          "w.jbi",
+          "/JOB\n//NAME W\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\nC00000=10,0,0,0,-90,0\n"
+          "//INST\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=1\nWAIT IN#(1)=ON\nTIMER T=1.00\nEND\n") ==
+      "1 wait for signals counts" + rest);
+  CHECK(note("without.mod",
+             "MODULE w\nPROC main()\nMoveAbsJ " + joints + "WaitTime 2;\nENDPROC\nENDMODULE\n") == "");
+}
+
 TEST_CASE("import: the cycle times of the example programs") {
   // Anchors: motion_cycle_time_test derives times by hand. A fault in a corner, a zone or a wait shows here; in one
   // program such a fault moved the life by 40 %.
@@ -231,6 +267,6 @@ TEST_CASE("import: the cycle times of the example programs") {
     motion.program = std::string(DRESSLIFE_SOURCE_DIR "/config/programs/") + program;
     const pipeline::Job job = pipeline::read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml",
                                                  {std::string("robot=") + robot});
-    CHECK(JointMotion(resolved_motion(motion), job.robot).duration() == Approx(duration).epsilon(1e-3));
+    CHECK(JointMotion(run_motion_of(motion).motion, job.robot).duration() == Approx(duration).epsilon(1e-3));
   }
 }

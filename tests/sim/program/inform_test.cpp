@@ -334,3 +334,55 @@ TEST_CASE("inform: what is wrong in a job has its line, and counts where the job
   CHECK(skips(run(three, "MOVJ C00000 VJ=9\nWVON WEV#(1)\nFORMCUT FCF#(1)\nDOUT OT#(1) ON\n"), "FORMCUT",
               true));
 }
+
+TEST_CASE("inform: a jump to the label of a number leads there") {
+  // A routine by hand: the place to come back to is a number.
+  const std::string lines =
+      "SET B000 4\nJUMP *SUB\n*4\nMOVL C00000 V=100.0\nSET B000 5\nJUMP *SUB\n*5\nMOVL C00001 V=100.0\nJUMP *LAST\n*SUB\nMOVL "
+      "C00002 V=100.0\nJUMP LABEL: B000\nMOVL C00000 V=1.0\n*LAST\n";
+  const Reading r = run(three, lines);
+  REQUIRE(r.problem() == "no such problem");
+  const int first = r.move(0).where.line;
+  CHECK(lines_of(r) == std::vector<int>{first, first - 7, first, first - 3});
+  CHECK(run(three, "SET B000 9\nJUMP LABEL: B000\n*4\nMOVL C00000 V=1.0\n")
+            .problem()
+            .find("jumps to 'LABEL: B000', which is no label") != std::string::npos);
+  const Reading asked =
+      run(three, "GETARG B000 IARG#(1)\nJUMP LABEL: B000\nMOVL C00000 V=1.0\n*7\nMOVL C00001 V=1.0\n");
+  REQUIRE(asked.problems.size() == 1);
+  CHECK(asked.problem().find("IARG#(1)") != std::string::npos);
+  const Reading chosen =
+      run(three, "JUMP LABEL: B098\nMOVL C00000 V=1.0\n*7\nMOVL C00001 V=1.0\n*12\nMOVL C00002 V=1.0\n");
+  REQUIRE(chosen.problems.size() == 1);
+  REQUIRE(chosen.problems[0].questions.size() == 1);
+  CHECK(chosen.problems[0].questions[0].name == "B098");
+  CHECK(chosen.problems[0].questions[0].form == "one of 12, 7");
+}
+
+TEST_CASE("inform: a comment behind an instruction ends its line, one in a text does not") {
+  const Reading r =
+      run(three, "MOVL C00000 V=100.0 'first\nMSG \"it's here\"\nMOVL C00001 V=100.0\t' MOVL C00002\n");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(r.program.instructions.size() == 2);
+}
+
+TEST_CASE("inform: a position that several jobs hold is asked for where they differ") {
+  const auto other = [](const char* y) {
+    return std::pair<std::string, std::string>{
+        "B.JBI",
+        job("B", base + "P00005=1000.000," + y + ",500.000,180.0000,0.0000,0.0000\n", "MOVL P005 V=50.0\n")};
+  };
+  const std::string own = base + "P00005=1000.000,0.000,500.000,180.0000,0.0000,0.0000\n",
+                    lines = "MOVL P005 V=100.0\nCALL JOB:B\n";
+  CHECK(run(own, lines, {}, {frames, other("0.000")}).problem() == "no such problem");
+  const Reading asked = run(own, lines, {}, {frames, other("7.000")});
+  REQUIRE(asked.problems.size() == 1);
+  REQUIRE(asked.problems[0].questions.size() == 1);
+  CHECK(asked.problems[0].questions[0].name == "P005");
+  const Reading told =
+      run(own, lines, given({{"P005", "[[1000, 9, 500, 180, 0, 0], \"base\", 0, 1, [0, 0, 0, 0, 0, 0]]"}}),
+          {frames, other("7.000")});
+  REQUIRE(told.problem() == "no such problem");
+  REQUIRE(told.program.instructions.size() == 2);
+  for (int i : {0, 1}) CHECK(told.move(i).target.pose.position.y() == Approx(0.009).epsilon(rounding));
+}

@@ -119,6 +119,30 @@ TEST_CASE("questions: one round of answers is enough for a machine of states") {
   CHECK(second_round(Language::rapid, {{"m.mod", states}}) == "");
 }
 
+TEST_CASE("questions: one round of answers is enough where ways must come together") {
+  // What an arm that moves nothing sets counts in one arm of a later branch alone.
+  const std::string together =
+      "MODULE m\nCONST jointtarget j:=" + axes +
+      ";\nVAR num k;\nPROC main()\nIF di1=1 THEN\nk:=gi1;\nENDIF\nIF di2=1 THEN\nMoveAbsJ j,v100,fine,tool0;\nRETURN;\nENDIF\n"
+      "IF k=0 MoveAbsJ j,v200,fine,tool0;\nMoveAbsJ j,v300,fine,tool0;\nENDPROC\nENDMODULE\n";
+  CHECK(questions(Reader{Language::rapid}({{"m.mod", together}})) ==
+        std::set<std::string>{"value di1", "value di2", "value gi1"});
+  CHECK(second_round(Language::rapid, {{"m.mod", together}}) == "");
+  // Eight inputs must be as the work needs them, else the cycle begins again: 1 of 256 ways by lot leads to the last question.
+  std::string lines = "*START\nMOVJ C00000 VJ=10.00\n";
+  std::set<std::string> wanted{"value IN#(9)"};
+  for (int i = 1; i <= 8; ++i) {
+    lines += fmt::format("JUMP *START IF IN#({})=OFF\n", i);
+    wanted.insert(fmt::format("value IN#({})", i));
+  }
+  lines += "JUMP *START IF IN#(9)=OFF\nMOVJ C00000 VJ=20.00\n";
+  const std::string work =
+      "/JOB\n//NAME A\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\n"
+      "C00000=10,0,0,0,-90,0\n//INST\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\n" +
+      lines + "END\n";
+  CHECK(questions(Reader{Language::inform}({{"A.JBI", work}})) == wanted);
+}
+
 TEST_CASE("questions: one round of answers is enough for KRL, whatever the answers are") {
   const std::string text =
       "DEF m()\nDECL INT n\nn=0\nIF $IN[1] THEN\nn=count\nENDIF\nFOR i=1 TO n\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 "

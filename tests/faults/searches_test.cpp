@@ -1,0 +1,180 @@
+// Commands that run stages of their own, with calls and allocations that fail: a command that ends with status 0 says and
+// leaves what it does without the fault, one that ends with status 1 says why, and the next one without a fault is right.
+#include <iostream>
+#include <random>
+
+#include "tests/catch.h"
+#include "tests/cli/process.h"
+#include "tests/faults/failing_calls.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+struct Command {
+  std::string arguments, results;  ///< below runs/
+};
+const std::vector<Command> commands{
+    {"rate hose.yaml --quiet", "rate_hose"},
+    {"validate lives.yaml --quiet", "validate_lives"},
+    {"calibrate lives.yaml --quiet", "calibrate_lives"},
+    {"improve better.yaml --trials 2 --rehearsals 2 --off 0 --quiet", "better_improve"},
+    {"reprogram robot.yaml --lines 1 --quiet", "robot_reprogram"},
+    {"route abb_irb2600_12_165 --dresspack ./hose.yaml --tried 20 --rehearsals 2 --off 0 --quiet "
+     "--set simulation.segments=8 --job found.yaml",
+     "abb_irb2600_12_165_route"}};
+
+void write_inputs(const Scratch& scratch) {
+  write_small_job(scratch);
+  scratch.write("better.yaml", R"(base: job.yaml
+jobs:
+  hose:
+    dresspack.least_bend_radius_mm: 60
+    dresspack.components.1.base_grip_N: 2
+    dresspack.components.1.tool_grip_N: 2
+    strain.slip: [free, stick]
+free: {routing.free_length_m: 0.85 .. 0.95}
+limits: {tension_N: 400}
+)");
+  scratch.write("hose.yaml", R"(name: thin hose
+source: made for the tests
+diameter_mm: 12
+inner_diameter_mm: 10.2
+mass_kg_per_m: 0.2
+bending_stiffness_Nm2: 0.5
+torsional_stiffness_Nm2: 0.5
+axial_stiffness_N: 50000
+damping_time_ms: 20
+damping_source: made for the tests
+least_bend_radius_mm: 60
+components:
+  - name: cable
+    count: 2
+    radius_mm: 2
+    helix_radius_mm: 3
+    slack_percent: 1
+    components:
+      - {name: wire, count: 6, radius_mm: 0.1, helix_radius_mm: 1, lay_angle_deg: 15, material: copper}
+)");
+  scratch.write("lives.yaml", R"(observations:
+  - name: wire
+    job:
+      motion: {rig: {kind: axial, elongation_percent: 0.2}}
+      dresspack:
+        cable: {name: wire, source: test, radius_mm: 0.1, components: [
+          {name: strand, radius_mm: 0.1, helix_radius_mm: 0, material: copper_halved}]}
+    what: pulled
+    source: made for the tests
+    criterion: first_wire
+    cycles: 1e+6
+    outcome: broken
+)");
+  scratch.write("turn.mod", R"(MODULE turn
+  CONST jointtarget home:=[[0,-10,10,0,25,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST jointtarget over:=[[0,-10,10,0,25,90],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveAbsJ home,v2000,fine,tool0;
+    MoveAbsJ over,v2000,fine,tool0;
+    MoveAbsJ home,v2000,fine,tool0;
+  ENDPROC
+ENDMODULE
+)");
+  scratch.write("robot.yaml", R"(robot: abb_irb6640_185_280
+motion: {program: turn.mod}
+dresspack: sensor_cable
+routing:
+  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}
+  tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
+  free_length_m: 2.035
+simulation: {segments: 12, sample_rate_Hz: 20}
+)");
+  scratch.write("notes.txt", "mine\n");
+}
+
+/// The kinds of every command, and memory that ends.
+std::vector<std::pair<Kind, std::string>> kinds_with_memory() {
+  std::vector<std::pair<Kind, std::string>> all;
+  for (const Kind& kind : kinds) all.emplace_back(kind, "0");
+// The sanitizers' allocators are their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  for (const char* more : {"0", "all"}) all.emplace_back(Kind{"allocate", "", ""}, more);
+#endif
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("searches and comparisons under failing calls: each is right, or refused and right the next time") {
+  const unsigned seed = std::random_device{}();
+  std::mt19937 random(seed);
+  std::cout << "failing calls of searches with seed " << seed << '\n';
+  const bool is_long = rounds(1) > 1;
+  for (const Command& command : commands) {
+    Scratch scratch;
+    write_inputs(scratch);
+    const std::map<std::string, std::string> inputs = files_in(scratch.folder());
+    const Outcome right = run(scratch, "dresslife", command.arguments);
+    INFO(command.arguments << ": " << right.out << right.err);
+    REQUIRE(right.status == 0);
+    scratch.write("runs/" + command.results + "/notes.txt", "mine\n");
+    const std::map<std::string, std::string> after = files_in(scratch.folder());
+    // The stages' results are there, those of the command itself are not.
+    const std::map<std::string, std::string> half = [&] {
+      std::map<std::string, std::string> files = after;
+      std::erase_if(files, [&](const auto& file) {
+        const fs::path parent = fs::path(file.first).parent_path();
+        return !inputs.contains(file.first) && fs::path(file.first).filename() != "notes.txt" &&
+               (parent.empty() || parent == fs::path("runs") / command.results);
+      });
+      return files;
+    }();
+    int refused = 0, whole = 0;
+    const auto check_after = [&](const Outcome& outcome) {
+      const std::map<std::string, std::string> now = files_in(scratch.folder());
+      REQUIRE(outcome.out == right.out);
+      for (const auto& [name, bytes] : after) {
+        INFO(name);
+        REQUIRE((is_a_note(name) || (now.contains(name) && now.at(name) == bytes)));
+      }
+    };
+    for (const auto& [kind, more] : kinds_with_memory())
+      for (const auto* before : {&half, &inputs}) {
+        // From nothing each takes seconds.
+        if (!is_long && (before == &inputs || random() % 4 != 0)) continue;
+        const auto fail_at = [&](int at) {
+          restore(scratch, *before);
+          return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path, more}, "dresslife",
+                             command.arguments);
+        };
+        fail_at(0);
+        const int total = calls_counted(scratch);
+        if (total == 0) continue;
+        for (const int at :
+             some_of(total, before == &half ? rounds(2) : std::max(1, rounds(1) / 4), random)) {
+          const Outcome outcome = fail_at(at);
+          INFO(kind.call << ' ' << kind.mode << ' ' << at << " of " << total << " (" << more << " more), "
+                         << (before == &half ? "resumed" : "from nothing") << ": " << outcome.status << '\n'
+                         << outcome.out << outcome.err);
+          REQUIRE((outcome.status == 0 || outcome.status == 1));
+          REQUIRE_FALSE(holds_parts(scratch.folder()));
+          for (const auto& [name, bytes] : inputs) REQUIRE(content(scratch / name) == bytes);
+          if (before == &half)
+            REQUIRE(content(scratch / ("runs/" + command.results + "/notes.txt")) == "mine\n");
+          scratch.write("runs/" + command.results + "/notes.txt", "mine\n");
+          if (outcome.status == 0) {
+            check_after(outcome);
+            ++whole;
+          } else {
+            REQUIRE((outcome.err + outcome.out).find("error: ") != std::string::npos);
+            ++refused;
+            const Outcome next = run(scratch, "dresslife", command.arguments);
+            INFO("the next time: " << next.out << next.err);
+            REQUIRE(next.status == 0);
+            check_after(next);
+          }
+        }
+      }
+    std::cout << command.arguments.substr(0, command.arguments.find(' ')) << ": " << refused << " refused, "
+              << whole << " whole, 0 false, 0 lost\n";
+  }
+}
