@@ -234,6 +234,23 @@ void CablePaths::add_stuck(Cable& cable, std::size_t segment, const double* twis
   }
 }
 
+void CablePaths::rehearse(std::span<CablePaths* const> all, const SpanBlock& block) {
+  std::vector<CablePaths*> own;
+  std::vector<LooseCables*> cables;
+  for (CablePaths* const of : all)
+    if (of->loose_) {
+      own.push_back(of);
+      cables.push_back(&*of->loose_);
+      of->add_hose(block);  // its twist; add() writes over it
+    }
+  for (std::size_t t = 0; t < block.deformation.samples() && !own.empty(); ++t) {
+    own.front()->find_nodes(block, t);
+    for (CablePaths* const of : own) of->shorten_loose(t);
+    LooseCables::advance(cables, own.front()->nodes_, block.step);
+  }
+  for (LooseCables* const of : cables) of->forget_restless();
+}
+
 void CablePaths::add_loose(std::span<CablePaths* const> all, const SpanBlock& block) {
   std::vector<LooseCables*> cables;
   for (CablePaths* const of : all) {

@@ -230,6 +230,51 @@ TEST_CASE("a ring turns out of a twist that alternates, and what strain is left 
   CHECK(left[2] < left[1] / 5);
 }
 
+TEST_CASE("a ring that snaps over comes to rest within the sample") {
+  // From one twist to the opposite at once, with 1 % of slack: the winding changes its hand.
+  std::vector<LooseCable> cables = ring_of_ten(0.01);
+  for (LooseCable& cable : cables) cable.bending_stiffness = 0.02;
+  LooseCables loose(cables, {2.035, 128});
+  double highest = 0;
+  for (int t = 0; t < 24; ++t) {
+    const double twist = t % 8 < 4 ? 4 : -4;
+    loose.advance(hose(128, [&](double z) { return HoseNode{2 * std::sin(pi * z), 2 * std::cos(pi * z), twist}; }), step);
+    for (std::size_t k = 0; k < loose.cables(); ++k) highest = std::max(highest, std::abs(loose.state(k).tension[0]));
+  }
+  INFO(highest << " N");
+  CHECK(loose.restless() == 0);
+}
+
+TEST_CASE("loose cables forget how they were laid in") {
+  constexpr int cycle = 100;
+  for (const std::size_t elements : {64, 128}) {
+    std::vector<LooseCable> cables = ring_of_ten(0.01);
+    for (LooseCable& cable : cables) cable.bending_stiffness = 0.02;
+    LooseCables one(cables, {2.035, elements}), other(cables, {2.035, elements});
+    // The other one is laid into a hose that leans and twists the other way.
+    const auto other_way = [&](double z) {
+      const HoseNode node = arm(z, 0.4);
+      return HoseNode{-node.curvature1, node.curvature2, -node.twist, node.elongation, {node.pull[1], node.pull[0]}};
+    };
+    other.advance(hose(elements, other_way), step);
+    double apart = 0, bent = 0;
+    for (int t = 0; t < 16 * cycle; ++t) {
+      const auto nodes = hose(elements, [&](double z) { return arm(z, static_cast<double>(t) / cycle); });
+      one.advance(nodes, step), other.advance(nodes, step);
+      double apart_now = 0;
+      for (std::size_t k = 0; k < one.cables(); ++k)
+        for (std::size_t i = 0; i < one.state(k).curvature.size(); ++i) {
+          apart_now = std::max(apart_now, std::abs(one.state(k).curvature[i] - other.state(k).curvature[i]));
+          bent = std::max(bent, std::abs(one.state(k).curvature[i]));
+        }
+      if (t % cycle == 0) WARN(elements << " cycle " << t / cycle << " apart " << apart_now << " of " << bent);
+      if (t >= 15 * cycle) apart = std::max(apart, apart_now);
+    }
+    CHECK(apart < 0.01 * bent);
+    CHECK(one.restless() + other.restless() == 0);
+  }
+}
+
 TEST_CASE("cables meet what lies around them") {
   // two rings around a cable on the axis; one cable alone
   std::vector<LooseCable> cables{signal_cable(0), signal_cable(0.012), signal_cable(-0.012),
