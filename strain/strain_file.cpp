@@ -35,8 +35,9 @@ constexpr double first_pass_share = 0.05;   // of the work, for the progress dis
 // to.
 constexpr double believable_mesh_error = 0.02;
 constexpr double loose_pass_share = 0.5;  // the same where cables lie loose
-// Of the end of the motion [s], before its first repeat counts: loose cables forget how they were laid in.
-constexpr double rehearsed = 60;
+// Of the end of the motion [s], before the repeat that counts: loose cables forget how they were laid in (W36). 60 s are
+// enough for hard and too few for easy.
+constexpr double rehearsed = 180;
 
 /// Some samples of all segments.
 struct MotionBlock {

@@ -231,17 +231,16 @@ TEST_CASE("a ring turns out of a twist that alternates, and what strain is left 
 }
 
 TEST_CASE("a ring that snaps over comes to rest within the sample") {
-  // From one twist to the opposite at once, with 1 % of slack: the winding changes its hand.
+  // From one bend and twist to any other at once, with 1 % of slack: the winding goes to other places.
   std::vector<LooseCable> cables = ring_of_ten(0.01);
   for (LooseCable& cable : cables) cable.bending_stiffness = 0.02;
-  LooseCables loose(cables, {2.035, 128});
-  double highest = 0;
-  for (int t = 0; t < 24; ++t) {
-    const double twist = t % 8 < 4 ? 4 : -4;
-    loose.advance(hose(128, [&](double z) { return HoseNode{2 * std::sin(pi * z), 2 * std::cos(pi * z), twist}; }), step);
-    for (std::size_t k = 0; k < loose.cables(); ++k) highest = std::max(highest, std::abs(loose.state(k).tension[0]));
+  LooseCables loose(cables, {2.035, 64});
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (int t = 0; t < 40; ++t) {
+    const double bend = 2 * normal(random), across = 2 * normal(random), twist = 2 * normal(random);
+    loose.advance(hose(64, [&](double z) { return HoseNode{bend * std::sin(pi * z), across * std::cos(pi * z), twist}; }), step);
   }
-  INFO(highest << " N");
   CHECK(loose.restless() == 0);
 }
 
@@ -257,7 +256,7 @@ TEST_CASE("loose cables forget how they were laid in") {
       return HoseNode{-node.curvature1, node.curvature2, -node.twist, node.elongation, {node.pull[1], node.pull[0]}};
     };
     other.advance(hose(elements, other_way), step);
-    double apart = 0, bent = 0;
+    double first = 0, apart = 0, bent = 0;
     for (int t = 0; t < 16 * cycle; ++t) {
       const auto nodes = hose(elements, [&](double z) { return arm(z, static_cast<double>(t) / cycle); });
       one.advance(nodes, step), other.advance(nodes, step);
@@ -267,10 +266,12 @@ TEST_CASE("loose cables forget how they were laid in") {
           apart_now = std::max(apart_now, std::abs(one.state(k).curvature[i] - other.state(k).curvature[i]));
           bent = std::max(bent, std::abs(one.state(k).curvature[i]));
         }
-      if (t % cycle == 0) WARN(elements << " cycle " << t / cycle << " apart " << apart_now << " of " << bent);
+      if (t == 0) first = apart_now;
       if (t >= 15 * cycle) apart = std::max(apart, apart_now);
     }
-    CHECK(apart < 0.01 * bent);
+    CHECK(first > 0.3 * bent);
+    // They are apart by as much until one of them snaps over, in the tenth cycle. From then on an eighth is left in each.
+    CHECK(apart < 1e-3 * bent);
     CHECK(one.restless() + other.restless() == 0);
   }
 }
