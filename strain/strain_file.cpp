@@ -35,8 +35,8 @@ constexpr double first_pass_share = 0.05;   // of the work, for the progress dis
 // to.
 constexpr double believable_mesh_error = 0.02;
 constexpr double loose_pass_share = 0.5;  // the same where cables lie loose
-// Of the end of the motion [s], before the repeat that counts: loose cables forget how they were laid in (W36). 60 s are
-// enough for hard and too few for easy.
+// Of the end of the motion [s], before the repeat that counts: loose cables forget how they were laid in (W36). After 60 s
+// hard, easy and robot 1 go through a cycle that closes.
 constexpr double rehearsed = 180;
 
 /// Some samples of all segments.
@@ -370,7 +370,8 @@ std::vector<Warning> restless_warnings(std::size_t samples) {
   if (samples == 0) return {};
   return {pipeline::warning_of(
       WarningKind::mesh, "",
-      fmt::format("loose cables did not come to rest at {} samples: their curvatures there are not those of any balance", samples),
+      fmt::format("loose cables did not come to rest at {} samples: their curvatures there are not those of any balance",
+                  samples),
       "the hose moves too far from one sample to the next", "simulation.sample_rate_Hz: twice as much")};
 }
 
@@ -444,7 +445,8 @@ std::vector<Warning> write_cables(FileWriter& file,
     for (const std::vector<double>* of : hose_moment) moments.push_back((*of)[t]);
   file.append("/cable_span/hose_moment", moments);
   if (mesh_error > 0) file.attribute("loose_mesh_error", mesh_error);
-  const std::vector<Warning> warnings = pipeline::joined(mesh_warnings(mesh_error, pieces), restless_warnings(restless));
+  const std::vector<Warning> warnings =
+      pipeline::joined(mesh_warnings(mesh_error, pieces), restless_warnings(restless));
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;
   const CablePaths& cables = evaluations[0]->cables();
   const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(),

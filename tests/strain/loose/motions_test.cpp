@@ -239,7 +239,8 @@ TEST_CASE("a ring that snaps over comes to rest within the sample") {
   std::normal_distribution<double> normal;
   for (int t = 0; t < 40; ++t) {
     const double bend = 2 * normal(random), across = 2 * normal(random), twist = 2 * normal(random);
-    loose.advance(hose(64, [&](double z) { return HoseNode{bend * std::sin(pi * z), across * std::cos(pi * z), twist}; }), step);
+    loose.advance(
+        hose(64, [&](double z) { return HoseNode{bend * std::sin(pi * z), across * std::cos(pi * z), twist}; }), step);
   }
   CHECK(loose.restless() == 0);
 }
