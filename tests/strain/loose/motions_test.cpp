@@ -245,8 +245,9 @@ TEST_CASE("a ring that snaps over comes to rest within the sample") {
   CHECK(loose.restless() == 0);
 }
 
-TEST_CASE("loose cables forget how they were laid in") {
+TEST_CASE("a ring forgets how it was laid in, and the mesh does not decide where it comes to rest") {
   constexpr int cycle = 100;
+  std::vector<double> peak;  // of the last cycle [1/m]
   for (const std::size_t elements : {64, 128}) {
     std::vector<LooseCable> cables = ring_of_ten(0.01);
     for (LooseCable& cable : cables) cable.bending_stiffness = 0.02;
@@ -258,6 +259,7 @@ TEST_CASE("loose cables forget how they were laid in") {
     };
     other.advance(hose(elements, other_way), step);
     double first = 0, apart = 0, bent = 0;
+    peak.push_back(0);
     for (int t = 0; t < 16 * cycle; ++t) {
       const auto nodes = hose(elements, [&](double z) { return arm(z, static_cast<double>(t) / cycle); });
       one.advance(nodes, step), other.advance(nodes, step);
@@ -266,6 +268,7 @@ TEST_CASE("loose cables forget how they were laid in") {
         for (std::size_t i = 0; i < one.state(k).curvature.size(); ++i) {
           apart_now = std::max(apart_now, std::abs(one.state(k).curvature[i] - other.state(k).curvature[i]));
           bent = std::max(bent, std::abs(one.state(k).curvature[i]));
+          if (t >= 15 * cycle) peak.back() = std::max(peak.back(), std::abs(one.state(k).curvature[i]));
         }
       if (t == 0) first = apart_now;
       if (t >= 15 * cycle) apart = std::max(apart, apart_now);
@@ -275,6 +278,7 @@ TEST_CASE("loose cables forget how they were laid in") {
     CHECK(apart < 1e-3 * bent);
     CHECK(one.restless() + other.restless() == 0);
   }
+  CHECK(peak[0] == Approx(peak[1]).epsilon(0.02));  // measured: 0.5 %
 }
 
 TEST_CASE("cables meet what lies around them") {
