@@ -62,6 +62,8 @@ class CablePaths {
   void add(const SpanBlock& block);  ///< in order of time
   /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone.
   static void add(std::span<CablePaths* const> all, const SpanBlock& block);
+  /// Samples before the first one: loose cables move with them, and come to lie as a repeat of the motion leaves them.
+  static void rehearse(std::span<CablePaths* const> all, const SpanBlock& block);
   void finish();  ///< all samples are there; again: changes nothing
 
   // ---- after finish()

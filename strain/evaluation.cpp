@@ -198,6 +198,12 @@ void Evaluation::add(std::span<Evaluation* const> all, const SpanBlock& block) {
   }
 }
 
+void Evaluation::rehearse(std::span<Evaluation* const> all, const SpanBlock& block) {
+  std::vector<CablePaths*> cables;
+  for (Evaluation* const of : all) cables.push_back(&of->cables_);
+  CablePaths::rehearse(cables, block);
+}
+
 void Evaluation::add_bends(const DeformationHistory& block) {
   bends_.resize(2 * lengths_.size());
   for (std::size_t i = 0; i < lengths_.size(); ++i) {

@@ -106,6 +106,8 @@ class Evaluation {
   void add(const SpanBlock& block);
   /// The same for several of one span, whose loose cables go side by side: each gets what it would get alone.
   static void add(std::span<Evaluation* const> all, const SpanBlock& block);
+  /// Samples before the first one, for loose cables (CablePaths::rehearse()).
+  static void rehearse(std::span<Evaluation* const> all, const SpanBlock& block);
   /// Whether cables remember what clamps and friction did, so that what goes on in them has to wait: the
   /// blocks are then wanted once more, when all have been added.
   bool wants_again() const {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <list>
 #include <memory>
@@ -34,6 +35,9 @@ constexpr double first_pass_share = 0.05;   // of the work, for the progress dis
 // to.
 constexpr double believable_mesh_error = 0.02;
 constexpr double loose_pass_share = 0.5;  // the same where cables lie loose
+// Of the end of the motion [s], before the repeat that counts: loose cables forget how they were laid in (W36). After 60 s
+// hard, easy and robot 1 go through a cycle that closes.
+constexpr double rehearsed = 180;
 
 /// Some samples of all segments.
 struct MotionBlock {
@@ -76,14 +80,14 @@ class MotionReader {
     return last && !is_clamped(job.dresspacks[dresspack].routing.tool_end);
   }
 
-  /// One block after the other. with_pull: gives that, too.
-  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put) {
+  /// One block after the other, from a sample on. with_pull: gives that, too.
+  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put, std::size_t from = 0) {
     const std::size_t segments = lengths_.size();
     const std::size_t clamps = file_.row_size("/clamp/position") / 3;
     std::vector<double> position, orientation, clamp_position, clamp_orientation;
     std::vector<Deformation> deformation, at_wires;
     std::vector<double> pull;
-    for (std::size_t first = 0; first < samples_; first += block_samples) {
+    for (std::size_t first = from; first < samples_; first += block_samples) {
       const std::size_t count = std::min(block_samples, samples_ - first);
       file_.read_rows("/segment/position", first, count, position);
       file_.read_rows("/segment/orientation", first, count, orientation);
@@ -362,6 +366,15 @@ std::vector<Warning> mesh_warnings(double error, std::size_t pieces) {
       fmt::format("strain.cable_elements_per_segment: {} or more, or more simulation.segments", 2 * pieces))};
 }
 
+std::vector<Warning> restless_warnings(std::size_t samples) {
+  if (samples == 0) return {};
+  return {pipeline::warning_of(
+      WarningKind::mesh, "",
+      fmt::format("loose cables did not come to rest at {} samples: their curvatures there are not those of any balance",
+                  samples),
+      "the hose moves too far from one sample to the next", "simulation.sample_rate_Hz: twice as much")};
+}
+
 /// What of all spans' cables makes forces: whose metal they are of, their strains, and where they meet the
 /// clamps.
 class CableRows {
@@ -414,11 +427,12 @@ std::vector<Warning> write_cables(FileWriter& file,
   CableRows rows;
   std::vector<const std::vector<double>*> hose_moment;  // of spans with cables
   double mesh_error = 0;
-  std::size_t pieces = 0;
+  std::size_t pieces = 0, restless = 0;
   for (const auto& evaluation : evaluations) {
     if (!evaluation->any_cables()) continue;
     rows.add(static_cast<std::int32_t>(hose_moment.size()), *evaluation);
     hose_moment.push_back(&evaluation->cables().hose_moment());
+    restless += evaluation->cables().restless();
     if (const double error = evaluation->cables().mesh_error(); error > mesh_error)
       mesh_error = error, pieces = evaluation->cables().elements_per_segment();
   }
@@ -431,7 +445,8 @@ std::vector<Warning> write_cables(FileWriter& file,
     for (const std::vector<double>* of : hose_moment) moments.push_back((*of)[t]);
   file.append("/cable_span/hose_moment", moments);
   if (mesh_error > 0) file.attribute("loose_mesh_error", mesh_error);
-  const std::vector<Warning> warnings = mesh_warnings(mesh_error, pieces);
+  const std::vector<Warning> warnings =
+      pipeline::joined(mesh_warnings(mesh_error, pieces), restless_warnings(restless));
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;
   const CablePaths& cables = evaluations[0]->cables();
   const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(),
@@ -561,6 +576,12 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   };
   const auto any = [&](auto does) { return std::any_of(evaluations.begin(), evaluations.end(), does); };
   const bool loose = any([](const auto& evaluation) { return evaluation->any_loose(); });
+  const auto rehearsed_samples = static_cast<std::size_t>(std::ceil(rehearsed / reader.step()));
+  for (std::size_t left = loose && samples > 1 ? rehearsed_samples : 0; left > 0;) {
+    const std::size_t count = (left - 1) % samples + 1;  // of the end first, then whole repeats
+    reader.run(true, [&](const MotionBlock& block) { each_span(block, Evaluation::rehearse); }, samples - count);
+    left -= count;
+  }
   reader.run(loose, [&](const MotionBlock& block) {
     append_deformation(strain, block.deformation);
     each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {

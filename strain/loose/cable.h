@@ -28,8 +28,9 @@ struct LooseCable {
   double wall_stiffness = 1e7;    ///< k_w, of what it lies against, force per length and depth [N/m2]
   double grip = without_limit;    ///< force at which a clamp lets it slip [N]
   /// Force per length and sideways speed that holds it [N s/m2] (README W36): at 50 mm/s friction of 0.3
-  /// under 0.2 kg/m. It only decides which way the cable goes where several are open.
+  /// under 0.2 kg/m.
   double drag = 12;
+  static constexpr double friction_of_drag = 0.3;  ///< coefficient of that drag: another one has its share
 
   // How far it can go; fit_in_hose() finds all but the first.
   double play = without_limit;      ///< c: from its place, whatever else stops it [m]

@@ -56,8 +56,9 @@ class LooseCables {
   void start_again() { started_ = false; }
 
   const CableState& state(std::size_t cable) const { return states_[cable]; }
-  /// Samples at which a ring or a cable was still moving when the work was cut short.
+  /// Samples at which a ring or a cable was still moving when the work was cut short, since forget_restless().
   std::size_t restless() const { return restless_; }
+  void forget_restless() { restless_ = 0; }
   std::size_t iterations() const { return iterations_; }  ///< of all cables so far
   /// Share of the curvature of cables that their nodes are too far apart to see, root of mean squares over
   /// nodes and samples; the largest of all cables.
