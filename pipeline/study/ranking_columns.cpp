@@ -41,11 +41,12 @@ class Table {
  public:
   Table() {
     add_worst_wire();
-    add_lives("life_hours_{}",
-              "by then {} of such dresspacks have failed: `replace after`, `half failed`, `90 % failed` of the table",
-              [](const RankingRow& row) -> const Lives& {
-                return row.planned() ? row.planned_hours : row.first_wire_hours;
-              });
+    add_lives(
+        "life_hours_{}",
+        "by then {} of such dresspacks have failed: `replace after`, `half failed`, `90 % failed` of the table",
+        [](const RankingRow& row) -> const Lives& {
+          return row.planned() ? row.planned_hours : row.first_wire_hours;
+        });
     add_lives(
         "conductor_life_hours_{}",
         "by then {} have a conductor that has lost its share of wires at one place, by the scatter of wires alone",
@@ -54,8 +55,7 @@ class Table {
     add_lives("first_wire_life_hours_{}", "by then {} have a broken wire, by the scatter of wires alone",
               [](const RankingRow& row) -> const Lives& { return row.first_wire_hours; });
     add_failure_and_rating();
-    add_lives("scatter_life_hours_{}",
-              "life_hours_{0} with the scatter of wires only: all inputs are exact",
+    add_lives("scatter_life_hours_{}", "life_hours_{0} with the scatter of wires only: all inputs are exact",
               [](const RankingRow& row) -> const Lives& { return row.scatter_hours; });
     add_uncertainty();
     add_warnings();
@@ -162,8 +162,8 @@ class Table {
     add(where("rated_cycles_per_hour", "1/h",
               "cycles of the maker's rig that do the damage of one hour of the program", has_rating,
               [](const RankingRow& row) { return row.relative->cycles_per_hour; }));
-    add(where("relative_life_hours", "h", "hours until the damage of the rated cycles is reached",
-              has_rating, [](const RankingRow& row) { return row.relative->hours(); }));
+    add(where("relative_life_hours", "h", "hours until the damage of the rated cycles is reached", has_rating,
+              [](const RankingRow& row) { return row.relative->hours(); }));
     add(where("rated_cable", "text", "cable with that rating", has_rating,
               [](const RankingRow& row) { return row.relative->cable; }));
   }
