@@ -73,7 +73,7 @@ void set_recipes(JobState& state, const Job& job, const Programs& programs, Dige
   state.settings = recipe_of(all, files, {}, digests).substr(0, digits);
 }
 
-/// Receipts tell that all stages have made their outputs, one from the other, as far as these are there.
+/// Whether the receipts name all stages' outputs, each made from the one before, as far as these exist.
 void follow_receipts(JobState& state, const fs::path& folder) {
   state.inputs = {"-"};
   for (state.next = 0; state.next < stage_count; ++state.next) {
@@ -82,7 +82,7 @@ void follow_receipts(JobState& state, const fs::path& folder) {
     if (!receipt || receipt->recipe != state.recipes[state.next] ||
         receipt->input != state.inputs[state.next])
       return;
-    // After a failure no state spares the look at the bytes: a stage may have found what no time shows.
+    // After a failure the bytes are always compared: a stage may have found damage that no file time shows.
     if (!state.failure.empty()) receipt->state = {};
     const FileState now = state_of(folder / stage.output);
     const bool removed = !now.exists() && may_lack(state.keep, state.next);
@@ -163,7 +163,7 @@ std::string target_of(const Stage& stage, const std::string& job) {
   return job + "/" + beside(stage, ".ran").string();
 }
 
-/// By job and stage, who else gets what a job makes: lines of folders.
+/// By job and stage, the other jobs that get the output: lines of folders.
 using Likes = std::vector<std::array<std::string, stage_count>>;
 Likes likes_of(const Study& study, const std::vector<JobState>& states, const std::vector<Makers>& makers) {
   Likes likes(states.size());
@@ -193,7 +193,7 @@ std::string chain_of(const Study& study, const StudyPlaces& places, const JobSta
   return text;
 }
 
-/// The first line of a log that tells an error, else nothing.
+/// The first line of a log with an error, else nothing.
 std::string error_line(const fs::path& log) {
   std::istringstream lines(read_text(log));
   for (std::string line; std::getline(lines, line);)

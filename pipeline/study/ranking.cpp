@@ -25,7 +25,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// What the root of a life file says: as its receipt tells, else as it stands in the file.
+/// Root attributes of a life file: from its receipt, else from the file.
 class LifeRoot {
  public:
   explicit LifeRoot(const JobResult& result) : result_(result) {
