@@ -164,7 +164,7 @@ namespace {
 
 constexpr int listed_reasons = 5;
 
-/// A program without a move: what it ran and what it left out may tell why.
+/// A program without a move: statements that ran and were left out may explain it.
 void tell_nothing(const Program& program, const ImportOptions& options, Problems& problems) {
   std::string left_out;
   int listed = 0;
@@ -283,7 +283,7 @@ ImportOptions options_of(const pipeline::Motion& motion) {
   options.passes = motion.passes;
   for (const pipeline::BranchAssumption& assumption : motion.assume)
     if (assumption.take.empty())
-      continue;  // an answer that nobody wrote
+      continue;  // an empty answer
     else if (assumption.take == "then" || assumption.take == "else")
       options.assume[assumption.line] =
           assumption.take == "then" ? Assumption::then_branch : Assumption::else_branch;
