@@ -69,7 +69,7 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   CHECK(page.find("<td><code>routing.free_length_m</code></td><td>0.9</td><td>0.9") != std::string::npos);
   CHECK(page.find("<tr><td>length, + 10 mm</td><td class=\"number\">× ") != std::string::npos);
 
-  // Of a trial only what its receipts tell stays, of what is told at length all.
+  // Of a trial only its receipts stay, of the best few all files.
   CHECK(results_of(scratch / "runs/better_improve", "trial_").empty());
   CHECK(results_of(scratch / "runs/better_improve", "off_").empty());
   CHECK(results_of(scratch / "runs/better_improve", "before").size() == 3);
