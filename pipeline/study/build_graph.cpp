@@ -131,9 +131,8 @@ std::string noted_failure(const JobState& state, const fs::path& folder) {
   return key == failure_key(state) ? reason : "";
 }
 
-/// The words before a stage's program: as Ninja reads them. The stage writes its log where it runs; what
-/// launchers say (srun tells of an exit status, too) stands by itself, as nothing tells which of the two
-/// would be first in one file.
+/// The words before a stage's program, quoted for Ninja. The stage writes its log where it runs. Messages of launchers
+/// (srun also reports exit statuses) go to a separate file, because their order relative to the log is unknown.
 std::string launching(const std::string& launcher, const Stage& stage) {
   if (launcher.empty()) return "";
   std::string words = "env -u DRESSLIFE_PARENT ";
@@ -173,8 +172,7 @@ Likes likes_of(const Study& study, const std::vector<JobState>& states, const st
   return likes;
 }
 
-/// What a job makes itself from the first stage that is to run, each stage behind whoever makes what it
-/// reads.
+/// The stages that a job runs itself, each after the stage that makes its input.
 std::string chain_of(const Study& study, const StudyPlaces& places, const JobState& state, std::size_t k,
                      const std::vector<Makers>& makers, const Likes& likes) {
   std::string text;
@@ -514,7 +512,7 @@ void close_run(const Study& study, const StudyPlaces& places, const BuildResult&
     join_logs(folder);
   }
   for (const std::size_t k :
-       unfinished) {  // when all have been looked at: a name less changes what others' times are
+       unfinished) {  // after all states are known: removing a hard link changes the file times of the others
     const fs::path folder = places.job(study.jobs[k].name);
     remove_unkept(states[k], folder);
     if (states[k].done()) continue;

@@ -142,8 +142,8 @@ Grammar grammar_of(Language language) {
                                           : Grammar::rapid;
 }
 
-/// A mistake in a routine counts only if that runs, one outside of routines only if the program fails; but a
-/// file that is given up has lost routines and data that nobody would miss.
+/// A mistake in a routine counts only if the routine runs, one outside of routines only if the program fails. With too
+/// many mistakes the reader stops in the file; then all of them count, because routines and data are lost.
 void parse_files(Code& code, Language language, Problems& problems) {
   for (int file = 0; file < static_cast<int>(code.files.size()); ++file) {
     Problems found;

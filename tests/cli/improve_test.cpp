@@ -74,7 +74,7 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   CHECK(results_of(scratch / "runs/better_improve", "off_").empty());
   CHECK(results_of(scratch / "runs/better_improve", "before").size() == 3);
 
-  // The same again runs nothing; the study itself does not look at what is free.
+  // The same again runs nothing; the study itself ignores the section free.
   const auto notes = notes_of(scratch / "runs/better_improve");
   const Outcome again = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet");
   CHECK(again.out == told.out);

@@ -281,7 +281,7 @@ TEST_CASE("status and report work beside a run and where nothing may be written,
   scratch.write("study.yaml", study_text);
   REQUIRE(run_study(scratch).status == 0);
   const auto before = results(scratch / "runs/study");
-  // Settings of this look alone: the files stay those of the study.
+  // Settings of this command only: the files stay those of the study.
   const Outcome changed = run(scratch, "dresslife", "report study.yaml --set fatigue.stress=elastic");
   CHECK(changed.status == 1);
   CHECK(changed.out.find("stale") != std::string::npos);

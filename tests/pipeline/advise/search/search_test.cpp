@@ -230,7 +230,7 @@ TEST_CASE("where a thousandth keeps all limits, rehearsals lead there within a f
     const std::vector<Look> looks = searched(search, problem, 20, 4);
     const auto first = std::find_if(looks.begin(), looks.end(), [](const Look& look) { return look.feasible(); });
     CHECK(first - looks.begin() < 8);
-    // No more than were allowed beforehand, and of each look a few.
+    // At most the allowed number before the first candidate, and a few per candidate.
     CHECK(search.rehearsals().size() <= 150 + 20 * 12);
     CHECK_FALSE(best_of(searched(chance, problem, 20, 4)).feasible());
     // Without rehearsals it takes longer, but less than a thousand random candidates.
