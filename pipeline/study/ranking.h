@@ -23,19 +23,19 @@ struct JobResult {
   std::string failure;       ///< one line: why there is no life file; empty: the job is done
   std::string settings{};    ///< digest of its settings (JobState)
   std::vector<Told> told{};  ///< attributes from its receipt; empty: read the file
-  bool stale = false;        ///< the file is of other settings; `failure` is the state of the job
-  std::string changed{};     ///< changes since then
+  bool stale = false;  ///< the file is its last result, of other settings; `failure` says how the job stands
+  std::string changed{};  ///< since then
 };
 
-/// Life of the hose's wall.
+/// The hose's wall of a job, whose life is told beside that of the wires.
 struct HoseLife {
   double hours = 0, months = 0;   ///< of motion until it cracks; infinite without damage
   int segment_from_tool = 0;      ///< of its worst place, 1 is nearest to the tool
   double position_from_tool = 0;  ///< [m]
-  std::string component, step;    ///< "hose 5"; the most damaging program line
+  std::string component, step;    ///< "hose 5"; the program line that costs most
 };
 
-/// The program compared with the rig of a rated cable (relative_life.h).
+/// Of a cable with a rating: what the program does beside its rig (relative_life.h).
 struct RelativeLife {
   std::string cable, rig;      ///< in words
   double cycles_per_hour = 0;  ///< cycles of the rig with the damage of one hour of the program

@@ -1,8 +1,8 @@
-// The search for all questions of a program, so that one round of answers is enough.
+// The search for all that a program asks, so that one round of answers is enough.
 //
-// At an undecided branch a reading asks, and continues along one of the ways. The next reading takes the way that was
-// taken least often, until several readings in a row find nothing new. After the first guess only questions count: its
-// mistakes may never happen.
+// Where nobody knows which way a program takes, a reading asks, and goes on along one of the ways as if that were the answer.
+// The next reading takes the way that was taken least often, until several readings in a row meet nothing new. What such a
+// reading meets behind the first guess may never happen: its questions count, its mistakes do not.
 #pragma once
 
 #include <map>
@@ -16,25 +16,25 @@ namespace dresslife::sim {
 
 class Exploration {
  public:
-  /// Begins a reading. False: no further reading is needed.
+  /// Begins a reading. False: enough is known.
   bool next_reading();
   /// The way, 0 .. ways - 1, that was taken least often from this place so far.
   int choose(const std::string& place, int ways);
   /// Whether this reading has chosen a way.
   bool guessing() const { return guessing_; }
-  /// A statement was run, or a question was asked.
+  /// A statement was run, or something was asked.
   void meet(const void* statement) {
     if (met_.insert(statement).second) ++news_;
   }
   void meet_question(const std::string& name) {
     if (asked_.insert(name).second) ++news_;
   }
-  /// Number of new statements and questions.
+  /// How much was met for the first time.
   long news() const { return news_; }
-  /// A branch without moves decides something that moves: its ways are taken, too.
+  /// A branch that was left out because it moves nothing decides something that does: its ways are taken, too.
   void follow(const std::string& line);
   bool follows(const std::string& line) const { return followed_.contains(line); }
-  /// A question has a safe answer, the delivered value of this name. Later readings use it to find further questions.
+  /// What is asked has a safe answer, the delivered value of this name: later readings take it, to find what that asks for.
   void suppose(const std::string& name, const std::string& standard) { supposed_.emplace(name, standard); }
   bool supposes_any() const { return readings_ > 1 && !supposed_.empty(); }
   /// The delivered value for a name; null: none.
@@ -55,8 +55,8 @@ class Exploration {
   int readings_ = 0, barren_ = 0;
 };
 
-/// Reads a program, and if it has questions, again until all of them are known. read(exploration, program, problems)
-/// is one reading; the program of the first one is kept.
+/// Reads a program, and where it asks, again until all of its questions are known. read(exploration, program, problems) is one
+/// reading; what the first one makes is kept.
 template <class Read>
 void explore(const Read& read, Program& program, Problems& problems) {
   Exploration exploration;

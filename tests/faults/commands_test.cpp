@@ -35,7 +35,7 @@ const std::vector<Command> commands{{"dresslife", "status study.yaml"},
 struct Kind {
   std::string call, mode, path;
 };
-/// A disk that is full, broken or reports errors late, in every call that can report them.
+/// A disk that is full, broken or slow to tell, in every call by which a program can notice.
 const std::vector<Kind> kinds{{"write", "ENOSPC", ""},    {"sync", "EIO", ""},        {"close", "EIO", ""},
                               {"cut", "EIO", ""},         {"rename", "EIO", ""},      {"link", "EPERM", "dresslife-"},
                               {"remove", "EIO", "dresslife-"}, {"make", "EACCES", "dresslife-"}, {"read", "EIO", "dresslife-"},

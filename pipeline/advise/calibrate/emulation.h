@@ -27,11 +27,11 @@ struct EmulatedTest {
 
 struct Emulation {
   std::vector<EmulatedTest> tests;
-  std::set<std::string> notes;  ///< jobs beside the centre that failed
+  std::set<std::string> notes;  ///< jobs that failed beside a centre that did not
 };
 
 /// rows: of the round's jobs, in any order, with their files at `places`. Errors: InputError at the row of a
-/// test whose job at the centre failed or has no bending table.
+/// test whose job at the centre failed, or tells nothing of how its cable bends.
 Emulation emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
                   const std::vector<RankingRow>& rows, const StudyPlaces& places);
 

@@ -1,5 +1,5 @@
-// The jobs of one round: the model at a centre of the uncertain parameters, and one step to either side along every
-// parameter that changes it.
+// What is run to learn of observations: the model at a centre of what is not known, and one step to either
+// side along every parameter that moves it.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +15,8 @@
 
 namespace dresslife::pipeline {
 
-/// The jobs of a round: of each variant one at the centre and two along each axis that changes it. Jobs with equal
-/// settings exist once.
+/// The jobs of a round: of each variant one at the centre and two along each axis that moves it. One with the
+/// same settings as another is there once.
 class RoundOfJobs {
  public:
   struct Arms {
@@ -25,11 +25,11 @@ class RoundOfJobs {
   struct Runs {
     std::size_t centre;  ///< job
     std::array<std::optional<Arms>, uncertain_count>
-        arms;  ///< (parameter); empty: it does not change the job
+        arms;  ///< (parameter); nothing: it does not move the job
   };
 
-  /// sets: for every job. centre, step: of z, (parameter). Errors: InputError at the row of an invalid job, or of one
-  /// that sets a parameter of the calibration.
+  /// sets: for every job. centre, step: of z, (parameter). Errors: InputError at the row of a job that cannot
+  /// be made, or that gives what is to be learned.
   RoundOfJobs(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets, std::string name,
               Eigen::VectorXd centre, Eigen::VectorXd step);
 
@@ -49,7 +49,7 @@ class RoundOfJobs {
   std::vector<std::vector<Runs>> runs_;
 };
 
-/// Conversion between all parameters and those that some test depends on.
+/// Between all parameters and those that some test depends on.
 class Axes {
  public:
   explicit Axes(const RoundOfJobs& round);
