@@ -92,11 +92,12 @@ struct RankingRow {
   double failing_position_from_tool = 0;  ///< [m]
   std::array<double, 3> conductor_hours{unknown, unknown, unknown};
   double worst_shear_range = 0;  ///< of the worst wire's surface; 0: unknown
-  std::string worst_joint;  ///< largest cause of damage; "carrying": the dresspack as a whole; empty: unknown
-  double worst_joint_share = 0;  ///< of the worst wire's damage; above 1 if others reduce it
+  std::string worst_joint;  ///< whose motion costs most; "carrying": none between the clamps; empty: unknown
+  double worst_joint_share = 0;  ///< of the worst wire's damage; above 1 where other joints relieve
   std::optional<HoseLife> hose;  ///< absent: not evaluated
-  /// Largest force of a cable over its strength, and moment of all cables on the hose at a clamp over the largest
-  /// moment of the hose there. Absent: no cable slides, or not known.
+  /// What the strains ask of the cables: largest force over that at which one tears, and moment of all of
+  /// them on the hose at a clamp over the largest that it carries there. Absent: no cable slides, or not
+  /// known.
   std::optional<double> largest_force_share, clamp_moment_share;
   std::optional<double>
       loose_mesh_error;  ///< share of loose cables' curvature that their mesh misses; absent: none lies loose
@@ -151,7 +152,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows);
 /// "stale: since this result routing.free_length_m 2.035 -> 2.1", and why a job failed with the present settings.
 std::string stale_words(const RankingRow& row);
 
-/// "3,400 h", "more than 1,000,000 h", "not damaged".
+/// "3,400 h", "more than 1,000,000 h" beyond all plans, "not damaged".
 std::string hose_life_words(double hours);
 
 /// "one hour does the damage of 1,200 rated cycles of lead; 5,000,000 rated: 4,200 h (torsion: ..)"
