@@ -83,7 +83,6 @@ const std::map<std::string, std::string> instead{
     {"dresslife clean STUDY", "not run"},  // tests/cli/study_test
     {"dresslife route ROBOT", "not run"},  // as above
     {"dresslife-sim --preview", "not run"},
-    {"dresslife COMMAND ...", "not run"},
 };
 
 /// "build/bin/dresslife run x   # words" and "$ dresslife run x" are "dresslife run x"; empty: no command of ours.
