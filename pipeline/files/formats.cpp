@@ -107,7 +107,7 @@ Format make_motion_format() {
      "segments of the file before each clamp: 0 at the first, all at the last; where a further dresspack begins, "
      "its base clamp repeats the number of the tool clamp before it; absent: two clamps, at the ends"},
     {"/clamp/travel",          f64,  "sample, dresspack",  "m",    maybe,
-     "how far a retraction unit has let each dresspack's base clamp out; absent without one"},
+     "travel of each dresspack's base clamp in its retraction unit; absent without one"},
     {"/robot/joint_position",  f64,  "sample, joint",      "rad",  maybe, "joint angles"},
     {"/robot/link_pose",       f64,  "sample, link, 7",    "m, 1", maybe,
      "position and quaternion w x y z of each link; attribute `links` names them, comma-separated"},
@@ -115,13 +115,13 @@ Format make_motion_format() {
      "index of the program line being executed"},
     {"/program/text",          text, "line",               "1",    always, "the lines of the program"},
     {"/contact/count",         i32,  "sample",             "1",    always,
-     "contacts of the dresspack, most at a time since the sample before"},
+     "largest number of contacts of the dresspack since the sample before"},
     {"/contact/max_depth",     f64,  "sample",             "m",    always,
      "deepest penetration since the sample before; 0 without contact"},
     {"/contact/force",         f32,  "sample, segment",    "N",    maybe | deflated,
      "largest normal force on each segment since the sample before"},
     {"/contact/obstacle",      i32,  "sample, segment",    "1",    maybe | deflated,
-     "what pressed it then: index into the attribute `obstacles` of /contact/work; -1: nothing"},
+     "obstacle of that force: index into the attribute `obstacles` of /contact/work; -1: none"},
     {"/contact/rubbing",       f32,  "sample, segment",    "J",    maybe | deflated,
      "work of friction on each segment since the sample before"},
     {"/contact/work",          f64,  "segment, obstacle",  "J",    maybe,
@@ -142,37 +142,38 @@ Format make_motion_format() {
      "its worst value; inf: a bend radius without any bend"},
     {"/check/unit",                  text, "check",     "1",    maybe | endless, "unit of value and limit"},
     {"/check/limit",                 f64,  "check",     "see /check/unit", maybe | endless,
-     "what is warned of; inf: no limit"},
+     "the limit; inf: none"},
     {"/check/warning",               i32,  "check",     "1",    maybe | endless, "1: the limit is broken"},
-    {"/check/time",                  f64,  "check",     "s",    maybe | endless, "when the value stood"},
+    {"/check/time",                  f64,  "check",     "s",    maybe | endless, "time of the worst value"},
     {"/check/step",                  i32,  "check",     "1",    maybe | endless,
      "index of the program line being executed then"},
     {"/check/position",              f64,  "check",     "m",    maybe | endless,
-     "where, from the base clamp along the dresspack; -1: of the whole"},
+     "distance from the base clamp along the dresspack; -1: the whole dresspack"},
     {"/check/dresspack",             i32,  "check",     "1",    maybe | endless,
-     "of which dresspack; absent: there is only one"},
+     "index of the dresspack; absent: there is only one"},
     {"/check/curvature",             f64,  "hose_link", "1/m",  maybe | endless,
      "largest bending curvature of each elastic link, every step counted: at the joints of the segments, with one "
      "on either side of a clamp between two spans"},
-    {"/check/curvature_time",        f64,  "hose_link", "s",    maybe | endless, "when"},
+    {"/check/curvature_time",        f64,  "hose_link", "s",    maybe | endless, "its time"},
     {"/check/twist",                 f64,  "hose_link", "rad/m", maybe | endless,
      "largest twist by size, with its sign"},
-    {"/check/twist_time",            f64,  "hose_link", "s",    maybe | endless, "when"},
+    {"/check/twist_time",            f64,  "hose_link", "s",    maybe | endless, "its time"},
     {"/check/tension",               f64,  "hose_link", "N",    maybe | endless, "largest pull"},
-    {"/check/tension_time",          f64,  "hose_link", "s",    maybe | endless, "when"},
+    {"/check/tension_time",          f64,  "hose_link", "s",    maybe | endless, "its time"},
     {"/check/net_twist",             f64,  "sample",    "rad",  maybe | endless,
      "twist of the whole dresspack, whole turns counted; of several the sum"},
   });
   add(format, {
     {"repeats", f64, maybe, "repeats of the motion that were run; the last one is in the file"},
     {"repeat_distance", f64, maybe,
-     "how far from where it began the dresspack ended it, m; absent where the motion does not return"},
+     "distance between the dresspack's places at the start and at the end of the repeat, m; absent if the motion "
+     "does not return"},
     {"time_step", f64, maybe, "integration step of the last repeat, s"},
     {"curvature_error", f64, maybe,
-     "estimated relative rms error that the step leaves in the curvature of the liveliest seconds"},
+     "estimated relative rms error of the curvature by the time step, in the most dynamic seconds"},
     {"warnings", text, maybe,
-     "what a person should look at before believing the results: a line each, kind, place and words between tabs, "
-     "of the stages before, too; empty: nothing; absent in files that do not tell"},
+     "warnings of this stage and those before it, one per line: kind, place and words, separated by tabs; empty: "
+     "none"},
   });
   return format;
 }
@@ -200,31 +201,32 @@ Format make_strain_format() {
     {"/cable/name",              text, "cable",              "1",    maybe,
      "cables: parts of the dresspack that have parts themselves; once per span between two clamps"},
     {"/cable/span",              i32,  "cable",              "1",    maybe,
-     "of /cable_span between whose clamps each lies"},
-    {"/cable/dresspack",         i32,  "cable",              "1",    maybe, "of the job's dresspacks, 0 first"},
+     "index of its span in /cable_span"},
+    {"/cable/dresspack",         i32,  "cable",              "1",    maybe,
+     "index of its dresspack in the job, 0 first"},
     {"/cable/component",         i32,  "cable",              "1",    maybe,
-     "of that dresspack's components, 0 first"},
+     "index of its component in that dresspack, 0 first"},
     {"/cable/strain",            f64,  "sample, cable, 3",   "1",    maybe,
-     "strain that makes its force: the largest along it by size, that at its base clamp, that at its tool clamp"},
+     "strain that belongs to its force: the largest along the cable by size, at its base clamp, at its tool clamp"},
     {"/cable/clamp_place",       f64,  "cable, 2, 2",        "m",    maybe,
      "its axis at its base and its tool clamp, toward d1 and d2 of the dresspack"},
     {"/cable/grip_slip",         f64,  "cable, 2",           "m",    maybe,
-     "length that slips through its base and its tool clamp per repeat, both ways added up"},
+     "length that slips through its base and its tool clamp per repeat, sum of both directions"},
     {"/cable/room",              f64,  "cable",              "m",    maybe | endless,
-     "radius of the helix into which it can wind; 0: it is held"},
+     "radius of the largest helix that it can form; 0: it is held"},
     {"/cable/path_gain",         f64,  "cable, 2",           "1",    maybe,
-     "least and most that its path gains over the motion, without its slack and where it has moved within its room: "
-     "a slack between the two is neither too long nor too short at any time"},
-    {"/cable/offset_sample",     u32,  "picture",            "1",    maybe, "samples at which /cable/offset tells"},
+     "smallest and largest gain in length of its path over the motion, without its slack and after it has moved "
+     "within its room; a slack between the two is never too long nor too short"},
+    {"/cable/offset_sample",     u32,  "picture",            "1",    maybe, "samples of /cable/offset"},
     {"/cable/offset",            f64,  "picture, cable, segment, 2", "m",    maybe,
-     "where loose cables lie, from their places toward d1 and d2; only with one span"},
+     "displacement of loose cables from their places, toward d1 and d2; only with one span"},
     {"/cable_span/hose_moment",  f64,  "sample, cable_span", "N m",  maybe,
      "bending moment that the simulated hose carries at the clamps of each span with cables, by its E I: the "
      "larger of both"},
     {"/bending/curvature",       f64,  "bend",               "1/m",  maybe,
-     "curvatures to which a cable by itself is bent from straight, in one plane"},
+     "curvatures of a single cable that is bent from straight, in one plane"},
     {"/bending/moment",          f64,  "bend",               "N m",  maybe,
-     "the moment that this takes: polymer, wires, and what friction holds (W29)"},
+     "its moment: polymer, wires and friction (W29)"},
     {"/probe/site",              u32,  "probe",              "1",    always, "site of each probe"},
     {"/probe/strain",            f64,  "probe, sample",      "1",    always, "whole strain history of each probe"},
     {"/probe/shear",             f64,  "probe, sample",      "1",    maybe,
@@ -234,25 +236,25 @@ Format make_strain_format() {
     {"/plane/strain",            f32,  "plane, sample",      "1",    maybe, "strain along their fibre"},
     {"/plane/shear",             f32,  "plane, sample",      "1",    maybe, "their shear strain gamma"},
     {"/variation/z",             f64,  "variation, 5",       "1",    maybe,
-     "further ways in which the strains of likely worst wires were worked out: the standardised variables of "
-     "friction_inside, friction_hose, slack, play and grip (pipeline/job/uncertainty.h); only where uncertainty is "
+     "variations for which the strains of likely worst wires are evaluated: standardised values of "
+     "friction_inside, friction_hose, slack, play and grip (pipeline/job/uncertainty.h); only if uncertainty is "
      "enabled"},
     {"/variation/inside",        i32,  "variation",          "1",    maybe,
-     "how parts inside the cables slip then: 0 with that friction, 1 not at all (glued), 2 freely"},
+     "slip inside the cables: 0 with that friction, 1 none (glued), 2 free"},
     {"/variation/row/variation", u32,  "variation_row",      "1",    maybe,
-     "variation of a row: one wire, so varied"},
+     "variation of each row; a row is one wire in one variation"},
     {"/variation/row/site",      u32,  "variation_row",      "1",    maybe, "its site"},
     {"/variation/row/turning",   u32,  "variation_row",      "1",    maybe,
-     "how many turning points it has: they follow each other, row by row"},
+     "its number of turning points in /variation/strain, which holds one row after the other"},
     {"/variation/strain",        f32,  "variation_turn",     "1",    maybe, "strain at its turning points"},
   });
   add(format, {
     {"largest_force_share", f64, maybe, "as in the life file, in files without /cable/strain"},
     {"clamp_moment_share", f64, maybe, "as in the life file, in files without /cable/strain"},
     {"loose_mesh_error", f64, maybe,
-     "share of loose cables' curvature that the length of their pieces (strain.cable_elements_per_segment) leaves "
-     "out: an estimate, root of mean squares over the motion, of the worst cable; absent: none lies loose"},
-    {"warnings", text, maybe, "as in the motion file, this stage's behind them"},
+     "estimated share of the curvature of loose cables that their mesh misses (strain.cable_elements_per_segment): "
+     "rms over the motion, of the worst cable; absent: no loose cable"},
+    {"warnings", text, maybe, "as in the motion file, then those of this stage"},
   });
   return format;
 }
@@ -309,9 +311,9 @@ Format make_life_format() {
      "stress of the worst site along that history, as fatigue.stress has it, after its mean has relaxed; only "
      "where a wire was evaluated"},
     {"/plane/site",            u32,  "plane",           "1",    maybe,
-     "wires whose planes were judged; with strain.equivalent critical_plane only"},
+     "wires with evaluated planes; with strain.equivalent critical_plane only"},
     {"/plane/angle",           f64,  "plane",           "rad",  maybe,
-     "of the normal of the plane that is damaged most to the wire's axis"},
+     "angle between the wire's axis and the normal of the plane with the largest damage"},
     {"/plane/damage",          f64,  "plane",           "1",    maybe, "its damage per repeat"},
     {"/time",                  f64,  "sample",          "s",    always, "time of each sample"},
     {"/program/step",          i32,  "sample",          "1",    always, "index of the program line being executed"},
@@ -321,11 +323,11 @@ Format make_life_format() {
     {"/program/damage_opened", f64,  "line",            "1",    maybe,
      "the same damage by the program line that opens the cycles"},
     {"/joint/name",            text, "cause",           "1",    maybe,
-     "the robot's joints, then `carrying`: what moves the dresspack as a whole, and the rest"},
+     "the robot's joints, then `carrying`: motion of the dresspack as a whole, and the rest"},
     {"/joint/damage",          f64,  "cause",           "1",    maybe,
-     "damage of the worst site by what moved between opening and closing of its cycles; below 0: moved against the "
-     "others"},
-    {"/program/joint_damage",  f64,  "line, cause",     "1",    maybe, "/program/damage by what moved"},
+     "damage of the worst site by cause: what moved between opening and closing of its cycles; below 0: the cause "
+     "reduces the damage"},
+    {"/program/joint_damage",  f64,  "line, cause",     "1",    maybe, "/program/damage by cause"},
     {"/clamp/name",            text, "clamp",           "1",    maybe,
      "base clamp, those between the ends with their links, tool clamp"},
     {"/clamp/damage",          f64,  "clamp",           "1",    maybe,
@@ -340,8 +342,8 @@ Format make_life_format() {
     {"/cable/tension",        f64,  "sample, cable", "N",    maybe,
      "force of each, by the cyclic curve of its wires; where it differs along it, the largest"},
     {"/clamp/cable_moment",   f64,  "sample",        "N m",  maybe,
-     "of all cables on the hose by their forces, the larger of both clamps; of the span where they ask most of the "
-     "hose"},
+     "moment of all cables on the hose by their forces, at the clamp and in the span with the largest share of the "
+     "hose's moment"},
     {"/clamp/hose_moment",    f64,  "sample",        "N m",  maybe,
      "bending moment that the simulated hose carries there, by its E I"},
   });
@@ -371,22 +373,22 @@ Format make_life_format() {
     {"life_hours_mean_stress_kept", f64, maybe, "the same wire's life if none of its mean stress relaxed"},
     {"life_hours_without_mean_stress", f64, maybe, "the same wire's life by (8), mean stress left out"},
     {"mean_stress_left", f64, maybe,
-     "mean over its life of the share that is left of the stress by which it is off centre (fatigue/README.md, "
-     "F22)"},
+     "share of its mean stress that remains after relaxation, averaged over its life (F22)"},
     {"worst_dresspack", text, maybe,
-     "the dresspack that it lies in, among several; the segment above is counted in it"},
+     "its dresspack, among several; worst_segment_from_tool is counted in it"},
     {"life_hours_p10", f64, maybe,
-     "the planner's life: by then 10 % of such dresspacks have a conductor that has lost fatigue.failed_wires_percent "
-     "of its wires in one segment, over the uncertain parameters (section uncertainty) and the scatter of wires. In "
-     "files without first_wire_life_hours_p10 these three tell of the first broken wire"},
-    {"life_hours_p50", f64, maybe, "the same of half of them"},
-    {"life_hours_p90", f64, maybe, "the same of 90 %"},
+     "the life to plan with: by then 10 % of such dresspacks have a conductor that has lost "
+     "fatigue.failed_wires_percent of its wires in one segment, over the uncertain parameters (section "
+     "uncertainty) and the scatter of wires. In files without first_wire_life_hours_p10 these three are lives of "
+     "the first broken wire"},
+    {"life_hours_p50", f64, maybe, "the same for 50 %"},
+    {"life_hours_p90", f64, maybe, "the same for 90 %"},
     {"scatter_life_hours_p10", f64, maybe,
-     "the same over the scatter of wires alone; only where uncertainty is enabled"},
-    {"scatter_life_hours_p50", f64, maybe, "the same of half of them"},
-    {"scatter_life_hours_p90", f64, maybe, "the same of 90 %"},
+     "life_hours_p10 with the scatter of wires only; only if uncertainty is enabled"},
+    {"scatter_life_hours_p50", f64, maybe, "the same for 50 %"},
+    {"scatter_life_hours_p90", f64, maybe, "the same for 90 %"},
     {"life_response", text, maybe,
-     "how the life depends on what is uncertain, by failure mode (pipeline/life/first_failure.h)"},
+     "life as a function of the uncertain parameters, by failure mode (pipeline/life/first_failure.h)"},
     {"life_hours_p10_all_glued", f64, maybe,
      "life_hours_p10 if everything inside the cables were glued, over the same samples"},
     {"life_hours_p50_all_glued", f64, maybe, "life_hours_p50 under the same condition"},
@@ -403,26 +405,26 @@ Format make_life_format() {
     {"best_test_life_hours_p90", f64, maybe, "life_hours_p90 after that measurement, if it confirms today's median"},
     {"life_shares", text, maybe,
      "shares of the variance of log life by cause (Shapley effects), largest first; they add up to 100 %"},
-    {"measure_next", text, maybe, "the parameter that explains most; empty: the scatter of wires does"},
-    {"measure_next_share", f64, maybe, "how much, 0 to 1"},
-    {"life_months_p10", f64, maybe, "the first of them at the job's operating hours per week"},
+    {"measure_next", text, maybe, "the parameter with the largest share; empty: the scatter of wires has it"},
+    {"measure_next_share", f64, maybe, "its share, 0 to 1"},
+    {"life_months_p10", f64, maybe, "life_hours_p10 at the job's operating hours per week"},
     {"robot_life_hours", f64, maybe, "fatigue.robot_life_hours of the job; absent: no robot moves"},
     {"failing_conductor", text, maybe,
-     "where a share of wires breaks soonest by their medians: path of the conductor"},
-    {"failing_position_from_tool", f64, maybe, "and its distance from the tool clamp along the dresspack, m"},
+     "path of the conductor that loses the share of its wires first, by median lives"},
+    {"failing_position_from_tool", f64, maybe, "distance of that place from the tool clamp along the dresspack, m"},
     {"first_wire_life_hours_p10", f64, maybe,
      "by then 10 % of such dresspacks have a broken wire (fatigue.scatter_log10)"},
     {"first_wire_life_hours_p50", f64, maybe,
-     "the same of half of them: earlier than life_hours, since any of many wires may be the first"},
-    {"first_wire_life_hours_p90", f64, maybe, "the same of 90 %"},
+     "the same for 50 %; earlier than life_hours, because any of many wires may be the first"},
+    {"first_wire_life_hours_p90", f64, maybe, "the same for 90 %"},
     {"worst_shear_range", f64, maybe,
      "largest less smallest shear strain of the worst site's surface, by its wire's torsion"},
-    {"worst_plane_angle", f64, maybe, "/plane/angle of the worst site, rad; absent where it was not judged"},
+    {"worst_plane_angle", f64, maybe, "/plane/angle of the worst site, rad; absent if it was not evaluated"},
     {"joint_explained", f64, maybe,
-     "share of the variance of the worst site's strain that follows from the joints between the clamps; how far to "
-     "trust /joint/damage"},
-    {"worst_joint", text, maybe, "the cause in /joint/name that costs most"},
-    {"worst_joint_share", f64, maybe, "its share of the worst site's damage; above 1 where other joints relieve"},
+     "share of the variance of the worst site's strain that the joints between the clamps explain; near 1: "
+     "/joint/damage is reliable"},
+    {"worst_joint", text, maybe, "the cause in /joint/name with the largest damage"},
+    {"worst_joint_share", f64, maybe, "its share of the worst site's damage; above 1 if other causes reduce it"},
     {"hose_life_repeats", f64, maybe,
      "repeats until the hose's wall cracks, with dresspack.hose_material only; the attributes and tables without "
      "`hose` are about wires"},
@@ -436,17 +438,17 @@ Format make_life_format() {
     {"hose_step", text, maybe, "program line being executed then"},
     {"conductor_life_hours_p10", f64, maybe,
      "by then 10 % of such dresspacks have a conductor with fatigue.failed_wires_percent of its wires broken"},
-    {"conductor_life_hours_p50", f64, maybe, "the same of half of them"},
-    {"conductor_life_hours_p90", f64, maybe, "the same of 90 %"},
+    {"conductor_life_hours_p50", f64, maybe, "the same for 50 %"},
+    {"conductor_life_hours_p90", f64, maybe, "the same for 90 %"},
     {"estimates", text, maybe,
      "keys that the dresspacks leave out, with the values that dresslife estimated (config/defaults.md); empty: none"},
-    {"warnings", text, maybe, "as in the strain file, this stage's behind them: all of the job's"},
+    {"warnings", text, maybe, "as in the strain file, then those of this stage"},
   });
   return format;
 }
 
 Format make_preview_format() {
-  Format format{"dresslife-preview", 1, "dresslife-sim --preview", "what stands where before a run", {}, {}};
+  Format format{"dresslife-preview", 1, "dresslife-sim --preview", "robot, clamps and hose before a run", {}, {}};
   for (const char* as_in_motion :
        {"/time", "/segment/position", "/segment/length", "/segment/dresspack", "/dresspack/name",
         "/clamp/position", "/clamp/segment", "/robot/joint_position", "/robot/link_pose", "/program/step",
@@ -456,46 +458,46 @@ Format make_preview_format() {
   add(format, {
     {"/span/dresspack",      i32,  "span",         "1",    always,
      "dresspack of each span between two clamps that hold it"},
-    {"/span/name",           text, "span",         "1",    always, "between which clamps; empty: the only span"},
+    {"/span/name",           text, "span",         "1",    always, "its clamps; empty: the only span"},
     {"/span/length",         f64,  "span",         "m",    always, "length of dresspack in it, unstretched"},
     {"/span/way",            f64,  "sample, span", "m",    always,
-     "straight way between its clamps, through its rings; 0 at a free end"},
+     "straight distance between its clamps, through its rings; 0 at a free end"},
     {"/span/working_length", f64,  "span, 4",      "m",    always,
-     "least and most length with the slack that the checks ask for: in the first sample's pose, then over the "
+     "smallest and largest length with the slack that the checks require: in the first pose, then over the "
      "program; 0: a free end"},
     {"/scan/span",           i32,  "scan",         "1",    maybe, "span of each length that was tried"},
     {"/scan/length",         f64,  "scan",         "m",    maybe, "length"},
     {"/scan/bend_radius",    f64,  "scan",         "m",    maybe,
-     "least bend radius of the dresspack at rest in some poses of the program, with its weight, without contact; "
-     "0: it finds no rest"},
+     "smallest bend radius of the dresspack at rest in some poses of the program, with its weight, without "
+     "contact; 0: no equilibrium"},
   });
   add(format, {
-    {"refusal", text, always, "why the simulation refuses the job; empty: it takes it"},
-    {"refusal_time", f64, maybe, "when, s; absent: not at a time of the program"},
+    {"refusal", text, always, "why the simulation refuses the job; empty: it accepts it"},
+    {"refusal_time", f64, maybe, "time of the refusal, s; absent: it has none"},
     {"warnings", text, maybe,
-     "what geometry and statics warn of, a line each: kind, place and words between tabs; absent in files of older programs"},
+     "warnings of geometry and statics, one per line: kind, place and words, separated by tabs"},
   });
   return format;
 }
 
 Format make_screening_format() {
   Format format{"dresslife-screening", 1, "dresslife-sim --screen or --propose",
-                "what geometry alone, or a short run, says of routings", {}, {}};
+                "geometric limits and short runs of routings", {}, {}};
   add(format, {
     {"/limit/name",         text, "limit",            "1",    always,
      "too short, too long, bent too tightly, twisted too far, in the robot, pulled too hard, bracket"},
     {"/candidate/changes",  text, "candidate",        "1",    always,
-     "YAML: what was changed in the job, or the routing that is proposed"},
+     "YAML: the changes of the job, or the proposed routing"},
     {"/candidate/refusal",  text, "candidate",        "1",    always,
-     "why it is no job, or does not run; empty: it is one"},
+     "why it is no job, or does not run; empty: it runs"},
     {"/candidate/rejected", i32,  "candidate",        "1",    always, "1: cannot work, 0: may"},
     {"/candidate/beyond",   f64,  "candidate, limit", "1",    endless,
-     "how far beyond each limit, (V1) to (V7) in sim/route/screening.h, of the last run where there were rehearsals; <= "
-     "0: kept; 0 where it is no job"},
-    {"/candidate/time",     f64,  "candidate, limit", "s",    always, "when"},
+     "excess over each limit, (V1) to (V7) in sim/route/screening.h, of the last short run if there was one; <= 0: "
+     "within the limit; 0 if it is no job"},
+    {"/candidate/time",     f64,  "candidate, limit", "s",    always, "its time"},
     {"/candidate/bend",     f64,  "candidate, bend",  "1",    maybe,
-     "of short runs: (V3) of each dresspack, each part of the motion's time, each part of the hose "
-     "(sim/route/rehearsal.h); 0 where it does not run"},
+     "short runs: (V3) of each dresspack, part of the motion and part of the hose (sim/route/rehearsal.h); 0 if it "
+     "does not run"},
   });
   add(format, {
     {"motion", text, always, "YAML of the motion for which routings are proposed; empty: the job's own"},
@@ -504,7 +506,7 @@ Format make_screening_format() {
 }
 
 Format make_ways_format() {
-  Format format{"dresslife-ways", 1, "dresslife-import --ways", "what the lines of a robot program could do instead", {}, {}};
+  Format format{"dresslife-ways", 1, "dresslife-import --ways", "alternatives for lines of a robot program", {}, {}};
   add(format, {
     {"/way/what",      text, "way",     "1", always, "\"axis 6 +360 deg\""},
     {"/way/lines",     text, "way",     "1", always, "the lines that it changes, one below the other: side_panel.mod:54; empty: all"},
@@ -572,10 +574,16 @@ std::string file_manual() {
     text += fmt::format("### {} version {}: {} (written by {})\n\n", format->name, format->version,
                         format->purpose, format->made_by);
     text += "| dataset | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
-    for (const Dataset& dataset : format->datasets)
-      text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", dataset.path, type_text(dataset.type),
-                          shape_text(dataset), dataset.unit, dataset.meaning,
-                          dataset.may_be_absent ? " (may be absent)" : "");
+    for (const Dataset& dataset : format->datasets) {
+      if (dataset.path.starts_with("/bound_")) continue;  // one line below the table
+      text += fmt::format("| `{}` | {}{} | {} | {} | {} |\n", dataset.path, type_text(dataset.type),
+                          dataset.may_be_absent ? ", optional" : "", shape_text(dataset), dataset.unit,
+                          dataset.meaning);
+    }
+    if (format == &strain_format())
+      text +=
+          "\n`/bound_stick/site/...`, `/bound_stick/reversal/...`: the same with everything in the cables glued. "
+          "`/bound_free/...`: with everything slipping freely.\n";
     if (!format->attributes.empty()) {
       text += "\n| root attribute | meaning |\n|---|---|\n";
       for (const AttributeInfo& attribute : format->attributes)

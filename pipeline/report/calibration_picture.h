@@ -1,5 +1,5 @@
-// What observations have taught, as a picture that stands alone (SVG): each parameter before and after, and
-// each row's life as it was foretold before and after beside what was seen.
+// Result of a calibration as a complete SVG file: each parameter before and after, and each row's observed life with
+// its predictions before and after.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// How charts look: the colours and rules of the classes in which life_charts, scene and plot draw. A page
-// holds them once for all of its charts; a chart by itself brings them along.
+// Style of charts: colours and rules of the classes of life_charts, scene and plot. A page contains them once for all
+// of its charts; a single chart contains them itself.
 #pragma once
 
 #include <string>
@@ -9,17 +9,15 @@ namespace dresslife::pipeline {
 /// Rules for a page's style sheet, with colours for light and dark readers.
 std::string chart_style();
 
-/// A chart in a page, at a size at which its words can be read; a picture without words to read, which
-/// shrinks with the page.
+/// A chart in a page, in a size with legible text; a picture without text, which shrinks with the page.
 std::string chart_in_page(const std::string& svg);
 std::string picture_in_page(const std::string& svg);
 
-/// A chart, "<svg viewBox=...", as a file of its own: in the light colours, which all programs that show SVG
-/// understand, on their ground.
+/// A chart, "<svg viewBox=...", as a separate file: in light colours and with a background.
 std::string standalone(const std::string& chart);
 
-/// A file of SVG as the bytes of a PNG, drawn by rsvg-convert. Errors: InputError with the package that
-/// brings it when it is not there, or when it fails.
+/// A file of SVG as the bytes of a PNG, by rsvg-convert. Errors: InputError if it fails or is not installed, with its
+/// package.
 std::string png_of(const std::string& svg);
 
 }  // namespace dresslife::pipeline

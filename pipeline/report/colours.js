@@ -1,4 +1,4 @@
-// Colours of numbers that colour-blind eyes tell apart: plasma from dark to bright for amounts, blue to orange for signs.
+// Colours for numbers, distinct for colour-blind readers: plasma from dark to bright for amounts, blue to orange for signs.
 const sequentialStops = [[59, 4, 154], [126, 3, 168], [182, 48, 139], [225, 100, 98], [248, 149, 64], [252, 194, 50]];
 const divergingStops = [[0, 82, 155], [90, 155, 205], [225, 225, 225], [240, 160, 70], [175, 80, 0]];
 const noAmount = [150, 158, 168];

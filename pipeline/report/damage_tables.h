@@ -12,7 +12,7 @@ namespace dresslife::pipeline {
 /// A chart below its heading and a remark; empty without a chart.
 std::string chart_section(const std::string& heading, const std::string& remark, const std::string& chart);
 
-/// Along the dresspack with the worst wire, and what lies near each clamp.
+/// Along the dresspack with the worst wire, and by clamp.
 std::string damage_along(const LifeSummary& life, const RankingRow& row);
 
 /// Of the worst wire by program line and by joint, and the life of each layer of wires.

@@ -1,5 +1,4 @@
-// Single figures of one job, as files: what `dresslife plot` draws. The thesis has some of them as its
-// figures 14 to 19.
+// Single figures of one job as files (`dresslife plot`). Some are figures 14 to 19 of the thesis.
 #pragma once
 
 #include <filesystem>
@@ -16,18 +15,18 @@ constexpr std::string_view word(Figure value) {
   return word_at({"strain", "cycles", "damage", "deformation", "curvature", "scene"}, value);
 }
 
-/// Where the results of a job lie.
+/// Result files of a job.
 struct JobFiles {
   std::filesystem::path motion, strain, life;
 };
 
-/// Of a job's folder, or of one of its files: the others lie beside it under the names that a study gives
-/// them. Errors: InputError for what is neither.
+/// Of a job's folder, or of one of its files with the others beside it under their usual names. Errors: InputError for
+/// anything else.
 JobFiles job_files(const std::filesystem::path& place);
 
 /// An SVG file.
 ///   strain       of the worst wire over time, the program below it (thesis, figures 16 and 17)
-///   cycles       of the worst wire: how often each range occurs, and what it costs
+///   cycles       of the worst wire: number and damage of the cycles of each range
 ///   damage       of the worst wire of each segment, along the dresspack
 ///   deformation  curvature, twist and elongation along the dresspack at a time (figure 14 shows their effect
 ///                on a wire)

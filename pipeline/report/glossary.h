@@ -1,5 +1,5 @@
-// The words of tables, pages and warnings, and what they mean: one list, from which the glossary page, the end of every
-// HTML page and `dresslife manual glossary` are made.
+// The words of tables, pages and warnings with their meanings: one list for the glossary page, the end of every HTML
+// page and `dresslife manual glossary`.
 #pragma once
 
 #include <span>

@@ -8,7 +8,7 @@
 
 namespace dresslife::pipeline {
 
-/// Where one dresspack's points lie in a row of /clamp/position and of /segment/position.
+/// Places of one dresspack's points in a row of /clamp/position and of /segment/position.
 struct HoseLine {
   std::size_t base_clamp = 0, first_segment = 0, segments = 0, tool_clamp = 0;
 

@@ -1,5 +1,5 @@
-// The page of a search for longer lives: before and after side by side, what was changed, what is gained and
-// how sure that is, how much the new place forgives, and the way there.
+// The page of a search for longer lives: before and after side by side, changes, gain and its confidence, mounting
+// tolerance, and the course of the search.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace dresslife::pipeline {
 
 struct ImprovementStory {
   struct Change {
-    std::string key, before, after;  ///< before: empty where a job does not name it, or jobs differ in it
+    std::string key, before, after;  ///< before: empty if a job does not have it, or jobs differ in it
   };
   struct Lives {
     std::string page;                  ///< of the job, relative to this page; empty: there is none
@@ -21,22 +21,22 @@ struct ImprovementStory {
     int trial = 0;
     bool ran = false, feasible = false;
     double hours = 0;
-    std::string words;  ///< what is passed
+    std::string words;  ///< violated limits
   };
   struct Nudge {
     std::string what;  ///< "base clamp, z + 10 mm"
     bool ran = false;
-    double share = 0;   ///< its life over that of the place itself
-    std::string words;  ///< what is passed; empty: nothing
+    double share = 0;   ///< its life over that without the change
+    std::string words;  ///< violated limits; empty: none
   };
 
   std::string name;
   std::vector<Change> changes;
   std::optional<Lives> before, after;
-  std::optional<double> longer_in;  ///< share of draws in which the job lives longer than before
+  std::optional<double> longer_in;  ///< share of samples in which the job lives longer than before
   std::vector<Nudge> nudges;
   std::vector<Look> looks;
-  std::vector<std::pair<double, double>> front;  ///< second aim, life [h]; of two aims
+  std::vector<std::pair<double, double>> front;  ///< second objective, life [h]; with two objectives
   std::string second_title;                      ///< "free length [m]"
 };
 

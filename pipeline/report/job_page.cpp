@@ -87,7 +87,7 @@ std::string headline(const RankingRow& row) {
 }
 
 /// "E I 25 N m2, G J 20 N m2, E A 1e+05 N" of each dresspack as it was simulated; empty where an older file
-/// does not tell.
+/// does not say.
 std::string stiffness_words(const FileReader& motion) {
   if (!motion.has("/dresspack/bending_stiffness")) return "";
   const auto bending = motion.read<double>("/dresspack/bending_stiffness"),

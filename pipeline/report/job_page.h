@@ -1,5 +1,5 @@
-// The page of one job: robot and dresspack in motion, where and when the damage comes about, and what the
-// numbers rest on. One HTML file of at most 5 MB for three minutes of motion, beside the results of the job.
+// The page of one job: robot and dresspack in motion, place and time of the damage, and the estimates behind the
+// numbers. One HTML file of at most 5 MB for three minutes of motion, beside the results of the job.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace dresslife::pipeline {
 
-/// Where the results of a job lie: motion.h5, strain.h5, life.h5 in its folder.
+/// The folder of a job with motion.h5, strain.h5 and life.h5.
 struct JobFolder {
   std::string name;  ///< of the job
   std::filesystem::path folder;
@@ -18,23 +18,22 @@ struct JobFolder {
   std::filesystem::path page() const { return folder / "page.html"; }
 };
 
-/// The page as text. Without motion.h5 or strain.h5, which may have been cleared away, it shows what it can
-/// and says what is missing. Errors: InputError when a file cannot be read or the files are not of one job.
+/// The page as text. Without motion.h5 or strain.h5, which a study need not keep, it shows the rest and names the
+/// missing files. Errors: InputError when a file cannot be read or the files are not of one job.
 std::string job_page(const JobFolder& files);
 
-/// Writes the page of a job whose results have changed, or whose program has; leaves it alone otherwise.
-/// Returns whether it was made. Errors: InputError as above, or when it cannot be written.
+/// Writes the page if the results of the job or its program changed. Returns whether it was written. Errors:
+/// InputError as above, or when it cannot be written.
 bool refresh_job_page(const JobFolder& files);
 
-/// Lets the page of a last result say at its head that it is stale, in these words; a page that is not there
-/// stays away. refresh_job_page() makes it again once there is a result of now. Errors: InputError when it
-/// cannot be written.
+/// Marks an existing page as stale, with these words at its head. refresh_job_page() replaces it once there is a
+/// present result. Errors: InputError when it cannot be written.
 void mark_job_page(const JobFolder& files, const std::string& words);
 
-/// Removes a page; a file that is none of ours stays. Errors: InputError when it cannot be removed.
+/// Removes a page; a file of the user stays. Errors: InputError when it cannot be removed.
 void remove_job_page(const JobFolder& files);
 
-/// Removes a page that is not of the results that lie beside it, or damaged. Errors: as above.
+/// Removes a page that is damaged or does not belong to the results beside it. Errors: as above.
 void remove_old_job_page(const JobFolder& files);
 
 }  // namespace dresslife::pipeline

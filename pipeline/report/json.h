@@ -1,8 +1,7 @@
-// JSON for the scripts of a page, in the form in which it may stand inside a <script> element, and long rows
-// of numbers in it: base64 of little-endian 16-bit steps or 32-bit floats, a third of the digits' length.
+// JSON for the scripts of a page, safe inside a <script> element. Long rows of numbers are base64 of little-endian
+// 16-bit steps or 32-bit floats, a third of the digits' length.
 //
-// A library's tree of values would hold the 5 MB of a page's numbers twice; what is left of it, quoting a text
-// and putting commas, is the sixty lines here.
+// A library's tree of values would store the 5 MB of a page's numbers twice.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +24,7 @@ struct Json {
   Json(double value);
   Json(std::integral auto value) : text(std::to_string(value)) {}
   Json(bool value) : text(value ? "true" : "false") {}
-  /// Quoted; "<" is written \u003c, so that no text ends the element it stands in.
+  /// Quoted; "<" is written \u003c, so that no text ends its element.
   Json(std::string_view value);
   Json(const std::string& value) : Json(std::string_view(value)) {}
   Json(const char* value) : Json(std::string_view(value)) {}
@@ -47,7 +46,7 @@ std::string base64(std::string_view bytes);
 Json base64_of(std::span<const std::uint16_t> values);
 Json base64_of(std::span<const float> values);
 
-/// Numbers as whole steps above `low`: value = low + step * n, n in 0 .. steps, wrong by half a step at most.
+/// Numbers as whole steps above `low`: value = low + step * n, n in 0 .. steps, with an error of half a step at most.
 struct Steps {
   double low = 0, step = 0;
   Steps() = default;

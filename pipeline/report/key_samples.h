@@ -1,4 +1,4 @@
-// Which samples of a long motion a page needs so that straight lines between them show all the others.
+// The samples of a long motion that a page needs: straight lines between them approximate all others.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@ struct Histories {
   const double* row(std::size_t sample) const { return &rows[sample * width]; }
 };
 
-/// Samples, first and last among them, such that each quantity, interpolated linearly in time between them,
-/// misses every sample by at most its tolerance: from each, the farthest that a fan of slopes reaches which
-/// all samples on the way leave open. O(samples width). Precondition: at least one sample.
+/// Samples, including the first and the last, between which linear interpolation in time is within the tolerance of
+/// each quantity at every sample. Each next one is the farthest for which all samples between leave a common slope.
+/// O(samples width). Precondition: at least one sample.
 std::vector<std::size_t> key_samples(const Histories& histories, const std::vector<double>& tolerance);
 
-/// (quantity) how much each misses at worst between such samples.
+/// (quantity) largest error of each between such samples.
 std::vector<double> largest_misses(const Histories& histories, const std::vector<std::size_t>& keys);
 
 }  // namespace dresslife::pipeline

@@ -193,7 +193,7 @@ struct PlaceInFile {
   std::size_t dresspack = 0, first_segment = 0;
 };
 
-/// The names and lives of all dresspacks, and what is told along the one with the worst wire.
+/// Names and lives of all dresspacks, and the data along the one with the worst wire.
 PlaceInFile read_worst_dresspack(const FileReader& file, LifeSummary& life) {
   life.dresspack = dresspack_names(file);
   if (file.has("/dresspack/damage")) life.dresspack_damage = file.read<double>("/dresspack/damage");

@@ -1,4 +1,4 @@
-// What a life file tells about one job, and the charts of it. Each chart is inline SVG in the classes of
+// Data of one job's life file, and its charts. Each chart is inline SVG in the classes of
 // report.cpp.
 #pragma once
 
@@ -14,33 +14,33 @@ struct WorstCycle {
   double range = 0, count = 0, damage = 0;
 };
 
-/// The part of a life file that a reader looks at; sizes do not depend on the number of wires.
+/// The part of a life file that charts show; sizes do not depend on the number of wires.
 struct LifeSummary {
   std::vector<double> time;            ///< (sample) [s]
   std::vector<double> strain;          ///< (sample) of the worst wire, see known_history.h
-  std::string strain_of;               ///< which wire that is, in words
+  std::string strain_of;               ///< name of that wire
   std::vector<double> damage_rate;     ///< (sample) of the worst segment; empty: no wire was evaluated
   std::vector<std::int32_t> step;      ///< (sample) program line, -1: none
   std::vector<std::string> step_text;  ///< (line)
   std::vector<double> step_damage;  ///< (line) of the worst wire, per repeat, by the line that closes a cycle
-  std::vector<double> step_opened;  ///< (line) the same by the line that opens it; empty: not told
+  std::vector<double> step_opened;  ///< (line) the same by the line that opens it; empty: not known
   std::vector<std::string> dresspack;     ///< names of several; {""}: the only one
-  std::vector<double> dresspack_damage;   ///< (dresspack) of its worst wire, per repeat; empty: not told
+  std::vector<double> dresspack_damage;   ///< (dresspack) of its worst wire, per repeat; empty: not known
   std::vector<double> segment_length;     ///< (segment of the worst dresspack) from the base [m]
   std::vector<double> segment_damage;     ///< (segment of the worst dresspack) of its worst wire, per repeat
   std::vector<std::string> layer;         ///< (layer) path of a layer of wires
   std::vector<double> layer_damage;       ///< (layer) of its worst wire, per repeat
   std::vector<WorstCycle> cycles;         ///< of the worst wire
-  std::vector<std::string> cause;         ///< joints, then `carrying`; empty: not told
+  std::vector<std::string> cause;         ///< joints, then `carrying`; empty: not known
   std::vector<double> cause_damage;       ///< (cause) of the worst wire
   std::vector<double> line_cause_damage;  ///< (line, cause) of those of its cycles that close in the line
-  double explained = 0;                   ///< share of its strain's variance that follows from the joints
-  std::vector<std::string> clamps;        ///< of the worst dresspack; empty: not told
+  double explained = 0;                   ///< share of its strain's variance that the joints explain
+  std::vector<std::string> clamps;        ///< of the worst dresspack; empty: not known
   std::vector<double> clamp_damage;       ///< (clamp) of the segments near each
   std::string job, history;
 };
 
-/// strain_file: of the same job, for a history without gaps; may be missing. Errors: InputError when a file
+/// strain_file: of the same job, for a complete history; may be missing. Errors: InputError when a file
 /// cannot be read.
 LifeSummary read_life(const std::filesystem::path& life_file, const std::filesystem::path& strain_file = {});
 
@@ -52,18 +52,17 @@ struct ProgramRun {
 };
 std::vector<ProgramRun> program_runs(const LifeSummary& life);
 
-/// Strain of the worst wire over time, the program below it, and how the damage adds up; the program lines
-/// that cost most are named above.
+/// Strain of the worst wire over time, the program below it, and the sum of the damage. The most damaging program
+/// lines are named above.
 std::string strain_chart(const LifeSummary& life);
 
 /// Damage per repeat along the worst dresspack, base to tool; worst_from_tool is marked, 0: none.
 std::string segment_chart(const LifeSummary& life, int worst_from_tool);
 
-/// Share of the length on which the damage is at least 0.8 of the largest: near 1, the worst segment says
-/// little.
+/// Share of the length on which the damage is at least 0.8 of the largest. Near 1 the worst segment means little.
 double nearly_worst_share(const LifeSummary& life);
 
-/// How many cycles of which strain range the worst wire sees in a repeat, and what each range costs.
+/// Number and damage of the worst wire's cycles per repeat over their strain range.
 std::string cycle_chart(const LifeSummary& life);
 
 }  // namespace dresslife::pipeline

@@ -23,7 +23,7 @@ constexpr std::size_t most_turns = 30'000;     // of other places, of six bytes 
 constexpr std::size_t most_samples = 20'000;
 constexpr std::size_t most_closings = 300;  // of each segment
 constexpr double least_closing = 1e-4;      // of a segment's damage: 0.01 %
-constexpr int cycle_cells = 24;  // along range and mean, as wide as a thumb on a phone can be told apart
+constexpr int cycle_cells = 24;             // along range and mean, each wide enough for a thumb on a phone
 
 /// A history as it is, or by the two extremes of each of equal stretches, in the order in which they occur.
 class Thinning {
@@ -188,7 +188,7 @@ class Data {
   }
 
   /// One history, at its own times or at those of all. sampled: whole, else straight between turning points.
-  /// site: of the wire; the segment's worst where it is not told.
+  /// site: of the wire; by default the segment's worst.
   Json strain_row(std::size_t segment, bool sampled, const std::vector<double>& strain,
                   const std::vector<float>& own_times = {}, const Probe* of = nullptr) const {
     const bool other = of && of->site != worst_site_[segment];

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t most_cells = 4000;  // 2,000 jobs fit where half of the combinations are missing
 
 using Colour = std::array<double, 3>;
-/// Orange, near white, blue: told apart by all kinds of colour-blind eyes, black is legible on each.
+/// Orange, near white, blue: distinct for colour-blind readers; black is legible on each.
 constexpr std::array<Colour, 3> stops{{{235, 145, 70}, {245, 240, 232}, {120, 180, 220}}};
 
 std::string colour_of(double part) {

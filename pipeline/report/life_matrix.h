@@ -9,10 +9,9 @@
 
 namespace dresslife::pipeline {
 
-/// HTML; empty unless exactly two keys of the rows take two values or more. Of jobs that share both values
-/// the shortest life is told, and how many they are. link: address of what a row's job is told by; empty:
-/// nothing. Cells are coloured by the logarithm of their lives, orange for the shortest to blue for the
-/// longest.
+/// HTML; empty unless exactly two keys of the rows have two values or more. A cell shows the shortest life of its
+/// jobs and their number. link: address of a row's job; empty: none. Colours follow the logarithm of the lives, from
+/// orange for the shortest to blue for the longest.
 std::string life_matrix(const std::vector<RankingRow>& rows,
                         const std::function<std::string(std::size_t row)>& link);
 

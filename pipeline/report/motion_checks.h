@@ -1,4 +1,4 @@
-// The checks of a motion (datasets /check of motion.h5) as a table for people.
+// The checks of a motion (datasets /check of motion.h5) as a table.
 #pragma once
 
 #include <filesystem>

@@ -15,7 +15,7 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr std::size_t most_bytes = 2'150'000;     // of the page, before base64 adds a third
-constexpr std::size_t most_samples = 20'000;      // looked at; of longer motions every second, third, ...
+constexpr std::size_t most_samples = 20'000;      // considered; of longer motions every second, third, ...
 constexpr double first_miss = 0.5e-3;             // allowed of a place [m]
 constexpr double shape_miss = 0.01 / first_miss;  // of largest curvature and twist, per metre of that
 constexpr std::size_t rows_at_once = 512;
@@ -61,7 +61,7 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-/// Segments of a line whose centres are told: evenly spread, first and last among them.
+/// Segments of a line whose centres are included: evenly spread, with the first and the last.
 std::vector<std::size_t> kept_centres(const HoseLine& line) {
   const std::size_t pieces = std::min(line.segments, most_points) - 1;
   std::vector<std::size_t> kept;
@@ -177,7 +177,7 @@ class Player {
     parts_.clear();
   }
 
-  /// Contacts come and go from sample to sample and choose none: a key sample tells the largest since the one
+  /// Contacts come and go from sample to sample and choose none: a key sample has the largest since the one
   /// before it.
   void gather_contacts(const std::vector<std::size_t>& keys) {
     for (const Group& group : groups_) {

@@ -1,5 +1,4 @@
-// Scripts and style of the pages. They stand as *.js and page.css in this folder and are
-// compiled in, so that a program carries its own.
+// Scripts and style of the pages, compiled in from *.js and page.css of this folder.
 #pragma once
 
 #include <string_view>

@@ -1,6 +1,5 @@
-// An HTML file that needs nothing else: style, scripts and data in it, and three.js, which draws its 3D view,
-// as the Debian package libjs-three has installed it. Without that package the page says how to get it and
-// shows the rest.
+// A complete HTML file with style, scripts, data and three.js (from the Debian package libjs-three) for the 3D view.
+// Without that package the page names it and shows the rest.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +9,7 @@
 
 namespace dresslife::pipeline {
 
-/// Folder of three.min.js: where Debian installs it, or what the environment variable DRESSLIFE_THREE names.
+/// Folder of three.min.js: that of Debian, or of the environment variable DRESSLIFE_THREE.
 std::filesystem::path three_folder();
 
 /// Text that changes when style, scripts or the installed three.js do.
@@ -20,11 +19,11 @@ std::string shell_digest();
 std::string whole_page(const std::string& title, const std::string& made_from, const std::string& body,
                        const std::string& data);
 
-/// Of a page that whole_page() made and that holds what was written; empty: there is none, it was not, or it was
-/// changed. Errors: those of PlainFile.
+/// The digest of an unchanged page of whole_page(); empty: no page, another file, or a changed page. Errors: those of
+/// PlainFile.
 std::string made_from_of(const std::filesystem::path& page);
 
-/// A page of whole_page() with a change.
+/// A page of whole_page() with changed text.
 std::string changed_page(std::string_view page, const std::function<void(std::string&)>& change);
 
 }  // namespace dresslife::pipeline

@@ -1,6 +1,5 @@
-// Charts as inline SVG: axes, ticks, lines and bars. Colours and fonts are left to the page through classes,
-// so that a chart follows the reader's light or dark scheme. Lengths are in units of the picture, about one
-// pixel each.
+// Charts as inline SVG: axes, ticks, lines and bars. Classes of the page define colours and fonts, so that a chart
+// follows the reader's light or dark scheme. Lengths are in units of the picture, about one pixel each.
 #pragma once
 
 #include <string>
@@ -9,7 +8,7 @@
 
 namespace dresslife::pipeline {
 
-/// Text made harmless between HTML tags and in quoted attributes.
+/// Text escaped for HTML text and quoted attributes.
 std::string escaped(const std::string& text);
 
 /// 10^exponent as text: "10⁻⁶".
@@ -23,7 +22,7 @@ std::string printed_hours(double hours);
 
 struct Tick {
   double value;
-  std::string label;  ///< empty: a mark alone
+  std::string label;  ///< empty: a mark only
 };
 
 /// One axis of a chart, in the unit of its title. Precondition: low < high; 0 < low when logarithmic.
@@ -46,7 +45,7 @@ Axis decades_axis(std::string title, double low, double high);
 /// A picture under construction.
 class Picture {
  public:
-  /// title, description: what a screen reader says.
+  /// title, description: for screen readers.
   Picture(double width, double height, std::string title, std::string description);
 
   enum class Anchor { start, middle, end };
@@ -55,7 +54,7 @@ class Picture {
   void box(double x, double y, double width, double height, const char* style, const std::string& hint = "");
   void dot(double x, double y, double radius, const char* style, const std::string& hint = "");
   void curve(const std::vector<std::pair<double, double>>& points, const char* style);
-  /// most_width: words that would take more are drawn narrower, not cut; 0: as wide as they are.
+  /// most_width: longer text is drawn narrower, not cut; 0: no limit.
   void text(double x, double y, const std::string& words, const char* style, Anchor anchor = Anchor::start,
             double most_width = 0);
   void upright_text(double x, double y, const std::string& words,
@@ -69,7 +68,7 @@ class Picture {
   std::string title_, description_, body_;
 };
 
-/// Width that a text takes at the size of the charts' labels, never too small.
+/// Upper bound of a text's width at the size of the charts' labels.
 double text_width(const std::string& words);
 
 /// A rectangle of a picture with a scale along each side.
@@ -86,8 +85,8 @@ struct Panel {
   void draw_axes(Picture& picture, bool with_x_labels = true) const;
 };
 
-/// The extremes of each of `columns` equal stretches of a history, in the order in which they occur: a curve
-/// that looks the same at that width and has at most two points per column.
+/// The extremes of each of `columns` equal intervals of a history, in their order: the same curve at that width with at
+/// most two points per column.
 std::vector<std::pair<double, double>> thinned(const std::vector<double>& time,
                                                const std::vector<double>& value, std::size_t columns);
 

@@ -1,6 +1,5 @@
-// The page of a job before its run: robot, clamps, cell and each dresspack in a smooth curve, over the
-// program; what the simulation refuses, and which lengths suit. From the file that `dresslife-sim --preview`
-// writes.
+// The page of a job before its run, from the file of `dresslife-sim --preview`: robot, clamps, cell and each
+// dresspack as a smooth curve over the program; the refusal of the simulation, and suitable lengths.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +8,15 @@
 
 namespace dresslife::pipeline {
 
-/// Which lengths each dresspack may have, and how hard they are bent at rest: sentences for terminal and
-/// page. Errors: InputError when the file cannot be read.
+/// Suitable lengths of each dresspack and their bend radius at rest, as sentences. Errors: InputError when the file
+/// cannot be read.
 std::vector<std::string> length_words(const std::filesystem::path& preview_file);
 
-/// Why the simulation refuses the job; empty: it takes it.
+/// Why the simulation refuses the job; empty: it accepts it.
 std::string refusal_of(const std::filesystem::path& preview_file);
 
 /// The page as text. name: of the job; made_from: 32 digits, which made_from_of() of page_shell.h finds in
-/// it. failure: what stopped the simulation on its way, shown where it refuses nothing before.
+/// it. failure: error of the simulation's run, shown if it did not refuse the job.
 std::string preview_page(const std::filesystem::path& preview_file, const std::string& name,
                          const std::string& made_from, const std::string& failure = "");
 

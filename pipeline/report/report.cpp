@@ -126,7 +126,7 @@ std::string sorted_by(double value) {
                                                                : shortest_text(value));
 }
 
-/// Of a row of the table, for who sorts and compares them.
+/// Data of a row of the table for sorting and comparing.
 std::string row_begin(const RankingRow& row, std::size_t rank) {
   return fmt::format("<tr data-rank=\"{}\" data-job=\"{}\" data-warnings=\"{}\">", rank, escaped(row.job),
                      warnings_of(row).size());
@@ -464,7 +464,7 @@ std::string checks(const RankingRow& row) {
   return table.empty() ? "" : "<h3>Checks of the motion</h3>\n" + table;
 }
 
-/// problems: is told why a section has no more than that it cannot be shown.
+/// problems: receives the reason if a section cannot be shown.
 std::string job_section(const RankingRow& row, std::size_t rank, std::vector<ReportProblem>& problems) {
   std::string body;
   try {

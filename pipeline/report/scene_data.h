@@ -1,5 +1,5 @@
-// What stands in a page's 3D view besides the dresspacks' lines: robot, cell, clamps, rings, mounting points;
-// as JSON for viewer.js.
+// Objects of a page's 3D view beside the dresspacks' lines: robot, cell, clamps, rings, mounting points; as JSON for
+// viewer.js.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace dresslife::pipeline {
 /// {joints: [name], links: [{name, shapes}], cell: [shape], clamps: [..], rings: [..], mounting_points: [..],
 /// hoses: [{name, radius}]}. A shape is a capsule {from, to, radius}, a box {position, quaternion x y z w,
 /// sides} or a mesh {position, quaternion, low, step, triangles}, in the frame of its link or of the world. A
-/// mesh whose file cannot be read any more is left out and told in `notes`.
+/// mesh whose file cannot be read is left out and named in `notes`.
 Json scene_data(const Setup& setup, std::vector<std::string>& notes);
 
 }  // namespace dresslife::pipeline

@@ -1,4 +1,4 @@
-// A mesh made small enough for a page.
+// A reduced mesh for a page.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace dresslife::pipeline {
 
-/// Corners moved to the middle of those that share a cube with them; triangles that collapse or coincide then
-/// are dropped. The cubes' edge doubles from 1/1000 of the mesh's largest side until at most `most` triangles
-/// are left; no corner moves farther than their diagonal. A mesh with no more triangles stays as it is.
+/// Moves all corners in one cube to their mean and drops triangles that collapse or coincide. The cubes' edge doubles
+/// from 1/1000 of the mesh's largest side until at most `most` triangles are left. No corner moves farther than a
+/// cube's diagonal. A mesh with at most `most` triangles is unchanged.
 std::vector<Triangle> simplified(const std::vector<Triangle>& mesh, std::size_t most);
 
 }  // namespace dresslife::pipeline

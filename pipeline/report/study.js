@@ -2,7 +2,7 @@
 // the table stands as it was written, best life first.
 const table = document.getElementById('ranking'), body = table.tBodies[0];
 const more = document.getElementById('more-jobs');
-// In the order in which they are looked at. Of thousands a browser lays out what it is asked for.
+// In their order on the page. Of thousands of rows a browser lays out those that are shown.
 const rowsAtOnce = 100;
 let rows = [...body.rows, ...(more ? more.content.children : [])], most = rowsAtOnce;
 const heads = [...table.tHead.rows[0].cells];
@@ -16,7 +16,7 @@ function made(name, attributes = {}, ...children) {
 
 // ---- sorting ----------------------------------------------------------------------------------------------------------
 
-// A number where the cell tells one, else its text; null: nothing to sort by, which stands last either way.
+// The number of a cell, else its text; null: nothing to sort by, always last.
 function valueOf(row, column) {
   const cell = row.cells[column];
   if (!cell || cell.colSpan > 1) return null;
@@ -43,7 +43,7 @@ heads.forEach((head, column) => {
   button.append(...head.childNodes);
   head.append(button);
   head.setAttribute('aria-sort', 'none');
-  // Lives are looked at from the longest on, names and ranks from the first.
+  // Lives are sorted from the longest, names and ranks from the first.
   const first = head.classList.contains('number') && column > 0 ? 'descending' : 'ascending';
   const other = first === 'ascending' ? 'descending' : 'ascending';
   button.addEventListener('click', () => sortBy(column, head.getAttribute('aria-sort') === first ? other : first));

@@ -1,5 +1,4 @@
-// Predicted beside measured: one line per observation on a common axis of lives, as a picture that stands
-// alone (SVG).
+// Predicted and observed lives: one line per observation on a common axis, as a complete SVG file.
 #pragma once
 
 #include <string>

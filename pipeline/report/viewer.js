@@ -42,7 +42,7 @@ function addShapes(group, shapes, material) {
   }
 }
 
-// A dresspack's line as a round tube, coloured segment by segment. places: of the points that tell it, in segments.
+// A dresspack's line as a round tube, coloured segment by segment. places: of its points, in segments.
 class Tube {
   constructor(places, segments, radius, material) {
     this.places = places;

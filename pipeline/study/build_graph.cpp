@@ -73,7 +73,7 @@ void set_recipes(JobState& state, const Job& job, const Programs& programs, Dige
   state.settings = recipe_of(all, files, {}, digests).substr(0, digits);
 }
 
-/// Receipts tell that all stages have made their outputs, one from the other, as far as these are there.
+/// Whether the receipts name all stages' outputs, each made from the one before, as far as these exist.
 void follow_receipts(JobState& state, const fs::path& folder) {
   state.inputs = {"-"};
   for (state.next = 0; state.next < stage_count; ++state.next) {
@@ -82,7 +82,7 @@ void follow_receipts(JobState& state, const fs::path& folder) {
     if (!receipt || receipt->recipe != state.recipes[state.next] ||
         receipt->input != state.inputs[state.next])
       return;
-    // After a failure no state spares the look at the bytes: a stage may have found what no time shows.
+    // After a failure the bytes are always compared: a stage may have found damage that no file time shows.
     if (!state.failure.empty()) receipt->state = {};
     const FileState now = state_of(folder / stage.output);
     const bool removed = !now.exists() && may_lack(state.keep, state.next);
@@ -131,9 +131,8 @@ std::string noted_failure(const JobState& state, const fs::path& folder) {
   return key == failure_key(state) ? reason : "";
 }
 
-/// The words before a stage's program: as Ninja reads them. The stage writes its log where it runs; what
-/// launchers say (srun tells of an exit status, too) stands by itself, as nothing tells which of the two
-/// would be first in one file.
+/// The words before a stage's program, quoted for Ninja. The stage writes its log where it runs. Messages of launchers
+/// (srun also reports exit statuses) go to a separate file, because their order relative to the log is unknown.
 std::string launching(const std::string& launcher, const Stage& stage) {
   if (launcher.empty()) return "";
   std::string words = "env -u DRESSLIFE_PARENT ";
@@ -163,7 +162,7 @@ std::string target_of(const Stage& stage, const std::string& job) {
   return job + "/" + beside(stage, ".ran").string();
 }
 
-/// By job and stage, who else gets what a job makes: lines of folders.
+/// By job and stage, the other jobs that get the output: lines of folders.
 using Likes = std::vector<std::array<std::string, stage_count>>;
 Likes likes_of(const Study& study, const std::vector<JobState>& states, const std::vector<Makers>& makers) {
   Likes likes(states.size());
@@ -173,8 +172,7 @@ Likes likes_of(const Study& study, const std::vector<JobState>& states, const st
   return likes;
 }
 
-/// What a job makes itself from the first stage that is to run, each stage behind whoever makes what it
-/// reads.
+/// The stages that a job runs itself, each after the stage that makes its input.
 std::string chain_of(const Study& study, const StudyPlaces& places, const JobState& state, std::size_t k,
                      const std::vector<Makers>& makers, const Likes& likes) {
   std::string text;
@@ -193,7 +191,7 @@ std::string chain_of(const Study& study, const StudyPlaces& places, const JobSta
   return text;
 }
 
-/// The first line of a log that tells an error, else nothing.
+/// The first line of a log with an error, else nothing.
 std::string error_line(const fs::path& log) {
   std::istringstream lines(read_text(log));
   for (std::string line; std::getline(lines, line);)
@@ -514,7 +512,7 @@ void close_run(const Study& study, const StudyPlaces& places, const BuildResult&
     join_logs(folder);
   }
   for (const std::size_t k :
-       unfinished) {  // when all have been looked at: a name less changes what others' times are
+       unfinished) {  // after all states are known: removing a hard link changes the file times of the others
     const fs::path folder = places.job(study.jobs[k].name);
     remove_unkept(states[k], folder);
     if (states[k].done()) continue;

@@ -94,7 +94,7 @@ std::vector<std::string> changed_files(const fs::path& folder, const StudyPlaces
   return changed;
 }
 
-/// Tells who wrote something or what it is called, and moves no life.
+/// A key of names or sources, which changes no life.
 bool is_prose(const std::string& change) {
   const std::string key = change.substr(0, change.find(' '));
   return key.ends_with("source") || key.ends_with(".name");

@@ -1,4 +1,4 @@
-// Why a result is not of the settings of now: which keys, files or programs changed since it was made.
+// Why a result is stale: the keys, files or programs that changed since it was made.
 #pragma once
 
 #include <string>
@@ -15,9 +15,8 @@ struct Node;
 /// ("motion.steps[3].dwell_s 0 -> 2"), others by their lengths.
 std::vector<std::string> changed_keys(const Node& was, const Node& now);
 
-/// Says in `changed` of jobs with a last result what changed since, of the first 50: the settings in its
-/// life.h5 are compared key by key with those of now, the files and programs of its receipts by their
-/// digests.
+/// Sets `changed` of the first 50 stale jobs: compares the settings in life.h5 with the present ones key by key, and
+/// the files and programs of the receipts by their digests.
 void tell_changes(const Study& study, const StudyPlaces& places, std::vector<JobState>& states);
 
 }  // namespace dresslife::pipeline

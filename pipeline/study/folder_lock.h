@@ -1,18 +1,17 @@
-// One run at a time in a study's folder, or several of which each makes its own shard of it.
+// One run at a time in a study's folder, or several runs with one shard each.
 #pragma once
 
 #include <filesystem>
 
 namespace dresslife::pipeline {
 
-/// Held until the program and all that it has started have ended: the stages of a run hold the lock with it,
-/// and while one of them lives nobody else writes there.
+/// Held until the program and all stages that it started have ended. Meanwhile no other run writes there.
 class FolderLock {
  public:
-  /// Makes the folder. Waits for stages whose run was broken off, which end a moment later. Errors:
-  /// InputError when another run holds it or the folder cannot be written.
+  /// Makes the folder. Waits for the stages of an interrupted run, which end a moment later. Errors: InputError when
+  /// another run holds the lock or the folder cannot be written.
   explicit FolderLock(const std::filesystem::path& folder) : FolderLock(folder, Held::alone) {}
-  /// shards: beside others that hold it so.
+  /// shards: several runs hold the lock together.
   enum class Held { alone, with_shards };
   FolderLock(const std::filesystem::path& folder, Held held);
   ~FolderLock();

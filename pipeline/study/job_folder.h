@@ -6,10 +6,10 @@
 
 namespace dresslife::pipeline {
 
-/// Whether a run of ours made this folder for a job.
+/// Whether a run made this folder for a job.
 bool is_job_folder(const std::filesystem::path& folder);
 
-/// Removes what runs have written there, and the folder when nothing else is in it. Returns the bytes that it freed.
+/// Removes files of runs, and the folder if it is then empty. Returns the freed bytes.
 /// Errors: InputError when a file cannot be removed.
 std::uintmax_t remove_job(const std::filesystem::path& folder);
 

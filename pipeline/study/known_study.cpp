@@ -26,7 +26,7 @@ fs::path settings_of(const StudyPlaces& places, const std::string& job) {
   return places.job(job) / "job.yaml";
 }
 
-/// Of whatever decides what a study expands to and is in no file that is looked at.
+/// Digest of all inputs of the expansion that are in no file.
 std::string digest_of(const StudyRequest& request) {
   Xxh3 digest;
   const auto add =
@@ -48,7 +48,7 @@ std::string noted(const std::string& found) { return found == "yes" || found == 
 
 constexpr std::string_view title = "dresslife study 3";
 
-/// Whether every look that a line tells of finds the same now.
+/// Whether the search that a line notes gives the same result now.
 bool finds_the_same(Words& line) {
   const auto kind = static_cast<Sources::Kind>(line.number<int>(' '));
   const std::string_view found = line.until(' ');
@@ -104,7 +104,7 @@ std::optional<Standing> recalled(const StudyRequest& request, const StudyPlaces&
   return standing;
 }
 
-/// What a look or a digest was of, and what was varied, stands at the end of a line.
+/// The file of a search or digest, or the varied key, at the end of a line.
 bool fits_a_line(const std::string& path) { return path.find('\n') == std::string::npos; }
 
 /// Nothing of a study that would not be read back as it is.

@@ -1,10 +1,8 @@
-// What a run noted of its study when it had expanded it: names, recipes and settings of all jobs, and
-// everything that was looked at for them. As long as every look finds the same, the study expands to the
-// same, and who only wants to know how it stands need not expand it.
+// The noted expansion of a study: names, recipes and settings of all jobs, and every file that was read or searched for
+// them. While all of these are unchanged, the study need not be expanded again.
 //
-// Nothing is believed by its time: texts count by their digests, other looks by what they find. Only of the
-// settings that the run wrote out, each job's job.yaml, size, inode and both times spare the look, as in
-// receipts (pipeline/files/receipt.h): while they are what was noted, and the note is younger than they.
+// Texts are compared by their digests, searches by their results, not by file times. Exception: a job.yaml that the run
+// wrote is unchanged if size, inode and both times are as noted and the note is younger (pipeline/files/receipt.h).
 #pragma once
 
 #include <filesystem>
@@ -17,15 +15,15 @@
 
 namespace dresslife::pipeline {
 
-/// What is asked for, and where its results go.
+/// A study and the folder of its results.
 struct StudyRequest {
   std::filesystem::path file;
   std::vector<std::string> sets;
   std::filesystem::path out;       ///< folder of studies
-  std::filesystem::path programs;  ///< where the stages are
+  std::filesystem::path programs;  ///< folder of the stages
 };
 
-/// A study and how its jobs stand.
+/// A study and the states of its jobs.
 struct Standing {
   Study study;
   StudyPlaces places;
@@ -38,16 +36,15 @@ struct Standing {
   bool all_done() const;
 };
 
-/// From memory where it holds, else expanded. Errors: as read_study() and states_of().
+/// From the note if it is valid, else expanded. Errors: as read_study() and states_of().
 Standing standing_of(const StudyRequest& request);
-/// Expanded, whatever is remembered.
+/// Always expanded.
 Standing expanded(const StudyRequest& request);
 
-/// Brings the states up to date: another run may have been at work.
+/// Updates the states after another run.
 void look_again(Standing& standing);
 
-/// Notes an expanded study in its folder, after write_build_graph(). One with a job that cannot be run is
-/// forgotten.
+/// Notes an expanded study in its folder, after write_build_graph(). A study with an invalid job is not noted.
 void remember(const StudyRequest& request, const Standing& standing);
 
 }  // namespace dresslife::pipeline

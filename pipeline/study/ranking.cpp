@@ -25,7 +25,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// What the root of a life file says: as its receipt tells, else as it stands in the file.
+/// Root attributes of a life file: from its receipt, else from the file.
 class LifeRoot {
  public:
   explicit LifeRoot(const JobResult& result) : result_(result) {
@@ -182,9 +182,9 @@ std::vector<double> lives_of(RankingRow& row, std::size_t samples) {
   }
 }
 
-/// Ranks, and how sure the order of neighbours is. What jobs share has the same samples in both. A job shares
-/// the rank of the first job before it from which it cannot be separated. There are fewer samples the more
-/// jobs there are; beyond `most` jobs nobody reads the order of two of them.
+/// Ranks, and the share of samples in which each job outlives the next. Parameters that jobs share have the same
+/// samples in both. A job shares the rank of the first job before it from which it cannot be separated. More jobs
+/// have fewer samples; more than `most` jobs are not compared.
 void tell_orders(std::vector<RankingRow>& rows) {
   constexpr std::size_t most = 1000, samples_in_all = 2'000'000;
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k].rank = rows[k].done() ? k + 1 : 0;
@@ -364,7 +364,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
 }
 
 std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width) {
-  constexpr std::size_t told_at_length = 3;  // of a long ranking: nobody reads more on a terminal
+  constexpr std::size_t told_at_length = 3;  // jobs of a long ranking with sentences on the terminal
   std::array<Column, 7> columns{{{"", true, {}},
                                  {"job", false, {}},
                                  {"replace after [h]", true, {}},

@@ -41,11 +41,12 @@ class Table {
  public:
   Table() {
     add_worst_wire();
-    add_lives("life_hours_{}",
-              "by then {} of such dresspacks have failed: `replace after`, `half failed`, `90 % failed` of the table",
-              [](const RankingRow& row) -> const Lives& {
-                return row.planned() ? row.planned_hours : row.first_wire_hours;
-              });
+    add_lives(
+        "life_hours_{}",
+        "by then {} of such dresspacks have failed: `replace after`, `half failed`, `90 % failed` of the table",
+        [](const RankingRow& row) -> const Lives& {
+          return row.planned() ? row.planned_hours : row.first_wire_hours;
+        });
     add_lives(
         "conductor_life_hours_{}",
         "by then {} have a conductor that has lost its share of wires at one place, by the scatter of wires alone",
@@ -54,8 +55,7 @@ class Table {
     add_lives("first_wire_life_hours_{}", "by then {} have a broken wire, by the scatter of wires alone",
               [](const RankingRow& row) -> const Lives& { return row.first_wire_hours; });
     add_failure_and_rating();
-    add_lives("scatter_life_hours_{}",
-              "life_hours_{0} by the scatter of wires alone, all else as the job has it",
+    add_lives("scatter_life_hours_{}", "life_hours_{0} with the scatter of wires only: all inputs are exact",
               [](const RankingRow& row) -> const Lives& { return row.scatter_hours; });
     add_uncertainty();
     add_warnings();
@@ -120,10 +120,10 @@ class Table {
     add(where("hose_position_from_tool_m", "m", "the same along the dresspack, from the tool clamp", has_hose,
               [](const RankingRow& row) { return row.hose->position_from_tool; }));
     add(of("worst_joint", "text",
-           "joint whose motion damages the worst wire most; carrying: none between the clamps",
+           "joint whose motion damages the worst wire most; carrying: motion of the dresspack as a whole",
            &RankingRow::worst_joint));
     add(where(
-        "worst_joint_share", "1", "its share of the damage; above 1 where other joints reduce it",
+        "worst_joint_share", "1", "its share of the damage; above 1 if other joints reduce it",
         [](const RankingRow& row) { return !row.worst_joint.empty(); },
         [](const RankingRow& row) { return row.worst_joint_share; }));
     add(of("worst_dresspack", "text", "dresspack of the worst wire, among several",
@@ -135,7 +135,7 @@ class Table {
            "moment of all cables on the hose at a clamp over the largest that the hose carries",
            &RankingRow::clamp_moment_share));
     add(where(
-        "force_ok", "yes or no", "whether both shares are believable",
+        "force_ok", "yes or no", "whether both shares are realistic",
         [](const RankingRow& row) { return row.clamp_moment_share.has_value(); },
         [](const RankingRow& row) { return std::string(row.force_ok() ? "yes" : "no"); }));
     add(of("life_hours_mean_stress_kept", "h", "life_hours if the mean stress never relaxed",
@@ -153,7 +153,7 @@ class Table {
   }
 
   void add_failure_and_rating() {
-    add(of("failing_conductor", "text", "conductor that is likeliest to fail first",
+    add(of("failing_conductor", "text", "conductor that is most likely to fail first",
            &RankingRow::failing_conductor));
     add(where(
         "failing_position_from_tool_m", "m", "its place along the dresspack, from the tool clamp",
@@ -162,8 +162,8 @@ class Table {
     add(where("rated_cycles_per_hour", "1/h",
               "cycles of the maker's rig that do the damage of one hour of the program", has_rating,
               [](const RankingRow& row) { return row.relative->cycles_per_hour; }));
-    add(where("relative_life_hours", "h", "hours until the cycles of the maker's rating are used up",
-              has_rating, [](const RankingRow& row) { return row.relative->hours(); }));
+    add(where("relative_life_hours", "h", "hours until the damage of the rated cycles is reached", has_rating,
+              [](const RankingRow& row) { return row.relative->hours(); }));
     add(where("rated_cable", "text", "cable with that rating", has_rating,
               [](const RankingRow& row) { return row.relative->cable; }));
   }
@@ -172,7 +172,7 @@ class Table {
     add(of("outlives_next", "1", "share of samples in which the job lives longer than that of the next row",
            &RankingRow::outlives_next));
     add(of("life_shares", "text", "shares of the uncertainty of life by cause", &RankingRow::life_shares));
-    add(of("measure_next", "text", "uncertain parameter that explains most", &RankingRow::measure_next));
+    add(of("measure_next", "text", "uncertain parameter with the largest share", &RankingRow::measure_next));
     add(where(
         "measure_next_share", "1", "its share",
         [](const RankingRow& row) { return !row.measure_next.empty(); },
@@ -183,7 +183,7 @@ class Table {
     const auto told = [](const RankingRow& row) { return row.warnings.has_value(); };
     add(where("warnings", "1", "how many warnings the job has", told,
               [](const RankingRow& row) { return static_cast<int>(row.warnings->size()); }));
-    add(where("warning_words", "text", "all of them", told, [](const RankingRow& row) {
+    add(where("warning_words", "text", "all warnings", told, [](const RankingRow& row) {
       std::vector<std::string> words;
       for (const Warning& warning : *row.warnings) words.push_back(warning.text());
       return fmt::format("{}", fmt::join(words, "; "));

@@ -1,4 +1,4 @@
-// The columns of ranking.csv: one table from which header, cells and page are made.
+// The columns of ranking.csv: one table for header, cells and page.
 #pragma once
 
 #include <functional>
@@ -13,10 +13,10 @@ struct RankingColumn {
   std::string name, unit;  ///< unit: "h", "m", "1", "text", "yes or no"
   std::string meaning;
   std::function<std::string(const RankingRow&)>
-      cell;  ///< of a row with a result; empty: not known, or does not apply
+      cell;  ///< of a row with a result; empty: unknown or not applicable
 };
 
-/// In the order of the file. New ones stand last; other programs read columns by their names.
+/// In the order of the file. New columns are added at the end; other programs read columns by their names.
 const std::vector<RankingColumn>& ranking_columns();
 
 /// The table as Markdown.

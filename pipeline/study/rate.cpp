@@ -44,7 +44,7 @@ class Maker {
 
   RateStudy make(const fs::path& rigs) {
     made_.study.name = "rate_" + fit_for_a_folder(file_.stem().string());
-    Node job;  // only to look up what the dresspack names
+    Node job;  // only for names in the dresspack
     job.where = {file_.string()};
     job["dresspack"] = read_yaml(file_);
     const Node& written = *job.find("dresspack");

@@ -1,5 +1,5 @@
-// What a cable lives in the standard test rigs, beside what its maker promises: a study that is made of the
-// catalogue's rigs and the cable's own ratings, one job each, for every cable of a dresspack.
+// Lives of a cable in the standard test rigs beside its ratings: a study of the catalogue's rigs and of the cable's
+// ratings, one job each, for every cable of a dresspack.
 #pragma once
 
 #include <filesystem>
@@ -17,26 +17,26 @@ struct RatedTest {
   std::string job;          ///< in the study
   std::string cable;        ///< its name
   std::string rig;          ///< in words: "torsion, 180 deg/m to either side"
-  double rated_cycles = 0;  ///< that its maker promises in it; 0: nothing is known
-  std::string source;       ///< where that stands
+  double rated_cycles = 0;  ///< stated by its maker; 0: none
+  std::string source;       ///< source of the rating
 };
 
 struct RateStudy {
   Study study;
-  std::vector<RatedTest> tests;  ///< as many as the study has jobs, in their order
+  std::vector<RatedTest> tests;  ///< one per job of the study, in its order
 };
 
 /// Every cable of a dresspack's file in every rig of `rigs` (a folder of jobs) and in those of its ratings.
-/// Conductors and wires slide with friction where the cable says how hard, else freely. sets: `--set` for
-/// every job. Errors: InputError for a file without cables.
+/// Conductors and wires slide with friction if the cable has its keys, else freely. sets: `--set` for every job.
+/// Errors: InputError for a file without cables.
 RateStudy rate_study(const std::filesystem::path& file, const std::filesystem::path& rigs,
                      const std::vector<std::string>& sets);
 
-/// Cycles of a rig in the units of a ranking's row: of the worst wire's median, of the bounds, and of the
-/// cable by which 10, 50 and 90 % of such cables have a conductor that lost its share of wires at one place.
+/// Cycles of a rig: median of the worst wire, its bounds, and the cycles by which 10, 50 and 90 % of such cables have a
+/// conductor that lost its share of wires at one place.
 struct CycleLives {
   double worst_wire = 0, all_stick = 0, all_free = 0;
-  std::array<double, 3> conductor{};  ///< NaN: the file does not tell
+  std::array<double, 3> conductor{};  ///< NaN: not known
 };
 CycleLives cycles_of(const RankingRow& row);
 
@@ -44,11 +44,11 @@ CycleLives cycles_of(const RankingRow& row);
 std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& rows);
 std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows);
 
-/// What strain.slip to give a job of this cable by itself: free, then friction where all that lies in it says
-/// how hard, else free.
+/// strain.slip for a job of this cable alone: free, then friction if all its parts have the keys of friction, else
+/// free.
 std::string slip_of_cable(const Node& cable_alone);
 
-/// Levels of parts in a component, itself counted.
+/// Levels of parts in a component, including itself.
 int levels_of(const Node& component);
 
 /// A rig in words, with its unit-bearing keys: "torsion: length_m 1, twist_deg_per_m 180".

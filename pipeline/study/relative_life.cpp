@@ -110,7 +110,7 @@ bool lies_in(std::string_view path, const RatedCable& rated) {
   return true;
 }
 
-/// Repeats until the worst of these conductors fails at one place, by medians. NaN: the file does not tell.
+/// Repeats until the worst of these conductors fails at one place, by medians. NaN: not known.
 double place_life(const std::filesystem::path& life, const RatedCable& where) {
   const FileReader file(life, life_format());
   if (!file.has("/conductor/place_life")) return RankingRow::unknown;

@@ -1,11 +1,10 @@
-// Relative life: one hour of a program does the damage of so many cycles of the test in which a cable is
-// rated.
+// Relative life: the cycles of a cable's rating test that do the damage of one hour of a program.
 //
 // With L_p the repeats of the program, and L_r the cycles of the rig, until the worst conductor of that cable
 // has lost fatigue.failed_wires_percent of its wires at one place, all wires' lives median
 // (/conductor/place_life), and t the seconds of a repeat,
 //     cycles per hour = (3600 / t) L_r / L_p,      relative life = rated cycles / cycles per hour.
-// The maker's number takes the place of the model's: a factor by which both lives are wrong cancels.
+// The maker's number replaces the model's: a factor by which both lives are wrong cancels.
 #pragma once
 
 #include <string>
@@ -28,19 +27,19 @@ struct RatedCable {
 };
 
 struct RatedStudy {
-  Study rigs;  ///< each once: a rig's job is named by the digest of what it says
+  Study rigs;  ///< each once; the name of a rig's job is the digest of its settings
   std::vector<RatedCable> cables;
 };
 
-/// Whether a maker promises anything of a cable in it.
+/// Whether a cable in it has a rating.
 bool has_ratings(const Job& job);
 
 /// The rigs of all ratings, each with the strain and fatigue settings of its job, but a gate of 1e-6 at most
 /// as all rigs have it. Precondition: an expanded study; jobs that cannot be run are left out.
 RatedStudy rated_study(const Study& study);
 
-/// Puts the relative life into every row that is done: of several ratings the one with the shortest. rigs: of
-/// rated.rigs. Returns a line for each rating that says nothing, with the reason.
+/// Sets the relative life of every finished row: of several ratings the shortest. rigs: rows of rated.rigs. Returns a
+/// line for each rating without a result, with the reason.
 std::vector<std::string> relate(const RatedStudy& rated, const std::vector<RankingRow>& rigs,
                                 std::vector<RankingRow>& rows);
 

@@ -1,4 +1,4 @@
-// What the stages of a study's jobs warned of, as lines.
+// Warnings of a study's jobs as text.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace dresslife::pipeline {
 
-/// Warnings of a row, and that of its forces where an older file does not tell any.
+/// Warnings of a row. Of an older file without warnings: the one of its forces.
 std::vector<Warning> warnings_of(const RankingRow& row);
 
-/// "bend radius, program x3"; empty: nothing is warned of, or it is not known.
+/// "bend radius, program x3"; empty: none, or not known.
 std::string warning_kinds(const RankingRow& row);
 
-/// Every warning in full, with the job that it is of, a line each: of more than a dozen the first of each
-/// kind, how many jobs have one, and where the others stand. Empty without any.
+/// Every warning with its job, a line each. Of more than a dozen: the first of each kind, the number of jobs, and the
+/// file with the others. Empty: none.
 std::string warning_lines(const std::vector<RankingRow>& rows);
 
 }  // namespace dresslife::pipeline

@@ -1,4 +1,4 @@
-// Values that a study draws for keys whose values are not known one by one but by how often they occur.
+// Samples of keys with known distributions.
 //
 //   sample:
 //     jobs: 200
@@ -12,8 +12,8 @@
 // A value is the quantile of its distribution at a number u between 0 and 1. random: u is uniform.
 // latin_hypercube: of n jobs one has its u in each nth of (0, 1), in an order of its own for every key
 // (McKay, Beckman and Conover, Technometrics 21 (1979) 239): means over the jobs scatter less for the same n.
-// Every key has a stream of numbers of its own, from the seed and its path: another key changes no value of
-// the others, and with `random` further jobs change none of those before.
+// Every key has its own stream of numbers, from the seed and its path: another key does not change the others' values,
+// and with `random` further jobs do not change the previous ones.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ class Distribution {
 
   std::optional<Normal> normal_;
   double low_ = 0, high_ = 0;  ///< of a uniform one
-  std::vector<Node> choices_;  ///< each as likely as the others
+  std::vector<Node> choices_;  ///< with equal probability
 };
 
 enum class SamplingMethod { latin_hypercube, random };
@@ -59,7 +59,7 @@ constexpr std::string_view word(SamplingMethod value) {
   return word_at({"latin_hypercube", "random"}, value);
 }
 
-/// `count` numbers between 0 and 1, neither of them, for the key at a path.
+/// `count` numbers in the open interval (0, 1) for the key at a path.
 std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, const std::string& path,
                                  std::size_t count);
 

@@ -1,5 +1,4 @@
-// A study cut into shards, which runs beside each other make: where one run may not start all of its stages,
-// as in an allocation of Slurm.
+// Shards of a study for parallel runs, if one run cannot start all stages, as in an allocation of Slurm.
 #pragma once
 
 #include <string>
@@ -15,15 +14,15 @@ struct Shard {
   std::string name() const;
 };
 
-/// "2/8". Errors: InputError when it is none; `where` tells whose words these are.
+/// "2/8". Errors: InputError when it is none; where: origin of the text, for the message.
 Shard shard_from(const std::string& text, const std::string& where);
 
-/// How many shards keep every run within so many stages: of all jobs, as shards do not shrink while they are
-/// made. 1 where the stages that are not up to date fit.
+/// Number of shards so that every run starts at most `most_stages`, counting all jobs. 1 if the stages that are not
+/// up to date fit into one run.
 int shards_needed(const Standing& standing, int most_stages);
 
-/// Leaves of a study the shard's jobs. All shards together have every job once, whatever has been made
-/// meanwhile, and jobs with the same simulation lie side by side.
+/// Removes the jobs of other shards. Every job is in one shard, independent of finished jobs; jobs with the same
+/// simulation are in neighbouring places.
 void keep_shard(Standing& standing, const Shard& shard);
 
 }  // namespace dresslife::pipeline

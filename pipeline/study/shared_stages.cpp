@@ -65,7 +65,7 @@ void share_stages(const Study& study, const StudyPlaces& places, std::vector<Job
     for (std::size_t stage = 0; study.jobs[k].failure.empty() && stage < shared_count; ++stage)
       if (has_up_to(states[k], places.job(study.jobs[k].name), stage))
         havers.emplace(recipes_up_to(states[k], stage), k);
-  std::map<std::size_t, std::vector<Gift>> gifts;  // by who gives
+  std::map<std::size_t, std::vector<Gift>> gifts;  // by giving job
   for (std::size_t k = 0; k < states.size(); ++k) {
     if (!study.jobs[k].failure.empty()) continue;
     for (std::size_t stage = shared_count; stage-- > states[k].next;)

@@ -1,6 +1,5 @@
-// Jobs that are alike up to a stage share what it made: of many that differ in their last settings only, the
-// first stages run once. Those that are to run now share within the build graph (makers_of); here, what lies
-// in folders already.
+// Jobs with the same recipes up to a stage share its output. Stages that run now are shared in the build graph
+// (makers_of); this file shares outputs that exist.
 #pragma once
 
 #include <vector>
@@ -9,9 +8,8 @@
 
 namespace dresslife::pipeline {
 
-/// Gives jobs that are not done what jobs with the same recipes have made: outputs by another name (a hard
-/// link; a copy where the file system has none), with receipts and logs. Brings `states` up to date. Errors:
-/// InputError when a folder cannot be written.
+/// Gives jobs that are not done the outputs of jobs with the same recipes: as hard links, or as copies if the file
+/// system has no links, with receipts and logs. Updates `states`. Errors: InputError when a folder cannot be written.
 void share_stages(const Study& study, const StudyPlaces& places, std::vector<JobState>& states);
 
 }  // namespace dresslife::pipeline

@@ -1,5 +1,4 @@
-// Which rows of a long ranking a terminal shows: nobody reads ten thousand. All of them stand in ranking.csv
-// and the report.
+// The rows of a long ranking that the terminal shows. ranking.csv and the report contain all.
 #pragma once
 
 #include <string>
@@ -11,11 +10,11 @@ namespace dresslife::pipeline {
 
 struct ShownRows {
   std::vector<std::size_t> indices;  ///< rising; all of a short ranking
-  std::string summary;  ///< one line on the rest that ends with a line feed; empty: nothing is left out
+  std::string summary;               ///< one line on the rest, with a line feed; empty: nothing is left out
 };
 
-/// Of a long ranking the best, the worst, and the first that failed and that are warned of. rows: best first,
-/// failed last.
+/// Of a long ranking: the best, the worst, the first failed jobs and the first with warnings. rows: best first, failed
+/// last.
 ShownRows shown_rows(const std::vector<RankingRow>& rows);
 
 }  // namespace dresslife::pipeline

@@ -1,4 +1,4 @@
-// One of the stages' programs, started and waited for, and the file that it tells into.
+// Start of a stage's program, and the file of its results.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace dresslife::pipeline {
 
-/// Runs the program of this name, which lies beside this one; it says what it says and ends with this one.
+/// Runs the program of this name in the folder of this one, with the same streams. It ends with this program.
 /// Returns its exit status. Errors: InputError when it cannot be started or is killed.
 int run_stage_program(const std::string& program, const std::vector<std::string>& arguments);
 
-/// A file in a folder of its own that live as long as this, for what a program is to tell. Errors: InputError
-/// when there can be none (below TMPDIR, or /tmp).
+/// A temporary file in its own folder (below TMPDIR, or /tmp) for the results of a program, removed with this object.
+/// Errors: InputError when it cannot be made.
 class PassingFile {
  public:
   explicit PassingFile(const std::string& name);

@@ -250,7 +250,8 @@ std::vector<KeyRow> study_keys() {
        "the others."},
       {"study", "keep", "", "all | histories | lives", "all",
        "The files that stay after a job is done. histories: strain.h5 and life.h5. lives: only the rows of the ranking. "
-       "Missing files alone do not start a job again. A job with changed settings starts from its beginning."},
+       "Missing files alone do not start a job again. After a change of settings the job starts at the changed stage, "
+       "or before it if its input is missing."},
       {"study", "free", "", "map of key paths to ranges", "none",
        "The keys that `dresslife improve` may change: `LOW .. HIGH`, `SPREAD around` the job's own value, `ANGLE deg "
        "around` a direction, `LOW .. HIGH along LINK` for a position, or a list. `dresslife run` does not read it."},

@@ -1,4 +1,4 @@
-// A study: one base job and what is varied in it. It expands into named jobs, each of which stands alone.
+// A study: one base job and its variations. It expands into named, independent jobs.
 //
 //   base: irb6640_spot_welding          a job of config/jobs, a file, or the job itself
 //   vary:                               every combination of these values ...
@@ -7,7 +7,7 @@
 //   jobs:                               ... for each of these named changes of the base
 //     stiff: {dresspack.bending_stiffness_Nm2: 8}
 //   table: fleet.csv                    ... for each row of a table (fleet_table.h) ...
-//   sample:                             ... and each draw of keys that are known by how often (sampling.h)
+//   sample:                             ... and each sample of keys with known distributions (sampling.h)
 //     jobs: 20
 //     keys: {routing.free_length_m: !normal {mean: 1.4, deviation: 0.05}}
 #pragma once
@@ -28,16 +28,16 @@ struct Job;
 
 struct StudyJob {
   std::string name;                   ///< unique in the study, fit for a folder
-  std::shared_ptr<const Job> job;     ///< when it can be run, in a study that was expanded
-  std::string failure;                ///< else why not, a line for each problem
-  std::vector<std::string> values{};  ///< (varied) of what the study varies, in words of the name
+  std::shared_ptr<const Job> job;     ///< if valid, in an expanded study
+  std::string failure;                ///< why it is invalid, a line for each problem; empty: it is valid
+  std::vector<std::string> values{};  ///< (varied) values of the varied keys, as in the name
 };
 
-/// What of a job stays on the disk when it is done.
+/// Files of a finished job that stay on the disk.
 enum class Keep {
   all,
-  histories,  ///< strain.h5 and life.h5: of which wires other materials make lives
-  lives,      ///< what the ranking says, in its receipts: no result's file
+  histories,  ///< strain.h5 and life.h5: enough for other materials
+  lives,      ///< no result files; the receipts contain the ranking
 };
 constexpr std::string_view word(Keep value) { return word_at({"all", "histories", "lives"}, value); }
 
@@ -51,9 +51,8 @@ struct Study {
 /// The name of a study, without expanding it. Errors: InputError.
 std::string study_name(const std::filesystem::path& file);
 
-/// Reads and expands a study; a job by itself is a study of one. sets: `--set` for every job, after the
-/// study's own changes. Errors: InputError for the study itself; a job that cannot be run is told in its
-/// `failure`.
+/// Reads and expands a study; a single job is a study of one. sets: `--set` for every job, after the
+/// study's own changes. Errors: InputError for the study itself. An invalid job has a `failure`.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
 
 /// The keys of a study file.

@@ -1,4 +1,4 @@
-// Why jobs of a study cannot be made, for people.
+// Problems of invalid jobs as text.
 #pragma once
 
 #include <string>
@@ -8,11 +8,10 @@ namespace dresslife::pipeline {
 struct Study;
 struct StudyJob;
 
-/// In one line: a job's first problem, and how many more it has. Empty: it can be made.
+/// One line: a job's first problem, and the number of others. Empty: it is valid.
 std::string first_problem(const StudyJob& job);
 
-/// Each problem of a study's jobs once, with the jobs that have it, in the order in which they are met, a
-/// line each. Empty where first_problem() of every job says it all.
+/// Each problem of a study's jobs once, with its jobs, a line each. Empty if first_problem() of every job is complete.
 std::string problem_words(const Study& study);
 
 }  // namespace dresslife::pipeline

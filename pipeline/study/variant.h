@@ -1,4 +1,4 @@
-// One way to deviate from a study's base: a name and the keys it sets.
+// A variant of a study's base: a name and the keys it sets.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace dresslife::pipeline {
 struct Change {
   std::string path;  ///< of the key, as set_value() takes it
   Node value;
-  Where where;  ///< who asks for it
+  Where where;  ///< place in the user's file
 };
 
 struct Variant {
   std::string name;
   std::vector<Change> changes;
-  std::vector<std::string> values;  ///< of each thing that the study varies, as its name has them
+  std::vector<std::string> values;  ///< of each varied key, as in the name
 };
 
 inline constexpr std::size_t most_jobs = 100'000;  ///< of a study

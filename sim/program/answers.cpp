@@ -137,7 +137,7 @@ void add_answers(const std::filesystem::path& file, pipeline::Motion& motion) {
     return node && node->is_scalar() ? std::optional(node->text) : std::nullopt;
   };
   for (pipeline::Entry& section : document.entries)
-    std::erase_if(section.value.items, [&](const pipeline::Node& entry) {  // what nobody has filled in
+    std::erase_if(section.value.items, [&](const pipeline::Node& entry) {  // empty entries
       const pipeline::Node* position = entry.is_map() ? entry.find("position_mm") : nullptr;
       const auto name = text_of(entry, "name"), line = text_of(entry, "line");
       if (section.key == "tools" || section.key == "work_objects")

@@ -1,4 +1,4 @@
-// The file of answers: all that a program asks, in one YAML file with the keys of a job's motion.
+// The file of answers: all questions of a program, in one YAML file with the keys of a job's motion.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace dresslife::sim {
 
-/// Every question of the problems as an entry to fill in, behind the answers that were given before. Each has its line of the
-/// program, what is missing there and how an answer is written. Answers that are safe stand there already.
+/// Every question of the problems as an entry to fill in, after the given answers. Each has its line of the program,
+/// the missing value and the form of the answer. Safe answers are filled in.
 std::string answers_text(const std::vector<Problem>& problems, const pipeline::Motion& given);
 
-/// How many entries that makes without the answers given before.
+/// Number of entries without the given answers.
 std::size_t question_count(const std::vector<Problem>& problems);
 
-/// Adds what a file of answers holds; an entry that is empty counts as not given.
+/// Adds the answers of a file; empty entries are ignored.
 /// Errors: InputError.
 void add_answers(const std::filesystem::path& file, pipeline::Motion& motion);
 

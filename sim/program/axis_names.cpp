@@ -41,7 +41,7 @@ constexpr std::array<std::string_view, 32> others{
     "seq",      "frame",       "id",      "index", "line",         "step",          "row",    "name",
     "temp",     "temperature", "voltage", "error", "digital",      "status",        "mode",   "jerk"};
 
-/// The number that tells the axis, as the last or the first number of every name; empty: they do not count.
+/// The number of the axis: the last or the first number of every name; empty: the names have none.
 std::vector<int> numbers_of(const std::vector<std::string>& names, bool last) {
   std::vector<int> numbers;
   for (const std::string& name : names) {

@@ -1,5 +1,5 @@
-// Names of recorded columns and of a trajectory's joints: what they hold, in which unit, and which axis of
-// the robot they are (trajectory.h says by which rules).
+// Names of recorded columns and of a trajectory's joints: their quantity, unit and axis of the robot (rules in
+// trajectory.h).
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ struct ColumnName {
   enum class Kind { axis, time, point, other } kind = Kind::axis;
   enum class Unit { unknown, degrees, radians } unit = Unit::unknown;
   double seconds = 1;      ///< of a time's unit
-  bool unit_told = false;  ///< the unit of a time stands in the name
+  bool unit_told = false;  ///< the name contains the unit of a time
 };
 
 ColumnName column_name(std::string_view name);
@@ -22,8 +22,8 @@ ColumnName column_name(std::string_view name);
 /// s, 13 in ms, 16 in us, 19 in ns. Smaller ones count from a recording's begin, in s.
 double unit_of_clock(double time);
 
-/// Positions of the names in the order of the robot's axes: order[0] is where axis 1 stands. Absent: the
-/// names do not say. wanted: the user's order, names separated by commas; empty: none.
+/// Positions of the names in the order of the robot's axes: order[0] is the position of axis 1. Absent:
+/// the names do not determine it. wanted: the user's order, names separated by commas; empty: none.
 std::optional<std::vector<std::size_t>> order_of_axes(const std::vector<std::string>& names,
                                                       const std::string& wanted);
 

@@ -1,4 +1,4 @@
-// Whole backups and program folders: which of their files make a program, and where it begins.
+// Backups and program folders: the files of a program, and its start.
 //
 // The files of a folder are all those in it and in the folders within whose names end like a robot program's
 // (pipeline::program_files), sorted. One function for each language picks the program among them.
@@ -25,11 +25,10 @@ struct Backup {
 /// Whether a program is given as a folder or as a list of files.
 bool is_backup(const std::filesystem::path& program);
 
-/// routine: that is asked for, empty: none. Errors: InputError that names the choices where several programs
-/// could be meant.
+/// routine: the requested one; empty: none. Errors: InputError that names the choices if there are several programs.
 Backup backup_of(const std::filesystem::path& program, const std::string& routine);
 
-/// What a program calls, told without running it.
+/// Calls of a program, found without running it.
 struct Calls {
   std::string name;             ///< in lower case; empty: the file holds no program
   std::set<std::string> names;  ///< that it calls, in lower case

@@ -114,10 +114,10 @@ struct Datum {
   bool by_backup = false;  ///< a value of the time of the backup: it counts where no program gives one
 };
 
-/// Name of an instruction whose first argument tells the routine that it calls: %"step" + ValToStr(n)%;
+/// Name of an instruction whose first argument names the routine that it calls: %"step" + ValToStr(n)%;
 inline constexpr const char* late_binding = "%";
 
-/// Name of the instruction that stands where nobody wrote a statement; the program ends behind it.
+/// Name of the instruction for an empty placeholder (<SMT>); the program ends there.
 inline constexpr const char* unwritten_statement = "<SMT>";
 
 /// Fields of a record, in their order; types: of records within, null for single values.
@@ -126,7 +126,7 @@ struct RecordType {
   std::vector<std::string> fields;
   std::vector<const RecordType*> types;
   std::vector<std::string> field_types{};  ///< of a KRL structure, in lower case; else empty
-  std::vector<int> sizes{};                ///< likewise: of fields that are lists, else 0
+  std::vector<int> sizes{};                ///< of a KRL structure: of fields that are lists, else 0
   int optional_from = 1'000'000;           ///< fields from here on may be left out
   bool indexed = false;                    ///< its fields have numbers, too: URScript's pose[2]
 };
@@ -147,7 +147,7 @@ struct Code {
   std::map<std::string, Expression> values;  ///< that the user gives; names in lower case, without blanks
   /// "file.mod:12" or "12" -> the value by which an undecided TEST or SWITCH chooses.
   std::map<std::string, Expression> choices;
-  std::map<std::string, Preset> presets;              ///< of names that the user may give, likewise
+  std::map<std::string, Preset> presets;              ///< safe answers for names that the user may give
   std::map<std::string, std::string> written_beside;  ///< ImportOptions::written_beside, and submit programs
   std::string start;  ///< routine to run, in lower case; empty: the language's own
   std::vector<Expression> start_arguments;

@@ -378,7 +378,7 @@ std::optional<Value> Interpreter::value_written_beside(const Expression& express
 
 namespace {
 
-/// Nobody has written to it, and nothing told why it is not known: an input, a variable without a value.
+/// It was never written, and the reason is not known: an input, a variable without a value.
 bool unset(const Value& value) {
   if (value.kind == Value::Kind::unknown) return value.cause && value.cause->name.empty();
   return value.kind == Value::Kind::list && !value.items.empty() &&
@@ -704,7 +704,7 @@ Value Interpreter::unary(const Expression& expression) {
 
 namespace {
 
-/// Of values with parts that are not known: equal as far as both are known, or different; absent: nobody knows.
+/// Of values with parts that are not known: equal as far as both are known, or different; absent: not known.
 std::optional<bool> alike(const Value& a, const Value& b) {
   using Type = Value::Kind;
   if (a.kind == Type::unknown || b.kind == Type::unknown) return {};

@@ -1,5 +1,4 @@
-// What a programmer asks of an imported program: which moves were read, with which tool, work object, speed
-// and zone, and where each of them comes from.
+// The explanation of an imported program: its moves with tool, work object, speed and zone, and the origin of each.
 #pragma once
 
 #include "sim/program/program.h"

@@ -1,5 +1,5 @@
-// What lies beside the listings in a backup of a Fanuc controller: the values of its registers, position
-// registers, frames and macros as variable files (.va), and which listing is the one that runs.
+// Files beside the listings in a backup of a Fanuc controller: the values of its registers, position
+// registers, frames and macros as variable files (.va), and the listing that runs.
 //
 //   file         variable                       line                  is
 //   numreg.va    [*NUMREG*]$NUMREG              [5] = 3  'name'       R[5]
@@ -28,7 +28,7 @@ namespace dresslife::sim {
 struct FanucVariables {
   std::map<int, double> registers;
   std::map<int, FanucPosition> position_registers;  ///< of group 1; frame and tool -1
-  std::map<int, FanucPosition> frames, tools;       ///< likewise
+  std::map<int, FanucPosition> frames, tools;       ///< of group 1
   std::optional<int> frame_number, tool_number;
   std::map<std::string, std::string> macros;  ///< its name in lower case -> its program's
   bool offsets_are_frames = false;            ///< $OFFSET_CART; FALSE as controllers are delivered

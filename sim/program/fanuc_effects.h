@@ -1,4 +1,4 @@
-// What Fanuc statements may do, seen without running them: for branches that nobody can decide. A branch
+// Possible effects of Fanuc statements, found without running them, for undecided branches. A branch
 // whose arms neither move the robot nor lead elsewhere is no question: what they may write is unknown from
 // then on.
 #pragma once
@@ -15,8 +15,8 @@ namespace dresslife::sim {
 struct FanucEffects {
   bool moves = false;         ///< the robot
   bool waits = false;         ///< for a time
-  bool leaves = false;        ///< a jump may lead out of the statements looked at
-  bool any_register = false;  ///< writes registers and position registers that cannot be told beforehand
+  bool leaves = false;        ///< a jump may lead out of these statements
+  bool any_register = false;  ///< writes registers and position registers that are not known before
   std::set<int> registers, positions;
   std::set<std::string> named;  ///< "override", "uframe_num", "utool_num", "uframe[2]"
 

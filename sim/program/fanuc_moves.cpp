@@ -120,7 +120,7 @@ void FanucRun::missing_position(const std::string& name, const char* what) {
           {{Question::Kind::value, name, position_form}});
 }
 
-/// The active frame where a position names none; false: nobody knows it.
+/// The active frame where a position names none; false: not known.
 bool FanucRun::active(bool tool, int& number) {
   if (number >= 0) return true;
   values_.forget_missing();
@@ -331,7 +331,7 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
   return true;
 }
 
-/// The number of an option, with a problem where nobody knows it.
+/// The number of an option, with a problem if it is unknown.
 FanucNumber FanucRun::needed(FanucCursor& at, const char* what) {
   values_.forget_missing();
   const FanucNumber number = values_.value(at);
@@ -385,8 +385,8 @@ void FanucRun::offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& i
             {{Question::Kind::value, name, position_form}});
 }
 
-/// Whether the condition of SKIP CONDITION comes before a move ends. Skip goes on with the next line when it comes, SkipJump at
-/// its label; where it does not come, the other way round.
+/// Whether the condition of SKIP CONDITION comes before a move ends. Skip goes on with the next line when it comes,
+/// SkipJump at its label; where it does not come, the other way round.
 bool FanucRun::skip_condition_comes(bool jumps) {
   values_.forget_missing();
   FanucCursor at(skip_condition_);
@@ -589,7 +589,7 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
   emit(weld);
 }
 
-/// Skip,LBL[1],PR[5]=LPOS: nobody knows where.
+/// Skip,LBL[1],PR[5]=LPOS: the place is unknown.
 void FanucRun::stopped_on_the_way() {
   last_.reset();
   const std::string& text = statement().text;

@@ -234,7 +234,7 @@ void FanucRun::call_statement(const std::string& text, bool beside) {
   call(*listing, arguments_in(at));
 }
 
-/// What a program that nobody read may have done. The user may know: --value 'CALL NAME=nothing'.
+/// Possible effects of a program without a file. The user may know: --value 'CALL NAME=nothing'.
 void FanucRun::unread(const std::string& what) {
   if (values_.take_effect(what)) {
     note(what + ": not among the files read; its registers are as --value says", true);
@@ -412,7 +412,7 @@ bool FanucRun::waits(std::size_t label) {
   return again;
 }
 
-/// Whether one of the last passes of a loop met something new, in a reading that only looks for questions.
+/// Whether one of the last passes of a loop met something new, in a reading for questions only.
 bool FanucRun::still_new(std::size_t label) {
   constexpr int enough = 3;  // passes in a row without
   Endless& loop = endless_[{routine().listing, label}];
@@ -577,8 +577,8 @@ void FanucRun::set_frame(bool tool, int number, const std::optional<FanucPositio
 
 // ---- branches and loops ----------------------------------------------------------------------------------
 
-/// Which of its ways an undecided statement goes: asks, and goes on along one of them. By the value of one name where there is
-/// one, else by its line.
+/// Which of its ways an undecided statement goes: asks, and goes on along one of them. By the value of one name where
+/// there is one, else by its line.
 int FanucRun::ask(const std::string& what, int ways, const std::string& answers) {
   const FanucCauses& causes = values_.causes();
   const std::string names = names_in(causes);
@@ -677,7 +677,7 @@ void FanucRun::if_statement(FanucCursor& at) {
   action(rest);
 }
 
-/// IF ... ,action where nobody knows the condition. Absent: it is left out.
+/// IF ... ,action with an unknown condition. Absent: it is left out.
 std::optional<bool> FanucRun::undecided(const std::string& action) {
   const std::size_t here = routine().at;
   const FanucListing& listing = *routine().listing;
@@ -748,7 +748,7 @@ void FanucRun::select() {
   if (routine().at == cases[*which].statement) routine().at = behind;
 }
 
-/// Index of the case that runs, or their number: none of them; absent: nobody knows.
+/// Index of the case that runs, or their number: none of them; absent: not known.
 std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, FanucNumber selected) {
   const std::string file = where().file;
   FanucNumber value = selected;

@@ -23,7 +23,7 @@ class FanucRun {
   struct Surroundings {
     const std::deque<SourceFile>& files;
     const std::vector<FanucListing>& listings;
-    std::vector<Problems>& parsing;  ///< of each listing: told when it is reached
+    std::vector<Problems>& parsing;  ///< of each listing: reported when it is reached
     const FanucVariables& variables;
     const ImportOptions& options;
     const std::vector<NamedFrame>&tools, &work_objects;

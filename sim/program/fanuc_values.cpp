@@ -283,8 +283,8 @@ FanucNumber FanucValues::function(const std::string& word, FanucNumber of) const
   return std::isfinite(result) ? FanucNumber(result) : FanucNumber{};
 }
 
-/// A value that the user gives counts, unless the program itself has set the register and a call that nobody read may have
-/// changed it since: then the call is asked for. A register that the program never sets is asked for itself.
+/// A value that the user gives counts, unless the program itself has set the register and a call without a file may
+/// have changed it since: then the call is asked for. A register that the program never sets is asked for itself.
 FanucNumber FanucValues::register_value(int number) {
   if (const auto found = registers_.find(number); found != registers_.end()) return found->second;
   const auto own = register_causes_.find(number);

@@ -142,8 +142,8 @@ Grammar grammar_of(Language language) {
                                           : Grammar::rapid;
 }
 
-/// A mistake in a routine counts only if that runs, one outside of routines only if the program fails; but a
-/// file that is given up has lost routines and data that nobody would miss.
+/// A mistake in a routine counts only if the routine runs, one outside of routines only if the program fails. With too
+/// many mistakes the reader stops in the file; then all of them count, because routines and data are lost.
 void parse_files(Code& code, Language language, Problems& problems) {
   for (int file = 0; file < static_cast<int>(code.files.size()); ++file) {
     Problems found;
@@ -164,7 +164,7 @@ namespace {
 
 constexpr int listed_reasons = 5;
 
-/// A program without a move: what it ran and what it left out may tell why.
+/// A program without a move: statements that ran and were left out may explain it.
 void tell_nothing(const Program& program, const ImportOptions& options, Problems& problems) {
   std::string left_out;
   int listed = 0;
@@ -283,7 +283,7 @@ ImportOptions options_of(const pipeline::Motion& motion) {
   options.passes = motion.passes;
   for (const pipeline::BranchAssumption& assumption : motion.assume)
     if (assumption.take.empty())
-      continue;  // an answer that nobody wrote
+      continue;  // an empty answer
     else if (assumption.take == "then" || assumption.take == "else")
       options.assume[assumption.line] =
           assumption.take == "then" ? Assumption::then_branch : Assumption::else_branch;

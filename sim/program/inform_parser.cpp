@@ -846,7 +846,7 @@ void name_inform_values(Code& code) {
 Calls inform_calls(const SourceFile& job) {
   Code code;
   code.files.push_back(job);
-  Problems ignored;  // told where the job is read
+  Problems ignored;  // reported where the job is read
   parse_inform(code, 0, ignored);
   Calls calls;
   if (code.routines.empty()) return calls;

@@ -183,7 +183,7 @@ class Interpreter {
   void emit(Instruction instruction, const Statement& statement);
   void note(const Place& place, const std::string& what, bool may_move = false);
   void complain(const Place& place, const std::string& what, const std::string& remedy);
-  /// What is missing is told once, however often it is used.
+  /// A missing value is reported once for all of its uses.
   void miss(const std::string& name, const Place& place, const std::string& what, const std::string& remedy,
             std::vector<Question> questions = {});
   /// Asks for all that makes a value unknown. `remedy` goes before "--value ..."; `form`: how the value itself
@@ -329,7 +329,7 @@ class Interpreter {
   std::map<std::string, int> holders_;           // name -> routines and modules that declare it
   int modules_apart_ = 0;                        // modules that keep names which no file declares
   std::size_t dropped_ = 0;                      // problems behind a guess
-  int quiet_ = 0;                                // above 0: nothing is told
+  int quiet_ = 0;                                // above 0: nothing is reported
   long guessed_at_ = -1;                         // executed_ at the first guess; -1: there was none
   Place here_;                                   // of the statement that runs
   std::map<const Routine*, bool> routine_moves_;

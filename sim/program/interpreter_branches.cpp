@@ -44,7 +44,8 @@ bool Interpreter::compares_known(const Expression& condition) {
 
 namespace {
 
-/// How the value `asked` is written that stands in a condition: as what it is compared with. Empty: it is not told.
+/// How the value `asked` is written that stands in a condition: as the value that it is compared with. Empty: not
+/// known.
 std::string form_within(const Expression& condition, const std::string& asked) {
   using Is = Expression::Kind;
   if (condition.kind == Is::call) return lower_case(asked).starts_with(condition.text) ? "TRUE or FALSE" : "";
@@ -129,10 +130,11 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
         return leave_out(statement, condition);
       if (const Branch* way = waited_for(statement)) return go_on(*way, condition);
       const Cause* cause = condition.first_cause();
-      decision = problem_count() != problems  // what makes it unknown is told
+      decision = problem_count() != problems  // the reason is reported
                      ? guess(branch.place, 2) == 0
                      : ask(branch.place, "branches on what is known only while the robot runs", condition,
-                           "then or =else", 2, true, form_within(branch.conditions[0], cause ? cause->asked() : "")) == 0;
+                           "then or =else", 2, true,
+                           form_within(branch.conditions[0], cause ? cause->asked() : "")) == 0;
     }
     if (*decision) return execute(branch.body);
   }

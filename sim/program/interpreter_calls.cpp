@@ -69,7 +69,7 @@ void Interpreter::forget_arguments(const std::string& name, const std::vector<Ex
   }
 }
 
-/// What two files have in common is told once for the two.
+/// Names that two files define are reported once for both.
 std::string Interpreter::rivals(const Place& a, const Place& b) const {
   return fmt::format("{} and {}", code_.files[a.file].name(), code_.files[b.file].name());
 }

@@ -1,4 +1,4 @@
-// What statements may do to the robot and to data, told without running them.
+// Possible effects of statements on the robot and on data, found without running them.
 #include <algorithm>
 #include <utility>
 
@@ -96,7 +96,7 @@ bool Interpreter::changes_nothing(const std::vector<Statement>& body, int module
                      [&](const Statement& statement) { return changes_nothing(statement, module, depth); });
 }
 
-/// A handler runs on an error alone. What it may move is told once.
+/// A handler runs on an error alone. Its possible moves are reported once.
 void Interpreter::tell_handler(const Routine& routine) {
   if (routine.handler_words.empty() || !told_handlers_.insert(&routine).second) return;
   const bool may_move =

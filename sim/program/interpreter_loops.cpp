@@ -34,7 +34,7 @@ struct Interpreter::Round {
 
 namespace {
 
-/// Passes that only look for further questions: their end.
+/// The end of passes that only search for further questions.
 class Barren {
  public:
   explicit Barren(const Exploration& exploration) : exploration_(exploration), news_(exploration.news()) {}
@@ -343,7 +343,7 @@ std::string Interpreter::shared_and_written() const {
   return names;
 }
 
-/// A routine that begins again at its end: as an endless loop around it. What cannot be told of a later cycle
+/// A routine that begins again at its end: as an endless loop around it. What cannot be known of a later cycle
 /// does not take away the first one.
 void Interpreter::run_cycles(const Routine& routine) {
   const std::size_t wanted = options_.passes;

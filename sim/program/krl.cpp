@@ -122,8 +122,8 @@ void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter
               "move to a pose with X, Y, Z, A, B, C before", "");
 }
 
-/// Where the robot stands is unknown: what the last move's target depends on is asked for too, but that may be given in the other
-/// form.
+/// Where the robot stands is unknown: what the last move's target depends on is asked for too, but that may be given
+/// in the other form.
 Value Krl::place_here(bool axes, Interpreter& run) const {
   const Value here = unknown_value(run.name_here(axes ? "$axis_act" : "$pos_act"), "is where the robot stands",
                                    form_of(axes ? "axis" : "frame"));
@@ -155,7 +155,7 @@ bool Krl::read_external(const Expression& written, const Value& value, bool rela
 
 namespace {
 
-/// A place in the frame of the move, from what is written and the place before; absent: it cannot be told.
+/// A place in the frame of the move, from what is written and the place before; absent: not known.
 std::optional<std::array<double, 6>> moved(const Coordinates& read, Krl::From from,
                                            const std::optional<std::array<double, 6>>& before) {
   if (read.all() && from == Krl::From::origin) return read.numbers;
@@ -401,7 +401,7 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
   }
 }
 
-/// Where the parts of a move come from, for whoever asks.
+/// Origins of the parts of a move.
 void Krl::add_origins(const Expression& target, const Frames& frames, Instruction& move, Interpreter& run) {
   const auto add = [&](const char* part, const std::string& written, const Expression& from) {
     const Place place = run.origin(from);
@@ -590,7 +590,7 @@ bool brakes(const Code& code, const std::vector<Statement>& body, int module, in
 
 }  // namespace
 
-/// What a handler writes to is unknown: nobody tells whether it has run.
+/// Variables that a handler writes are unknown, because it may have run.
 void Krl::handlers_happen(long number, Interpreter& run) {
   const auto handler = handlers_.find(number);
   if (handler == handlers_.end()) return;
@@ -600,7 +600,7 @@ void Krl::handlers_happen(long number, Interpreter& run) {
                                    run.short_place(call.place)));
 }
 
-/// An interrupt is taken not to happen. Where it would stop moves, that is told.
+/// An interrupt is taken not to happen. If it would stop moves, that is reported.
 void Krl::interrupt(const Statement& statement, Interpreter& run) {
   const Value number = statement.arguments.empty() ? number_value(0) : run.evaluate(statement.arguments[0]);
   const long key = number.is_number() ? static_cast<long>(std::clamp(number.number, -1e6, 1e6)) : -1;

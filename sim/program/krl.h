@@ -1,4 +1,4 @@
-// KUKA KRL: .src files with the .dat files that declare their data, run from the first routine unless told
+// KUKA KRL: .src files with the .dat files that declare their data, run from the first routine unless asked
 // otherwise.
 //
 // A program and the data list of its name are one module: the first DEF and what says GLOBAL is everybody's,

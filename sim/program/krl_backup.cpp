@@ -41,7 +41,7 @@ Calls calls_of(const fs::path& file) {
                                            "scirc", "spline", "ptp_rel", "lin_rel"};
   Calls calls;
   const SourceFile source(file.string(), decoded_text(pipeline::read_text(file)));
-  Problems ignored;  // the parser tells them
+  Problems ignored;  // the parser reports them
   const std::vector<Token> tokens = tokens_of(source, {';', "$#", true, true}, ignored);
   for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
     if (tokens[i].kind != Token::Kind::word) continue;
@@ -53,7 +53,7 @@ Calls calls_of(const fs::path& file) {
   return calls;
 }
 
-/// Programs that could be meant: those that CELL calls by their numbers, else those that nobody calls.
+/// Programs that could be meant: those that CELL calls by their numbers, else those that no program calls.
 std::vector<std::string> starts(CallGraph graph) {
   std::vector<std::string> found;
   if (const auto cell = graph.find("cell"); cell != graph.end()) {

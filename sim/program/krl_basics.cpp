@@ -185,8 +185,8 @@ bool Krl::shares(const std::string& name, int module) const {
   return name.starts_with("$") || code_.modules[module].whole;
 }
 
-/// What the editor of inline forms puts into the data list of the program; other names that no file declares are taken to be
-/// those of $CONFIG.DAT.
+/// What the editor of inline forms puts into the data list of the program; other names that no file declares are
+/// taken to be those of $CONFIG.DAT.
 bool Krl::is_of_module(const std::string& name) const {
   static const std::set<std::string> of_all{"fhome", "xhome", "xhome1", "xhome2", "xhome3", "xhome4", "xhome5"};
   const auto numbered = [&](const char* beginning) {
@@ -196,8 +196,8 @@ bool Krl::is_of_module(const std::string& name) const {
                                     numbered("cpdat") || numbered("pdat") || numbered("ldat"));
 }
 
-/// An unknown value that an inline form takes from its data, asked for as those are kept: the whole FDAT, PDAT or LDAT, in
-/// its form. The editor gives a new PDAT and LDAT the values of PDEFAULT and LDEFAULT.
+/// An unknown value that an inline form takes from its data, asked for as those are kept: the whole FDAT, PDAT or
+/// LDAT, in its form. The editor gives a new PDAT and LDAT the values of PDEFAULT and LDEFAULT.
 Value Krl::of_form(const Value& value, const char* type) const {
   const std::string kind = type, form = form_of(kind);
   const Cause* known = value.kind == Value::Kind::unknown ? value.cause.get() : nullptr;
@@ -236,7 +236,7 @@ Frame Krl::Frames::pose(const Frame& flange) const {
   return inverse(flange * tool) * base;
 }
 
-/// TOOL_DATA[n] and BASE_DATA[n] that the user gives; one that nobody gives is unknown under its name.
+/// TOOL_DATA[n] and BASE_DATA[n] that the user gives; others are unknown under their names.
 std::optional<Value> Krl::named_frame(const std::string& path) {
   const bool tool = path.starts_with("tool_data["), base = path.starts_with("base_data[");
   if ((!tool && !base) || path.find_first_of(".]") != path.size() - 1) return {};
@@ -398,7 +398,7 @@ void Krl::path_data(const Place& place, Interpreter& run) {
   run.assign(name_at("$circ_type", place), part("circ_typ"));
 }
 
-/// BAS(#INITMOV, 0): what $CONFIG.DAT has for a start. Of what it does not tell, only the speed is asked for.
+/// BAS(#INITMOV, 0): what $CONFIG.DAT has for a start. Of its missing values only the speed is a question.
 void Krl::initialise(const Place& place, Interpreter& run) {
   const auto standard = [&](const char* name) {
     const Value value = run.evaluate(name_at(name, place));

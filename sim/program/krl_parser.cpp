@@ -21,7 +21,7 @@ constexpr const char* left_out_words[] = {"signal",    "enum",   "ext",     "ext
                                           "extfctp",   "import", "channel", "anin",    "anout",
                                           "pulse",     "brake",  "resume",  "halt",    "time_block",
                                           "const_vel", "asyptp", "asycont", "asystop", "asycancel"};
-/// System variables that change by themselves: what a program writes to them tells nothing later.
+/// System variables that the controller changes: values that a program writes to them do not last.
 constexpr const char* living_names[] = {"$timer", "$timer_flag", "$cycflag", "$in", "$anin", "$err"};
 
 class KrlParser : StatementParser {
@@ -394,7 +394,7 @@ class KrlParser : StatementParser {
     s.arguments.push_back(at_.expression(4));
     at_.need_word("to");
     s.arguments.push_back(at_.expression(4));
-    Expression step;  // KRL counts up unless told otherwise
+    Expression step;  // KRL counts up by default
     step.kind = Expression::Kind::number;
     step.number = 1;
     s.arguments.push_back(at_.take_word("step") ? at_.expression(4) : step);

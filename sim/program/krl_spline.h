@@ -1,4 +1,4 @@
-// SPL points of a spline block. KUKA does not tell its splines' law; here: cubics between the points, smooth
+// SPL points of a spline block. KUKA does not publish its splines' law; here: cubics between the points, smooth
 // where they meet, each cut into lines of 20 mm.
 #pragma once
 

@@ -11,7 +11,7 @@ namespace dresslife::sim {
 namespace {
 
 constexpr std::size_t listed_problems = 50;
-constexpr std::size_t most_questions = 300;  // nobody answers more in one round
+constexpr std::size_t most_questions = 300;  // of one round
 
 }  // namespace
 
@@ -72,11 +72,11 @@ void Problems::add(const pipeline::Where& where, const std::string& what, const 
            p.what == what;
   };
   if (full() || std::any_of(problems_.begin(), problems_.end(), same))
-    return;  // a line in a loop is told once
+    return;  // a line in a loop is reported once
   problems_.push_back({.where = where, .what = what, .remedy = remedy, .routine = routine});
 }
 
-/// Whether it is told already; then its line is counted, and what else it asks for is added.
+/// Whether it is already reported; then its line is counted, and its further questions are added.
 bool Problems::counted(const Problem& problem) {
   for (Problem& known : problems_) {
     const bool same_line = known.where.line == problem.where.line && known.where.file == problem.where.file;

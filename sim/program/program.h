@@ -7,7 +7,7 @@
 // the robot carries the work object: then the tool's frame is that in the world and the work object's that in
 // the flange.
 //
-// Problems are collected while reading and told all at once; what a reader leaves out on purpose (input and
+// Problems are collected while reading and reported all at once; what a reader leaves out on purpose (input and
 // output, messages, logic without moves) is listed with its line.
 #pragma once
 
@@ -73,7 +73,7 @@ struct MoveZone {
   double percent = 0;  ///< of the way in which the robot would stop, where the controller blends by speed [%]
 };
 
-/// Where a part of an instruction was last given its value, for whoever asks why.
+/// Where a part of an instruction was last given its value.
 struct Origin {
   const char* part = "";  ///< "target", "tool", "work object", "speed", "zone", "via"
   std::string written;    ///< in the instruction: "p20", "Offs(p20, 0, 0, 10)"
@@ -97,11 +97,11 @@ struct Instruction {
   std::vector<Origin> origins;
 };
 
-/// Something the reader left out.
+/// Something that the reader left out.
 struct Skipped {
   pipeline::Where where;
   std::string what;       ///< "SetDO: input, output or logic": what it is, then why it is left out
-  bool may_move = false;  ///< nobody knows whether it moves the robot, or changes how it moves
+  bool may_move = false;  ///< whether it may move the robot or change its motion
 };
 
 struct Program {
@@ -112,7 +112,7 @@ struct Program {
   pipeline::Where start;  ///< the routine that was run
 };
 
-/// Something that a program does not say and its user knows.
+/// A value that the files do not contain and the user knows.
 struct Question {
   enum class Kind { value, branch, tool, work_object };
   Kind kind = Kind::value;
@@ -124,7 +124,7 @@ struct Question {
 struct Problem {
   pipeline::Where where;
   std::string what, remedy;
-  std::string about = {};  ///< the name that is missing, of a problem that is told once for all of its uses
+  std::string about = {};  ///< missing name of a problem that is reported once for all of its uses
   std::set<std::pair<std::string, int>> more_uses = {};  ///< files and lines
   bool decision = false;                                 ///< how a branch goes that depends on `about`
   std::string routine = {};                              ///< that holds the line
@@ -143,7 +143,7 @@ class Problems {
   /// Those of another reading of the same program.
   void add_all(const Problems& others);
   bool empty() const { return problems_.empty(); }
-  bool full() const;  ///< more would not help anybody
+  bool full() const;  ///< the largest number of problems is reached
   bool asks() const;  ///< one of them has a question
   std::size_t mistakes() const;  ///< those that have none
   const std::vector<Problem>& list() const { return problems_; }
@@ -183,14 +183,14 @@ struct ImportOptions {
   std::map<std::string, Assumption> assume;
   /// "file.mod:12" or "12" -> the value by which an undecidable choice of several on that line goes.
   std::map<std::string, std::string> choose;
-  /// Inputs, registers, persistent data, positions: name as the language writes it -> value, likewise.
+  /// Inputs, registers, persistent data, positions: name as the language writes it -> value.
   std::map<std::string, std::string> values;
   /// Names that something beside the program writes, in lower case -> what: "sps.sub".
   std::map<std::string, std::string> written_beside = {};
   int passes = 0;        ///< of an endless main loop; 0: until it begins again as it did before
   double spot_time = 1;  ///< dwell of a spot weld [s]
-  /// Whether the user named the first file as the program: its routines count before those of the same name in files that lie
-  /// beside it, such as a copy of an older state.
+  /// Whether the user named the first file as the program: its routines count before those of the same name in files
+  /// that lie beside it, such as a copy of an older state.
   bool first_file_counts = false;
 };
 

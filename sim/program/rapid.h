@@ -1,4 +1,4 @@
-// ABB RAPID: modules of one task, run from a routine (main unless told otherwise).
+// ABB RAPID: modules of one task, run from a routine (by default main).
 //
 // Read: MODULE with CONST, VAR, PERS data, RECORD, PROC, FUNC and TRAP; assignment, IF, FOR, WHILE, TEST,
 // RETURN; every Move, Trigg, Search, Arc, Spot, Disp and EGMMove instruction as a move; \T \V \Z \WObj; Offs,

@@ -114,7 +114,7 @@ struct Shared {
 Shared shared_of(const fs::path& module) {
   Shared shared;
   const SourceFile source(module.string(), decoded_text(pipeline::read_text(module)));
-  Problems ignored;  // the parser tells them
+  Problems ignored;  // the parser reports them
   const std::vector<Token> tokens = tokens_of(source, {'!', "", false, false}, ignored);
   const auto word = [&](std::size_t i) {
     return i < tokens.size() ? lower_case(tokens[i].text) : std::string();
@@ -152,7 +152,8 @@ void add_what_others_write(const fs::path& task, const std::vector<fs::path>& fi
   }
 }
 
-/// Backups that were copied to the controller's disk (HOME) are not what it runs, where the folder holds tasks of its own.
+/// Backups that were copied to the controller's disk (HOME) are not what it runs, where the folder holds tasks of its
+/// own.
 void drop_copies(const fs::path& folder, std::set<fs::path>& tasks) {
   const auto is_copy = [&](const fs::path& task) {
     const fs::path within = task.lexically_relative(folder);
@@ -169,7 +170,7 @@ std::string names_of(const std::set<fs::path>& paths) {
 }
 
 /// Of several lists of modules the only one that lies in the folder itself, else the only one of the
-/// controller's own folder, RAPID; all of them where that does not tell.
+/// controller's own folder, RAPID; else all of them.
 void keep_nearest(const fs::path& folder, std::set<fs::path>& lists) {
   const auto only = [&](const auto& is_meant) {
     if (std::count_if(lists.begin(), lists.end(), is_meant) == 1)

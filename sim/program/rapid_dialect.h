@@ -1,5 +1,5 @@
-// RAPID's instructions and functions, and the state of the robot that they share. rapid.cpp tells them apart,
-// rapid_moves.cpp holds those that move.
+// RAPID's instructions and functions, and the state of the robot that they share. rapid.cpp chooses among
+// them, rapid_moves.cpp contains those that move.
 #pragma once
 
 #include <cmath>
@@ -30,7 +30,7 @@ class Rapid final : public Dialect {
   bool instruction(const Statement& statement, Interpreter& run) override;
   bool matters(const std::string& name) const override;
   bool only_waits(const std::string& name) const override { return name == "waittime"; }
-  /// In production: main, until somebody stops it.
+  /// In production main runs until it is stopped.
   bool begins_again(const Routine& routine) const override { return routine.name == "main"; }
   bool harmless(const std::string& name) const override;
   bool writes(const std::string& name, int position, const Expression& argument) const override;

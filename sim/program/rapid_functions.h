@@ -26,11 +26,11 @@ struct RapidArgument {
   Value value;
 };
 
-/// Absent: there is no such function here. An unknown value: its arguments do not say.
+/// Absent: there is no such function. An unknown value: its arguments are unknown.
 std::optional<Value> rapid_function(const Code& code, const std::string& name,
                                     const std::vector<RapidArgument>& arguments);
 
-/// Functions whose value lies with the robot, the operator or the clock, sorted.
+/// Functions whose value depends on the robot, the operator or the clock, sorted.
 bool rapid_asks_the_robot(const std::string& function);
 
 }  // namespace dresslife::sim

@@ -78,7 +78,7 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
                                   Interpreter& run) {
   const std::size_t problems = run.problem_count();
   Value value = run.answered(written);
-  if (!value.known() && run.problem_count() != problems) return {};  // what makes it unknown is told
+  if (!value.known() && run.problem_count() != problems) return {};  // the reason is reported
   if (!value.known()) {
     const std::vector<const Cause*> causes = value.causes();
     const std::string name = causes.size() == 1 && causes[0]->line.empty() ? causes[0]->asked() : "";

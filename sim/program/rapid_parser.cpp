@@ -112,7 +112,7 @@ class RapidParser : StatementParser {
     return statement;
   }
 
-  /// A routine with a mistake in it is kept, so that a call of it tells the mistake.
+  /// A routine with a mistake is kept, so that a call of it reports the mistake.
   void routine(bool local) {
     Routine& routine = code_.routines.emplace_back();
     routine.module = module_;
@@ -232,7 +232,7 @@ class RapidParser : StatementParser {
     into.push_back(std::move(s));
   }
 
-  /// <SMT>: a statement that the editor offered and nobody wrote. The controller stops when it gets there.
+  /// <SMT>: an empty placeholder of the editor. The controller stops when it gets there.
   void placeholder(std::vector<Statement>& into) {
     Statement s;
     s.place = at_.place();
@@ -379,7 +379,7 @@ class RapidParser : StatementParser {
 
 namespace {
 
-/// ABB encodes modules that nobody is to read: bytes without words.
+/// ABB can encode modules: bytes without words.
 bool is_encoded(const std::string& text) {
   const auto is_control = [](char c) {
     const auto byte = static_cast<unsigned char>(c);

@@ -12,11 +12,11 @@ namespace dresslife::sim {
 void add_rapid_types(Code& code);
 std::optional<Value> rapid_speed(const Code& code, const std::string& name);
 std::optional<Value> rapid_zone(const Code& code, const std::string& name);
-/// What a variable holds before anything is assigned to it: zeros.
+/// Value of a variable before its first assignment: zeros.
 Value rapid_initial(const Code& code, const std::string& type, int depth = 0);
 /// Input, output and logic, sorted.
 const std::vector<std::string>& harmless_rapid_instructions();
-/// What an instruction that is not followed may do to the motion; null: nothing is known of it.
+/// Possible effect of a skipped instruction on the motion; null: not known.
 const char* rapid_told_effect(const std::string& instruction);
 
 }  // namespace dresslife::sim

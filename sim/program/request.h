@@ -1,5 +1,5 @@
-// What a user asks for beside the files: values, choices, the routine and its arguments, as expressions of
-// the program's language.
+// The user's options beside the files: values, choices, the routine and its arguments, as expressions of the
+// program's language.
 #pragma once
 
 #include "sim/program/code.h"

@@ -4,11 +4,11 @@
 //   speed          RAPID: [0.7*v500.v_tcp,...]; KRL: BAS(#VEL_PTP,..) before and behind; Fanuc, INFORM, URScript: the number
 //   configuration  RAPID: [p10.trans,p10.rot,[1,0,0,0],p10.extax]; KRL: S and T; Fanuc: CONFIG, of a new P[n] where
 //                  other lines use the old one
-//   joints         of a target that is joint angles, likewise
+//   joints         of a target in joint angles
 //   point          RAPID: MoveAbsJ, KRL: PTP {A1 ..}: a line before it
 //
-// What a writer cannot write is an InputError at the line; whoever asks reads the text back (sim/program/import.h) before
-// believing it.
+// A change that a writer cannot write is an InputError at the line. The caller reads the text back
+// (sim/program/import.h) and compares it.
 #pragma once
 
 #include <optional>

@@ -184,7 +184,7 @@ class Columns {
     if (whole && rows_.size() <= ImportLimits::instructions) rows_.push_back(std::move(made));
   }
 
-  /// Factors to rad of the axes' columns; empty: nobody knows.
+  /// Factors to rad of the axes' columns; empty: not known.
   std::vector<double> factors() {
     // No axis turns further than two turns either way, but for those of a wrist that is read in degrees
     // anyway.
@@ -232,7 +232,7 @@ class Columns {
   std::vector<std::size_t> axes_;  // columns, in the order of the robot's axes
   std::optional<std::size_t> time_;
   double seconds_ = 1;
-  bool clock_ = false;  // the unit of the time is told by the times
+  bool clock_ = false;  // the times determine their unit
   std::vector<Row> rows_;
   int number_ = 0, header_ = 0;
   bool stopped_ = false;
@@ -330,7 +330,7 @@ bool documents_of(const SourceFile& file, std::vector<Node>& documents, Problems
   return true;
 }
 
-/// The one that is meant; null: none, or nobody knows.
+/// The chosen one; null: none, or not known.
 const Node* chosen_trajectory(const SourceFile& file, const std::vector<Node>& documents,
                               const ImportOptions& options, Problems& problems) {
   std::vector<const Node*> found;

@@ -3,9 +3,9 @@
 // Read: def, global and local variables, if, while, return, break, continue, halt; lists and poses p[x, y, z, rx, ry,
 // rz]; movej, movel, movep, movec, servoj, servoc with a, v, t, r; get_inverse_kin with qnear, get_forward_kin,
 // pose_trans, pose_inv, pose_add, pose_sub, interpolate_pose and arithmetic; set_tcp; sleep. Threads run beside the
-// program: what they write is unknown, and one that moves the robot is named. All else is listed as skipped.
+// program: values that they write are unknown, and one that moves the robot is named. All else is listed as skipped.
 //
-// Names are compared without regard to case; a script in which two differ in case alone is refused.
+// Names that differ only in case are different names; questions number them ("count#2").
 // Source of the meaning: The URScript Programming Language (Universal Robots, script manual 5.11).
 #pragma once
 

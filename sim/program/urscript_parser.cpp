@@ -284,20 +284,20 @@ class ScriptParser : StatementParser {
   std::vector<Routine> routines_;
   std::vector<std::size_t> routines_here_;  // that are being read, the innermost last
   std::set<std::size_t> around_others_;     // that hold other routines
-  std::vector<std::string> loops_;          // labels at their ends, likewise
+  std::vector<std::string> loops_;          // labels at their ends
   std::set<std::string> globals_;
   std::map<std::size_t, std::set<std::string>> assigned_, locals_;
   std::map<std::string, std::string> written_by_threads_;
 };
 
-/// In URScript the case of a name counts, in the tree it does not: of several spellings of one name in these files all but
-/// one get a number behind them, "count#2". The one in small letters keeps its name, since those of the language are small.
-/// `names` holds the new ones and has to live as long as the tokens.
+/// In URScript the case of a name counts, in the tree it does not: of several spellings of one name in these files
+/// all but one get a number behind them, "count#2". The one in small letters keeps its name, since those of the
+/// language are small. `names` holds the new ones and has to live as long as the tokens.
 void number_spellings(const Code& code, std::vector<Token>& tokens, std::deque<std::string>& names) {
   static const std::set<std::string> words{"true", "false",  "none",  "def",    "end",   "if",   "elif",  "else",     "while", "return",
                                            "global", "local", "thread", "break", "continue", "and",  "or",   "not", "xor",      "run"};
   std::map<std::string, std::set<std::string, std::greater<>>> spellings;  // small letters last in ASCII: first here
-  Problems ignored;  // the parser tells them
+  Problems ignored;                                                        // the parser reports them
   for (const SourceFile& source : code.files)
     for (const Token& token : tokens_of(source, rules, ignored))
       if (token.kind == Token::Kind::word) spellings[lower_case(token.text)].emplace(token.text);

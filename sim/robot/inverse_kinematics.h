@@ -74,7 +74,7 @@ class InverseKinematics {
                                         std::string& reason) const;
 
   /// Whether a path may end with these angles where its program says `programmed`. ABB watches axes 1, 4 and
-  /// 6, which may be a quadrant off (ConfL); Fanuc wants its letters and turns; others do not look.
+  /// 6, which may be a quadrant off (ConfL); Fanuc wants its letters and turns; others ignore it.
   bool may_end(const Eigen::VectorXd& joints, const ArmConfiguration& programmed) const;
 
   /// The configuration at these angles, in the words of a controller.

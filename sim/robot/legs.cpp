@@ -538,7 +538,7 @@ class Layout {
         std::string reason;
         const Frame pose = bezier(move.path->pose(1 - move.cut_behind), next.path->pose(0),
                                   next.path->pose(next.cut_before), u);
-        VectorXd near = joints;  // external axes go over likewise
+        VectorXd near = joints;  // external axes change in the same way
         const long external = near.size() - static_cast<long>(robot_.axes());
         near.tail(external) = target.tail(external);
         const auto reached = arm_.follow(next.path->tooling().flange(pose), near, reason);

@@ -15,7 +15,7 @@ CubicSpline::CubicSpline(std::vector<double> times, Eigen::MatrixXd values)
 }
 
 /// The ends' conditions, (m_1 - m_0)/h_0 = (m_2 - m_1)/h_1, put m_0 = m_1 + (h_0/h_1)(m_1 - m_2) into the
-/// first equation, and likewise at the other end; what is left is tridiagonal in m_1 .. m_n-1. With three
+/// first equation, and the same at the other end; the rest is tridiagonal in m_1 .. m_n-1. With three
 /// knots both conditions fall together: m_0 = m_1 = m_2.
 void CubicSpline::find_second_derivatives() {
   const long last = static_cast<long>(times_.size()) - 1;

@@ -4,9 +4,9 @@
 //
 // graph_10k_s: to read the study, expand it and write settings, build graph and memory, the first time.
 // overhead_ms_per_job: wall time per job of running it, three stages as processes, two at a time.
-// noop_10k_s: to find that nothing is left to do: what was looked at is as it was, and so is every result.
+// noop_10k_s: to find that nothing is left to do: all files and results are unchanged.
 // regraph_10k_s: the same when a comment in the study has changed: it is expanded again.
-// gather_10k_s: to rank what all jobs' receipts and life files tell.
+// gather_10k_s: to rank all jobs from their receipts and life files.
 // study_10k_mb: the runner's largest memory in all this.
 //
 // ..._processor_...: of the same the processor time, which other work on the machine changes little: the

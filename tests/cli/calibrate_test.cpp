@@ -150,7 +150,7 @@ TEST_CASE(
   CHECK(learned(file, "friction_inside", "value_p90") > 1.6);
   CHECK(file.find("name: strength") == std::string::npos);
 
-  // A swing that dies away as such a cable's does tells it, too, if less: how much it loses hangs less on
+  // A decay test of such a cable shows it, too, but less: its loss depends less on
   // friction.
   const double decrement = std::exp(log_decrement_by_slip(curvature, moment, 1)) + 0.03;
   scratch.write(

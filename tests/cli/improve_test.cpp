@@ -69,12 +69,12 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   CHECK(page.find("<td><code>routing.free_length_m</code></td><td>0.9</td><td>0.9") != std::string::npos);
   CHECK(page.find("<tr><td>length, + 10 mm</td><td class=\"number\">× ") != std::string::npos);
 
-  // Of a trial only what its receipts tell stays, of what is told at length all.
+  // Of a trial only its receipts stay, of the best few all files.
   CHECK(results_of(scratch / "runs/better_improve", "trial_").empty());
   CHECK(results_of(scratch / "runs/better_improve", "off_").empty());
   CHECK(results_of(scratch / "runs/better_improve", "before").size() == 3);
 
-  // The same again runs nothing; the study itself does not look at what is free.
+  // The same again runs nothing; the study itself ignores the section free.
   const auto notes = notes_of(scratch / "runs/better_improve");
   const Outcome again = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet");
   CHECK(again.out == told.out);

@@ -73,7 +73,7 @@ TEST_CASE(
   install(scratch, "a place");
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\n");
-  // Copper is named by the job and lies only in the catalogue; changed there, it tells which one was read.
+  // Copper is named by the job and lies only in the catalogue; changed there, it shows which one was read.
   const std::string copper = "a place/share/dresslife/config/materials/copper.yaml",
                     shipped = "youngs_modulus_GPa: 117";
   std::string text = content(scratch / copper);

@@ -59,7 +59,6 @@ const std::map<std::string, std::string> instead{
     {"dresslife-fatigue strain.h5 -o life.h5", "not run"},  // its page comes before the one that makes strain.h5
     {"dresslife validate config/observations/published.yaml", "dresslife validate two_published.yaml"},
     {"dresslife calibrate your_cable", "dresslife calibrate your_cable"},
-    {"dresslife calibrate published", "dresslife calibrate two_published.yaml"},
     {"dresslife draw control_cable", "dresslife draw control_cable"},
     {"dresslife rate control_cable", "dresslife rate control_cable"},
     {"dresslife rate control_cable --set calibration=runs/calibrate_your_cable/calibration.yaml",
@@ -79,13 +78,11 @@ const std::map<std::string, std::string> instead{
     {"dresslife import PROGRAM -o motion.yaml", "dresslife import CONFIG/programs/pick_and_place.src -o motion.yaml"},
     {"dresslife export runs/two_robots/hard --paraview hard.xdmf", "not run"},  // tests/cli/paraview_test
     {"dresslife show FILE.h5", "dresslife show motion.h5"},
-    {"dresslife run two_robots --set calibration=...", "not run"},  // in full: an hour with what comes before it
     {"dresslife submit STUDY", "not run"},                          // needs a cluster: tests/pipeline/study
     {"dresslife run --launcher WORDS", "not run"},
     {"dresslife clean STUDY", "not run"},  // tests/cli/study_test
     {"dresslife route ROBOT", "not run"},  // as above
     {"dresslife-sim --preview", "not run"},
-    {"dresslife COMMAND ...", "not run"},
 };
 
 /// "build/bin/dresslife run x   # words" and "$ dresslife run x" are "dresslife run x"; empty: no command of ours.

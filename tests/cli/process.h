@@ -74,7 +74,7 @@ inline int rounds(int times) {
   return times * (factor ? std::max(1, std::atoi(factor)) : 1);
 }
 
-/// A file's text behind the line that says who wrote it.
+/// A file's text after the line of its mark.
 inline std::string unmarked_content(const fs::path& file) {
   return std::string(pipeline::without_mark(content(file)));
 }

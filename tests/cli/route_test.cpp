@@ -226,7 +226,7 @@ TEST_CASE("screen grades every change of a job, and says which is no job") {
   const auto row = static_cast<std::ptrdiff_t>(told_in_pieces.length("bend"));
   REQUIRE(bends.size() == 3 * static_cast<std::size_t>(row));
   CHECK(*std::max_element(bends.begin(), bends.begin() + row) ==
-        Approx(in_a_run[bend]).margin(0.02));  // the run looks between samples, too
+        Approx(in_a_run[bend]).margin(0.02));  // the run checks between samples, too
   CHECK(std::all_of(bends.begin() + row, bends.end(),
                     [](double g) { return g == 0; }));  // of what does not run
   CHECK(std::vector(in_a_run.begin() + limits, in_a_run.end()) ==

@@ -2,7 +2,7 @@
 // -strain or -fatigue by the name under which it is started.
 //
 // Its output holds its settings and its input's checksum. Beside the output it notes each time that it worked
-// in `calls`, and does what files there tell it: fail-STAGE: it fails; silent-STAGE: it ends without a word;
+// in `calls`, and obeys files there: fail-STAGE: it fails; silent-STAGE: it ends without a word;
 // wait-STAGE: it works until that file is gone.
 #include <filesystem>
 #include <fstream>

@@ -111,7 +111,7 @@ TEST_CASE("copper: predicted beside measured, as fatigue/measurements.md tells i
 
 TEST_CASE("copper: 0.14 mm wire bent at a clip, one bending length for three angles") {
   // At most 5.5e4 cycles at +-5 deg, fewer at 10, more than 1e5 at 1 deg (fatigue/measurements.md). The length over
-  // which it bends is not told: that which gives 5.5e4 at 5 deg must respect the other two, and be a few
+  // which it bends is unknown: the one that gives 5.5e4 at 5 deg must respect the other two, and be a few
   // diameters.
   for (const char* name : {"copper", "copper_halved", "copper_annealed", "copper_hard_drawn"}) {
     INFO(name);

@@ -507,7 +507,7 @@ TEST_CASE("life.h5: the damage is shared out among the joints and told by clamp"
   CHECK(sum(three.read<double>("/clamp/damage")) == Approx(sum(segment)).epsilon(same_sum));
   CHECK(three.read<double>("/clamp/damage")[1] > 0);
 
-  // without joints in the file only the clamps are told
+  // without joints in the file only the clamps have damage
   f.joints.clear();
   const Result bare = run(folder, f, job, "bare.h5");
   const FileReader without(bare.file, pipeline::life_format());
@@ -758,7 +758,7 @@ TEST_CASE("sites are visited in order with their own strains, also over many blo
   CHECK(visited == count);
   CHECK(all_equal);
 
-  // Every site is evaluated once, whoever does it.
+  // Every site is evaluated once, by any thread.
   const TextColumn component = read_column(strain, "/site/component");
   const SiteCounters counters(sites, component, test_job());
   const SiteDamage alone = damage_of(sites, counters, 1, [](double) {});

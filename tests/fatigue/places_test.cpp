@@ -140,7 +140,7 @@ TEST_CASE("places: told lives are on the safe side of drawn ones, and near") {
                  draws;
         };
         INFO(percent << " " << shared << " " << share << " " << told.lives[i]);
-        CHECK(sooner(told.lives[i]) < share + sampling);        // told no later than drawn
+        CHECK(sooner(told.lives[i]) < share + sampling);        // predicted no later than sampled
         CHECK(sooner(told.lives[i] * 1.1) > share - sampling);  // and by less than a tenth sooner
       }
       // Drawing itself, which needs no bounds: rates of 1 share nothing.

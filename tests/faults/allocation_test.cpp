@@ -47,7 +47,7 @@ TEST_CASE("an allocation that fails, or all from one on, ends each program with 
         const Outcome outcome = fail_at(at, more);
         INFO(call.program << ' ' << call.arguments << ": allocation " << at << " of " << total << " (" << more
                           << " more): " << outcome.status << outcome.err);
-        if (outcome.status == 0) {  // of the shell, or one that nobody needs
+        if (outcome.status == 0) {  // of the shell, or an unused allocation
           REQUIRE(outcome.out == right.out);
           ++whole;
         } else {

@@ -130,7 +130,7 @@ class Slurm {
     fs::create_directories(folder_ / "spool");
     const std::string here = folder_.string();
     // cred_expire: a job that was sent back waits so long, not two minutes. ReturnToService 1: a node that
-    // was taken down stays so until it is told otherwise.
+    // was taken down stays so until a command changes it.
     scratch_.write(
         "slurm/slurm.conf",
         fmt::format(

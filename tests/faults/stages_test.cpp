@@ -304,7 +304,7 @@ TEST_CASE("programs find themselves and their catalogue where no /proc is mounte
   const Outcome study = run_shell(scratch, hidden + dresslife + "run study.yaml'");
   INFO(study.err);
   CHECK(study.status == 0);
-  // What it made is up to date for those who have /proc: both ways lead to the same programs.
+  // What it made is up to date on systems with /proc: both ways lead to the same programs.
   CHECK(run(scratch, "dresslife", "run study.yaml").err.find("nothing to do") != std::string::npos);
 }
 #endif

@@ -281,7 +281,7 @@ TEST_CASE("status and report work beside a run and where nothing may be written,
   scratch.write("study.yaml", study_text);
   REQUIRE(run_study(scratch).status == 0);
   const auto before = results(scratch / "runs/study");
-  // Settings of this look alone: the files stay those of the study.
+  // Settings of this command only: the files stay those of the study.
   const Outcome changed = run(scratch, "dresslife", "report study.yaml --set fatigue.stress=elastic");
   CHECK(changed.status == 1);
   CHECK(changed.out.find("stale") != std::string::npos);
@@ -341,7 +341,7 @@ TEST_CASE("a changed input counts whatever its date, a damaged or foreign result
   CHECK(status.out.find("damaged  life.h5 is not what its stage wrote; run makes it again") !=
         std::string::npos);
   const Outcome report = run(scratch, "dresslife", "report study.yaml");
-  CHECK(report.status == 1);  // the copy is nobody's life
+  CHECK(report.status == 1);  // the copy belongs to no job
   const Outcome mended = run_study(scratch);
   CHECK(mended.err.find("life.h5 is not what its stage wrote") != std::string::npos);
   CHECK(results(scratch / "runs/study") == before);
@@ -357,7 +357,7 @@ TEST_CASE("what receipts tell the ranking is all that it would read from the fil
     const std::string name = std::string("bending_stiffness_Nm2=") + stiffness;
     by_files.push_back({name, scratch / ("runs/study/" + name + "/life.h5"), ""});
   }
-  const std::regex settings(",[0-9a-f]{12},");  // of which no file tells
+  const std::regex settings(",[0-9a-f]{12},");  // digests that no file contains
   const std::string told = content(scratch / "runs/study/ranking.csv");
   REQUIRE(std::regex_search(told, settings));
   CHECK(std::regex_replace(told, settings, ",,") ==
@@ -446,7 +446,7 @@ TEST_CASE("a study that is moved with its files stays up to date, whatever stand
   REQUIRE(dresslife("plant", "run study.yaml").status == 0);
   for (const auto& entry : fs::recursive_directory_iterator(scratch / "plant/runs")) {
     INFO(entry.path());
-    const bool is_of_this_machine = entry.path().filename() == "study";  // what was looked at, and where
+    const bool is_of_this_machine = entry.path().filename() == "study";  // file searches of this machine
     if (entry.is_regular_file() && !is_of_this_machine)
       CHECK(content(entry.path()).find(scratch.folder().string()) == std::string::npos);
   }

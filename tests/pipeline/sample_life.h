@@ -16,7 +16,7 @@ struct SampleLife {
   double repeats = 12000;  ///< of the worst wire; infinite: no damage
   int segments = 50, lines = 28, samples = 4500;
   int worst_from_tool = 3;
-  bool causes = false;    ///< whether it tells which joint costs the life
+  bool causes = false;    ///< whether it has the damage by joint
   double hose_hours = 0;  ///< until the hose's wall cracks; 0: it is not evaluated
   double planned_hours =
       0;  ///< until 10 % have a conductor without its share of wires at one place; 0: as of an older file

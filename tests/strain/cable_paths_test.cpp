@@ -396,7 +396,7 @@ TEST_CASE(
     for (std::size_t i = 0; i < bent[k].size(); ++i) differs += std::pow(bent[k][i] - bent.back()[i], 2);
     off.push_back(std::sqrt(differs / all));
     CAPTURE(k, told[k], off[k]);
-    // What is told is of second differences alone; that waves lie elsewhere for it comes on top.
+    // The stated error is of second differences only; displaced waves add to it.
     CHECK(off[k] < 2 * told[k]);
   }
   // Of second order a quarter is left; the finest, which all are held against, is not the end itself.
@@ -458,7 +458,7 @@ TEST_CASE(
         paths.add({history});
         paths.finish();
         const double tension = pulls_of(paths).tension[0][0];
-        const double by_length = force.force(elongation);  // what its axis alone would tell
+        const double by_length = force.force(elongation);  // the force by its axis alone
         if (elongation == 0) {
           // Of a strain x of the cable a wire has cos^2 x; what a turn a metre does besides is of second
           // order, R t = 0.02.
@@ -584,7 +584,7 @@ TEST_CASE("with friction along it a cable's largest force counts, wherever it is
     for (const std::size_t i : {std::size_t{0}, segments - 1})
       for (std::size_t t = 0; t < 20; ++t)
         ends = std::max(ends, std::abs(force.force(run.pulling_strain(k, i, t))));
-  CHECK(ends < 0.99 * largest);  // else this would not tell the two apart
+  CHECK(ends < 0.99 * largest);  // else the two cases would not differ
 }
 
 TEST_CASE("the same cables come out in blocks of any size") {
@@ -634,7 +634,7 @@ TEST_CASE("a closed motion of loose cables closes without friction, and with it 
   for (std::size_t k = 0; k < row; ++k)
     open = std::max(open, std::abs(smooth[4 * cycle * row + k] - smooth[3 * cycle * row + k]));
   for (const double strain : smooth) largest = std::max(largest, std::abs(strain));
-  // at rest to 1e-7 m of place, which are 5e-7 of strain; drag alone tells one cycle from the next, and fades
+  // at rest to 1e-7 m of place, which are 5e-7 of strain; only drag differs from cycle to cycle, and it decays
   // in the first
   CHECK(open < 1e-6);
   CHECK(largest > 20 * 1e-6);

@@ -238,7 +238,7 @@ TEST_CASE("two dresspacks in one file have the strains and lives of two files") 
                                  "sensor cable, tool clamp"});
   CHECK(all.read<std::string>("/layer/component") ==
         std::vector<std::string>{"main hose/cable/wire", "sensor cable/core"});
-  // The worse of the two is told, its segment counted from its own tool clamp.
+  // The worse of the two is reported, its segment counted from its own tool clamp.
   const bool worse_first = first.number_attribute("life_hours") < second.number_attribute("life_hours");
   const FileReader& worse = worse_first ? first : second;
   const std::string name = worse_first ? "main hose" : "sensor cable";

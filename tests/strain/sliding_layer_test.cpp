@@ -23,7 +23,7 @@ constexpr int angles = 24;                          // harmonics beyond the twel
 
 constexpr double single = 3e-6;    // five waves in single precision, of the largest strain
 constexpr double left_out = 1e-6;  // of it too: what the series leave out (W27)
-// A wire's bending is told from that at rest: three roundings of its strain at rest.
+// A wire's bending is computed from that at rest: three roundings of its strain at rest.
 constexpr double single_at_rest = 2e-7;
 
 /// Five layers of wires of one lay angle in the thesis' conductors.

@@ -1,4 +1,4 @@
-// What a user tells of cables moves strains of their wires smoothly: no jump between neighbouring values of
+// Strains of wires are smooth functions of the keys of their cables: no jump between neighbouring values of
 // any key, whatever another one is at. Wires of two cables of two conductors, through the whole evaluation.
 #include <algorithm>
 #include <cmath>

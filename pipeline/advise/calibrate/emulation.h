@@ -1,5 +1,5 @@
-// A round's rows as functions of what is not known: each observed life, and each measured bend, of every
-// variant of its test.
+// The rows of a round as functions of the uncertain parameters: each observed life and each bending test, for every
+// variant.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,14 @@
 
 namespace dresslife::pipeline {
 
-inline constexpr double endless_log_life =
-    41.4;  // ln 1e18: where there is no damage, nobody waits for a break
+inline constexpr double endless_log_life = 41.4;  // ln 1e18: a life without damage
 
-/// What was run of a test: a life, or how a cable bends, of each variant.
+/// Emulators of a test: a life or a bending moment, of each variant.
 struct EmulatedTest {
   std::optional<ObservedLife> life{};
-  std::vector<Measurement> bending{};  ///< (variant), of the same numbers
-  std::size_t shown = 0;               ///< number that is told
-  double per_shown = 1;                ///< by which it is divided: a stiffness by its curvature
+  std::vector<Measurement> bending{};  ///< (variant), of the same measurement
+  std::size_t shown = 0;               ///< index of the number that is shown
+  double per_shown = 1;                ///< its divisor: the curvature for a stiffness
   std::string fails_first{};           ///< of a life, at the centre: "wires of signal cable, 100 %"
 
   double log_likelihood_at(const Eigen::VectorXd& z) const;
@@ -30,7 +29,7 @@ struct EmulatedTest {
 std::vector<EmulatedTest> emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
                   const std::vector<RankingRow>& rows, const StudyPlaces& places);
 
-/// One of each test, over the axes. The result refers to both arguments.
+/// The likelihood of each test over the axes. The result refers to both arguments.
 std::vector<LogLikelihood> terms_of(const std::vector<EmulatedTest>& tests, const Axes& axes);
 
 }  // namespace dresslife::pipeline

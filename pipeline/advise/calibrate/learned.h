@@ -1,4 +1,4 @@
-// What observations taught, in numbers and in words.
+// Results of a calibration, as numbers and as text.
 #pragma once
 
 #include <string>
@@ -9,40 +9,40 @@
 
 namespace dresslife::pipeline {
 
-/// What was learned of one parameter; nothing: no test depends on it.
+/// Result of one parameter; empty: no test depends on it.
 struct LearnedAxis {
   bool learned = false;
-  Foretold before{}, after{};  ///< of its key
-  double narrowed = 1;         ///< deviation of z after, over that before
+  Foretold before{}, after{};  ///< value of its key
+  double narrowed = 1;         ///< standard deviation of z after over that before
 };
 
 struct LearnedTest {
   Observation observation;
-  Foretold before{}, after{};  ///< over all variants, over each as likely as it then is
+  Foretold before{}, after{};  ///< over all variants; after: weighted by their likelihood
   Foretold by_others{};        ///< over all variants, from the posterior of all tests but this one
-  double measured = 0;         ///< the same as it was measured; 0 for a life
+  double measured = 0;         ///< measured value; 0 for a life
   std::string fails_first{};   ///< EmulatedTest
 };
 
 struct Learned {
-  Posterior posterior;            ///< of the axes that were learned, in the order of uncertain_parameters()
+  Posterior posterior;            ///< of the calibrated axes, in the order of uncertain_parameters()
   std::vector<LearnedAxis> axes;  ///< (parameter)
   std::vector<LearnedTest> tests;
   Calibration calibration;
   int rounds = 0;
-  bool settled = false;  ///< the centre had ceased to move
+  bool settled = false;  ///< the centre has converged
   std::vector<std::string> notes;
 };
 
 std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes);
 
-/// Notes of what a user should look at before what was learned is believed.
+/// Notes on limits of the result.
 void add_doubts(Learned& learned, const Axes& axes);
 
 /// "120 (4,100, 120,000)": 10 %, half, 90 % have failed.
 std::string words_of(const Foretold& told);
 
-/// For a terminal: parameters before and after, each row foretold before and after beside what was seen.
+/// Table for the terminal: parameters before and after; observed and predicted values of each row.
 std::string learned_table(const Learned& learned);
 
 }  // namespace dresslife::pipeline

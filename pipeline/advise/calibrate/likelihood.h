@@ -1,5 +1,4 @@
-// How likely an observation is where the model's parameters are z: of lives that ended or had not yet ended,
-// and of measured quantities.
+// Likelihood of an observation at the parameters z: of lives, censored lives and measured quantities.
 //
 // A life is lognormal about the model's median m(z), with the spread s(z) of what failed (a wire, a conductor
 // that lost its share of wires). Of s^2 the share w is common to all specimens of a test, one spool or batch;
@@ -8,10 +7,9 @@
 //     broken     n lives, x is their mean:  N(x; m, c^2 + o^2/n)                             (P2)
 //     at least   n not failed until then:   integral of Phi((m + c y - x)/o)^n phi(y) dy     (P3)
 //     at most    none lived longer:         integral of Phi((x - m - c y)/o)^n phi(y) dy
-// A rating is an at-least of one specimen: its maker's promise holds for a cable that somebody buys.
+// A rating is an "at least" of one specimen.
 //
-// The unknown values of a test are a list of variants, each as likely as the others: the likelihood is the
-// mean of theirs.
+// A test with unknown values has several variants of equal probability. Its likelihood is the mean of theirs.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +20,7 @@
 
 namespace dresslife::pipeline {
 
-/// ln of a likelihood over z, up to a constant that z does not move.
+/// ln of a likelihood over z, up to a constant.
 using LogLikelihood = std::function<double(const Eigen::VectorXd& z)>;
 
 enum class LifeEnd { broken, at_least, at_most };
@@ -45,7 +43,7 @@ struct ObservedLife {
 /// (P2), (P3). Precondition: at least one variant.
 double log_likelihood(const ObservedLife& observed, const Eigen::VectorXd& z);
 
-/// A measured number that is a sum of what the model says: value = sum of factor x exp(log of quantity(z)).
+/// A measured number as a sum of quantities of the model: value = sum of factor x exp(log of quantity(z)).
 struct MeasuredNumber {
   struct Part {
     std::size_t quantity;

@@ -1,13 +1,12 @@
-// A cable that was bent and its moment measured: what of it a model must say.
+// Bending and decay tests of a cable, in terms of the model's first bend.
 //
-// A first bend follows M1(curvature), which the strain file of a job holds (/bending). Sliders with constant
-// caps remember where bending turned (Masing): from a turning point (k0, M0) on
+// A first bend follows M1(curvature), which the strain file of a job contains (/bending). After a reversal
+// at (k0, M0) the friction remembers the turning point (Masing):
 //     M = M0 + 2 M1((k - k0)/2),                                                                      (P4)
-// a branch that closes a loop goes on as the one before it. So each measured moment is a sum of values of M1.
+// A branch that closes a loop continues the one before it. So each measured moment is a sum of values of M1.
 //
-// A piece held at one end that swings freely bends to and fro between -k phi and k phi, where phi(x) is the
-// curvature of a clamped bar's first natural form, 1 at the clamp. Each swing to and fro takes the loop that
-// (P4) closes from the stored energy:
+// A piece that is held at one end and swings bends between -k phi and k phi, where phi(x) is the curvature of the first
+// mode of a clamped bar, 1 at the clamp. Each period takes the loop of (P4) from the stored energy:
 //     decrement = sum over x of [8 int_0^(k phi) M1 - 4 k phi M1(k phi)] / sum over x of k phi M1(k phi) (P5)
 #pragma once
 
@@ -24,12 +23,12 @@ struct BendingPoint {
   double moment = 0;     ///< [N m]
 };
 
-/// A CSV with a header and two columns, curvature_1_per_m and moment_Nm, in the order in which it was bent,
-/// from straight. Errors: InputError at the line.
+/// A CSV with a header and two columns, curvature_1_per_m and moment_Nm, in the order of the test, from straight.
+/// Errors: InputError at the line.
 std::vector<BendingPoint> read_bending(const std::filesystem::path& file);
 
-/// The points as sums of M1 at curvatures > 0 [1/m]. noise: of a moment, as a share of it; a tenth of the
-/// largest moment's noise at least, as scales have.
+/// The points as sums of M1 at curvatures > 0 [1/m]. noise: of a moment, as a share of it; at least a tenth of the
+/// largest moment's noise.
 struct BendingNumbers {
   std::vector<double> curvatures;
   std::vector<MeasuredNumber> numbers;
@@ -40,9 +39,8 @@ BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double n
 double log_moment(const std::vector<double>& curvatures, const std::vector<double>& moments,
                   double curvature);
 
-/// ln of what slip has of the logarithmic decrement (P5). curvatures, moments: the table of M1, both > 0 and
-/// rising. largest: curvature beside the clamp at the end of a swing [1/m]. Not below ln 1e-4: what loses
-/// less is lost in air's.
+/// ln of the part of slip in the logarithmic decrement (P5). curvatures, moments: the table of M1, both > 0 and rising.
+/// largest: curvature beside the clamp at the end of a swing [1/m]. At least ln 1e-4, which is below that of air.
 double log_decrement_by_slip(const std::vector<double>& curvatures, const std::vector<double>& moments,
                              double largest);
 

@@ -133,7 +133,7 @@ Observation read_one(const Node& item) {
   return observation;
 }
 
-/// How a cable bends is told beside any motion: the quickest.
+/// Every motion gives the bending table; this one is the fastest.
 void add_still_motion(Node& job) {
   Node rig;
   rig["kind"] = scalar("axial");
@@ -211,7 +211,7 @@ std::array<double, 3> lives_of(const Observation& observation, const RankingRow&
                                                                             : row.conductor_hours;
   const double unit = observation.hours ? 1 : 3600 / row.repeat_seconds * observation.cycles_per_repeat;
   std::array<double, 3> lives;
-  // Where nothing is damaged there is no scatter to tell.
+  // Without damage there is no scatter.
   for (std::size_t i = 0; i < lives.size(); ++i) lives[i] = std::isnan(hours[i]) ? endless : hours[i] * unit;
   return lives;
 }

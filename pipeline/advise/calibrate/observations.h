@@ -1,10 +1,10 @@
-// Observations of cables and wires, compared with what the model says: a table of observations. Each has the
-// job that does to the model's cable what was done to the real one, and the values that are not known.
+// A table of observations of cables and wires, and their comparison with the model. Each has a job that does the same
+// to the model's cable, and the possible values of unknown keys.
 //
 //   observations:
 //     - name: wenglor_chain
 //       job: {motion: {rig: {...}}, dresspack: {cable: {...}}}      a job, or a file of one
-//       vary: {fatigue.material: [copper_halved, copper_annealed]}  what is not known; every combination
+//       vary: {fatigue.material: [copper_halved, copper_annealed]}  unknown keys; every combination
 //                                                                   becomes a job
 //       cycles: 2e+6                                                or hours
 //       outcome: rating
@@ -27,20 +27,19 @@ namespace dresslife::pipeline {
 
 class Fields;
 
-/// broken: so long it lived; broken_by: no specimen lived longer; run_out: it had not failed then; rating:
-/// its maker promises so much.
+/// broken: it failed then; broken_by: no specimen lived longer; run_out: it had not failed then; rating: lower bound by
+/// its maker.
 enum class ObservedEnd { broken, broken_by, run_out, rating };
 constexpr std::string_view word(ObservedEnd value) {
   return word_at({"broken", "broken_by", "run_out", "rating"}, value);
 }
-/// Whether the true life is known not to be longer, and known not to be shorter.
+/// Whether the observation is an upper bound of the life, and whether it is a lower bound.
 constexpr bool bounds_above(ObservedEnd value) {
   return value == ObservedEnd::broken || value == ObservedEnd::broken_by;
 }
 constexpr bool bounds_below(ObservedEnd value) { return value != ObservedEnd::broken_by; }
 
-/// What had to happen for it to count as failed: a wire, or a share of a conductor's
-/// (fatigue.failed_wires_percent).
+/// Criterion of failure: one wire, or a share of a conductor's wires (fatigue.failed_wires_percent).
 enum class FailureCriterion { first_wire, conductor };
 constexpr std::string_view word(FailureCriterion value) {
   return word_at({"first_wire", "conductor"}, value);
@@ -49,21 +48,20 @@ constexpr std::string_view word(FailureCriterion value) {
 struct Observation {
   std::string name, what, source, note;
   // What was observed, one of:
-  std::optional<double> cycles, hours;  ///< that it lived [cycles, h]
+  std::optional<double> cycles, hours;  ///< life [cycles, h]
   std::optional<double> stiffness;      ///< moment over curvature of the cable, bent from straight [N m2]
   std::optional<double> decrement;      ///< of the cable's free swing, held at one end [1]
   std::filesystem::path bending;        ///< a bending test as a table (measured_bending.h); empty: none
 
   double at_curvature = 1;  ///< of stiffness; of decrement beside the clamp, at the end of a swing [1/m]
-  double decrement_without_slip = 0;  ///< of decrement, what polymer and air have, to be taken off [1]
+  double decrement_without_slip = 0;  ///< part of polymer and air in decrement [1]
   double noise_percent = 5;           ///< of a measured moment or decrement
-  double cycles_per_repeat = 1;       ///< that the observer counts in one repeat of the job's motion
+  double cycles_per_repeat = 1;       ///< counted by the observer per repeat of the job's motion
   ObservedEnd outcome = ObservedEnd::broken;
   FailureCriterion criterion = FailureCriterion::conductor;
   int specimens = 1;
-  double unshared_log10 = universal_slopes;  ///< of life, that this test and no other has of its own
-  /// Rules that foretell lives from a metal's name are within a factor of 3 in four of five cases (Nachtigall
-  /// 1975).
+  double unshared_log10 = universal_slopes;  ///< standard deviation of log10 life that only this test has
+  /// Rules that predict lives from tensile tests are within a factor of 3 in four of five cases (Nachtigall 1975).
   static constexpr double universal_slopes = 0.37;
   std::vector<std::size_t> jobs;  ///< of the study that are its variants
 
@@ -71,7 +69,7 @@ struct Observation {
 };
 void describe(Fields& f, Observation& observation);
 
-/// An observation with the jobs that could be what was done: one per combination of what is not known.
+/// An observation with its jobs: one per combination of the unknown values.
 struct ObservedTest {
   Observation observation;
   struct Variant {
@@ -92,8 +90,7 @@ struct ValidationStudy {
   std::vector<Observation> observations;
 };
 
-/// Those of lives. Errors: InputError at the place in the file. A variant that cannot be is told in its job's
-/// failure.
+/// Those of lives. Errors: InputError at the place in the file. A variant that is no valid job has a failure.
 ValidationStudy read_observations(const std::filesystem::path& file, const std::vector<std::string>& sets);
 
 /// Lives by which 10, 50 and 90 % have failed by the observation's criterion, in the observer's unit;
@@ -108,8 +105,7 @@ inline double observed_life(const Observation& observation) {
 /// "at least 100,000", "460 h", "0.21 N m2 at 1 1/m".
 std::string observed_text(const Observation& observation);
 
-/// What the model says over all variants, in the observer's unit. Lives are infinite where there is no
-/// damage.
+/// Prediction over all variants, in the observer's unit. Lives without damage are infinite.
 struct Prediction {
   double low = 0, high = 0;  ///< 10 % of the shortest-lived variant, 90 % of the longest-lived
   double shortest = 0, median = 0, longest = 0;  ///< medians of the variants
@@ -120,9 +116,9 @@ struct Prediction {
 Prediction predicted(const Observation& observation, const Study& study, const std::vector<RankingRow>& rows);
 
 enum class Agreement { agrees, too_short, too_long, open };
-/// agrees: every variant's median, or for a life that is known both ways the range, is within what was
-/// observed. too_short, too_long: no variant is. open: some are: it depends on what is not known. factor: to
-/// the nearest end of the range by which it misses; 1 within.
+/// too_short, too_long: the whole range of 10 to 90 % is on the wrong side of the observation. agrees: all medians
+/// are on the right side; for a life that is an upper and a lower bound: it is in the range. open: only some medians
+/// are. factor: from the observation to the nearest end of the range; 1 within.
 struct Judgement {
   Agreement agreement = Agreement::open;
   double factor = 1;

@@ -1,14 +1,12 @@
-// What observations leave of a standard normal prior, z ~ N(0, 1) along each axis: its most likely place, the
-// normal distribution that fits there (Laplace), and draws.
+// Posterior of a standard normal prior, z ~ N(0, 1) along each axis: its maximum, the normal approximation there
+// (Laplace), and samples.
 //
-// The maximum by Newton's method with differences, damped after Levenberg. Neither sums of squares nor many
-// variables: a dozen variables, likelihoods of what had not yet failed, mixtures. So a page of Eigen, and no
-// solver of least squares.
+// Newton's method with differences and Levenberg's damping finds the maximum. Likelihoods of censored lives and
+// mixtures are no sums of squares, so solvers of least squares do not apply.
 //
-// Draws by adaptive Metropolis (Haario, Saksman, Tamminen 2001): four chains from four sides of the maximum,
-// steps of 2.38/sqrt(d) in the shape of what was drawn so far, which is fixed when the draws that count
-// begin. Chains that do not agree (split R-hat, Gelman et al., Bayesian Data Analysis, 11.4) are drawn
-// longer, twice at most. The same numbers come out every time.
+// Samples by adaptive Metropolis (Haario, Saksman, Tamminen 2001): four chains from four sides of the maximum, steps of
+// 2.38/sqrt(d) times the covariance of the samples so far, which is fixed after the warm-up. Chains that disagree
+// (split R-hat, Gelman et al., Bayesian Data Analysis, 11.4) are continued, twice at most. The seed is fixed.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,13 +22,13 @@ double log_posterior(const std::vector<LogLikelihood>& terms, const Eigen::Vecto
 
 struct Laplace {
   Eigen::VectorXd most_likely;
-  Eigen::MatrixXd covariance;  ///< the inverse of the curvature there; the identity where it has none
+  Eigen::MatrixXd covariance;  ///< inverse of the curvature there; identity if it has none
   bool converged = false;
 };
 Laplace laplace_of(const std::vector<LogLikelihood>& terms, const Eigen::VectorXd& start);
 
 struct SamplerSettings {
-  int draws = 12000;  ///< of each of the four chains, after a third as many that only shape the steps
+  int draws = 12000;  ///< per chain, after a warm-up of a third as many
   std::uint64_t seed = 1;
 };
 
@@ -39,16 +37,16 @@ struct Posterior {
   Eigen::MatrixXd draws;  ///< (draw, axis), one chain after the other
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
-  Eigen::VectorXd median, low, high;  ///< (axis) 50, 10 and 90 % of the draws
+  Eigen::VectorXd median, low, high;  ///< (axis) quantiles 50, 10 and 90 %
   double chains_disagree = 1;         ///< largest split R-hat of all axes; 1: not at all
-  double worth = 0;                   ///< independent draws that say as much of the worst axis
+  double worth = 0;                   ///< effective sample size of the worst axis
 };
 
-/// axes: > 0. start: where to look for the maximum.
+/// axes: > 0. start: first place of the search for the maximum.
 Posterior posterior_of(const std::vector<LogLikelihood>& terms, const Eigen::VectorXd& start,
                        const SamplerSettings& settings = {});
 
-/// By which `share` of numbers lie below, 0 .. 1, between neighbours.
+/// Quantile of `share`, 0 .. 1, interpolated.
 double quantile(std::vector<double> numbers, double share);
 
 }  // namespace dresslife::pipeline

@@ -83,7 +83,7 @@ void keep_settings(Node& routing, const Node* given) {
     if (const Node* value = given ? given->find(key) : nullptr) routing[key] = *value;
 }
 
-/// Clamps on the links, at places and of a length that only a reader of jobs looks at.
+/// Clamps on the links, with placeholder positions and length.
 Node links_only(const RouteRequest& request, const Robot& robot, const Node* given) {
   if (robot.links.size() < 2)
     throw InputError({request.of}, "its robot has fewer than two links", "name a robot that moves");

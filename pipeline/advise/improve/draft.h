@@ -1,4 +1,4 @@
-// A job without a routing that counts: from a robot's name, or a job of which all but the routing is kept.
+// A job whose routing is still open: from a robot's name, or from another job without its routing.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace dresslife::pipeline {
 struct RouteRequest {
   std::string of;           ///< a job's file or name, or a robot's (also a URDF)
   std::string dresspack{};  ///< instead of the job's; of a robot spot_welding
-  std::string motion{};     ///< instead of the job's; of a robot one that only moves its wrist about
+  std::string motion{};     ///< instead of the job's; default of a robot: a motion of its wrist
   std::string base_link{}, tool_link{};  ///< that carry the clamps; empty: those of the job's routing; else
                                          ///< the link that axis 3 moves and the last one
   std::vector<std::string> sets{};
@@ -23,11 +23,11 @@ struct RouteRequest {
 struct Draft {
   std::string name;       ///< of the job or robot, fit for a file
   Node document;          ///< as it was written
-  Job job;                ///< its routing names the links and holds else what is given up
-  bool exercise = false;  ///< its motion only stands in for one that is made
+  Job job;                ///< only the links of its routing are valid
+  bool exercise = false;  ///< its motion is a placeholder for a standard exercise
 };
 
-/// Errors: InputError: neither job nor robot; links that the robot has not; more than one dresspack.
+/// Errors: InputError: neither job nor robot; unknown links; more than one dresspack.
 Draft draft_of(const RouteRequest& request);
 
 /// The draft with a routing, and what else is given. routing, motion: YAML; motion may be empty. factor: of the

@@ -7,8 +7,8 @@ namespace dresslife::pipeline {
 
 struct Job;
 
-/// What is wrong with the dresspacks whatever their routing. refuse: Errors: InputError for a cable that its room
-/// presses beyond the limit that every result must keep, so that no routing can.
+/// Faults of the dresspacks that no routing can cure. refuse: InputError for a cable that is pressed in its room beyond
+/// the limit of all results.
 std::vector<Warning> dresspack_faults(const Job& job, bool refuse);
 
 }  // namespace dresslife::pipeline

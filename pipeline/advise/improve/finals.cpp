@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t finalists = 6;  // that have pages
 
-/// The best of what was tried; the front of two aims whole, but for the jobs as they are, which are told
+/// The best candidates; with two objectives the whole front, without the original jobs, which are listed
 /// anyhow.
 std::vector<std::size_t> finalists_of(const Improvement& found) {
   std::vector<std::size_t> best;

@@ -1,4 +1,4 @@
-// The best of what a search tried, run once more with all their files kept, beside the jobs as they are.
+// Runs the best candidates and the original jobs again and keeps all their files.
 #pragma once
 
 #include <functional>
@@ -20,29 +20,29 @@ struct Final {
   std::vector<std::string> jobs;  ///< names
   double hours = 0;               ///< of the worst, p10
   std::size_t trial = 0;
-  std::optional<WithinTolerance> tolerance{};  ///< absent: it was not judged by that
+  std::optional<WithinTolerance> tolerance{};  ///< absent: not evaluated
 };
 
 struct Finals {
   Study study;
-  std::vector<Final> of;  ///< the jobs as they are first
+  std::vector<Final> of;  ///< the original jobs first
   std::vector<RankingRow> rows;
 
-  const Final* longest() const;  ///< longest life of what was changed; null: nothing was
-  const Final* best() const;     ///< longest life within the tolerance, if that was judged
+  const Final* longest() const;  ///< longest life of the candidates; null: there is none
+  const Final* best() const;     ///< longest life within the tolerance, if evaluated
   /// Of the worst of its jobs; null: none is done.
   const RankingRow* worst_row(const Final& of) const;
 };
 
-/// Of two aims the whole front, of one the best few.
+/// With two objectives the whole Pareto front, with one the best few.
 Finals finals_of(const Improvement& found, const ImproveRequest& request, const MakeRows& make_rows);
 
-/// Judges the finalists by their life with a clamp, a ring or the length off by `off` [m] (T1); of two aims the longest
-/// life alone.
+/// Evaluates the finalists with a clamp, a ring or the length off by `off` [m] (T1); with two objectives the longest
+/// life only.
 void judge(Finals& finals, const Improvement& found, const ImproveRequest& request, double off,
            const StudyPlaces& places, const MakeRows& make_rows);
 
-/// Share of draws in which the worst job of `best` lives longer than that of the jobs as they are; absent
+/// Share of samples in which the worst job of `best` lives longer than the worst original job; absent
 /// where nothing is uncertain.
 std::optional<double> share_longer(const Finals& finals, const Final& best, const StudyPlaces& places);
 

@@ -308,7 +308,7 @@ class Reader {
     return std::make_unique<PositionLine>(*origin, *link, low, high);
   }
 
-  /// Files are named as from the study's folder, whoever reads the choice.
+  /// Files are relative to the study's folder.
   std::unique_ptr<FreeKey> choice() const {
     if (written_.items.empty()) refuse("may be one of nothing");
     std::vector<Node> values = written_.items;

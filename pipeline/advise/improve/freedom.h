@@ -1,4 +1,4 @@
-// What a search may change: keys of the jobs, each with its allowed values.
+// The free variables of a search: keys of the jobs with their ranges.
 //
 //   free:
 //     routing.free_length_m: 1.9 .. 2.6                         any number between
@@ -23,16 +23,16 @@ namespace dresslife::pipeline {
 
 struct Job;
 
-/// One key and what it may be: a function of some variables between 0 and 1.
+/// One key and its range, as a function of some variables between 0 and 1.
 class FreeKey {
  public:
   virtual ~FreeKey() = default;
   virtual Eigen::Index variables() const { return 1; }
-  /// Precondition: (variable) 0 .. 1. Rounded to what can be set, a ten-thousandth of its range.
+  /// Precondition: (variable) 0 .. 1. Rounded to a ten-thousandth of the range.
   virtual Node value_at(const Eigen::VectorXd& place) const = 0;
-  /// Where a job's own value lies; empty: it is not among what the key may be.
+  /// Variables of a job's own value; empty: it is outside the range.
   virtual Eigen::VectorXd place_of(const Node& value) const = 0;
-  /// "at most 2.75", of what a variable stands at the end of; empty: it has no ends that could be moved.
+  /// "at most 2.75" for a variable at the end of its range; empty: the range cannot be widened.
   virtual std::string end_words(Eigen::Index variable, bool high) const = 0;
 };
 
@@ -44,13 +44,12 @@ class Freedom {
     std::string own;  ///< the jobs' value; empty: they name none, or not the same
   };
 
-  /// free: a map from key paths to what they may be. jobs: that it is for; where they differ in a key that is
-  /// freed about its own value, the value must be given. Errors: InputError.
+  /// free: a map from key paths to ranges. jobs: if they differ in a key with a range `around` its own value, the value
+  /// must be given. Errors: InputError.
   static Freedom from(const Node& free, const std::vector<std::shared_ptr<const Job>>& jobs);
 
-  /// What is freed of a job when nobody says: the length by a tenth shorter to a third longer, all clamps and
-  /// rings by 150 mm and 45 deg, a turn of the tool clamp by half a turn. Errors: InputError for a job
-  /// without clamps on a robot.
+  /// The default: the length from a tenth shorter to a third longer, all clamps and rings by 150 mm and 45 deg, the
+  /// roll of the tool clamp by half a turn. Errors: InputError for a job without clamps on a robot.
   static Node usual(const Job& job);
 
   Eigen::Index variables() const;
@@ -58,9 +57,9 @@ class Freedom {
 
   /// "KEY.PATH=VALUE" of every key.
   std::vector<std::string> sets_at(const Eigen::VectorXd& place) const;
-  /// "routing.free_length_m, at most 2.75", of every key that stands at an end of what it may be.
+  /// "routing.free_length_m, at most 2.75", of every key at an end of its range.
   std::vector<std::string> at_ends(const Eigen::VectorXd& place) const;
-  /// Where the first job lies; absent where a key of it does not.
+  /// Variables of the first job; absent if one of its keys is outside its range.
   std::optional<Eigen::VectorXd> place_of_job() const { return start_; }
 
  private:

@@ -24,8 +24,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double endless_hours =
-    1e9;  // beyond, nobody waits for a break, and one routing is as good as the other
+constexpr double endless_hours = 1e9;  // beyond this life all routings are equally good
 
 Node with_frees(Node free, const std::vector<std::string>& written) {
   for (const std::string& one : written) {
@@ -180,7 +179,7 @@ class Improver {
                      "mend `free`, or --free");
   }
 
-  /// Jobs whose routing geometry can look at, one of those that are alike in it.
+  /// Jobs whose routing can be screened, one of each set of equal geometry.
   void find_screened() {
     for (const auto& job : jobs_) {
       const ScreenedList list =

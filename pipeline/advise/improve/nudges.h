@@ -1,4 +1,4 @@
-// A job with one thing off by what an installer does not see: how much a routing forgives.
+// A job with one clamp, ring or its length off by the mounting tolerance.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ struct Nudge {
   std::vector<std::string> sets;  ///< "KEY.PATH=VALUE"
 };
 
-/// Each coordinate of each clamp and ring, and the length, off to both sides [m]. jobs: nothing where their routings
-/// differ, as no one change is that of all.
+/// Each coordinate of each clamp and ring, and the length, off to both sides [m]. Empty if the routings of the jobs
+/// differ.
 std::vector<Nudge> nudges_of(const std::vector<StudyJob>& jobs, double by);
 
 }  // namespace dresslife::pipeline

@@ -1,5 +1,5 @@
-// Why no trial keeps all limits: which limit stands against them, how near the best came, and which keys
-// stand there at the ends of what they may be.
+// Why no trial is feasible: the limits that no trial satisfies, the smallest violation, and the keys at an end of their
+// ranges.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace dresslife::pipeline {
 
-/// A line each: the nearest trial, what it passes and how it lives beside the jobs as they are (the first
-/// trial); each limit that no trial that ran keeps; ends of freed ranges that the nearest stands at. trials:
-/// none of them feasible.
+/// A line each: the trial with the smallest violation, its violated limits and its life beside the original jobs (the
+/// first trial); each limit that no trial satisfies; ends of ranges at which that trial is. Precondition: no trial is
+/// feasible.
 std::vector<std::string> obstacle_words(const std::vector<Trial>& trials, const Freedom& freedom);
 
 }  // namespace dresslife::pipeline

@@ -1,9 +1,9 @@
-// What a robot program could do instead: the lines that cost most reach the same targets in another way.
+// Alternatives for the most damaging lines of a program: the same targets in another way.
 //
-// Each turn of wrist and arm (pipeline/arm/other_turns.h) is tried at each line by itself, and at all lines together,
-// which saves the turn there and back. Each line is also tried more slowly, and through a point on its way, so that arm
-// and wrist move one after the other. All this holds for programs of steps with joint targets only: targets of the tool
-// take the nearest turn.
+// Each turn of wrist and arm (pipeline/arm/other_turns.h) is tried at each line alone, and at all lines together, which
+// saves the turn there and back. Each line is also tried more slowly, and through an intermediate point, so that arm
+// and wrist move one after the other. Only for programs of steps with joint targets: targets of the tool take the
+// nearest turn.
 #pragma once
 
 #include <string>
@@ -19,9 +19,9 @@ struct OtherWay {
   std::vector<std::string> sets;   ///< "motion.steps.2.steps.1.joints_deg=[...]"
 };
 
-/// line_damage: (line) what each costs, as read_life() tells; what a dwell costs counts to the move before.
-/// most_lines: of those that cost most. Targets beyond the axes' limits are left out. Errors: InputError for
-/// a motion without steps that have joint targets.
+/// line_damage: (line) damage of each line (read_life()); the damage of a dwell belongs to the move before it.
+/// most_lines: number of lines, most damaging first. Targets beyond the axes' limits are left out. Errors: InputError
+/// for a motion without steps with joint targets.
 std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage,
                                  std::size_t most_lines);
 

@@ -17,7 +17,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double unasked = -1e3;  // of a limit that nothing asks for: far from it, and finite for who fits
+constexpr double unasked = -1e3;  // of a limit that is not set: far from it, and finite for the models
 
 enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable, bracket };
 static_assert(bracket == bracket_limit);

@@ -1,5 +1,5 @@
-// How a job turned out for a search: what it aims at, and how far it is beyond each limit. A job that failed
-// has a place, too: so much worse than the worst that ran as geometry says that it is wrong.
+// The result of a job for a search: objective and constraints. A job that failed is worse than the worst that ran, by
+// its violation of the geometric limits.
 #pragma once
 
 #include <optional>
@@ -19,15 +19,14 @@ struct AskedLimits {
 };
 void describe(Fields& f, AskedLimits& limits);
 
-/// The limits, in the order of Outcome::beyond. Relative: how many times, or which share of the length or diameter. The
-/// last one, (V7) of the bracket, comes from geometry (screened.h); a run does not see it.
+/// The limits, in the order of Outcome::beyond. Relative: as logarithm of a ratio, or as share of the length or
+/// diameter. The last one, (V7) of the bracket, comes from geometry (screened.h), not from a run.
 inline constexpr int outcome_limits = 9;
 const std::vector<std::string>& outcome_limit_names();
 
 inline constexpr std::size_t bracket_limit = outcome_limits - 1;
 
-/// The same of a short run (screened.h), whose limits have the names of those of geometry; not a number where
-/// it knows nothing.
+/// The same of a short run (screened.h), whose limits have the names of the geometric ones; NaN: unknown.
 std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
                                         const std::vector<double>& beyond);
 
@@ -36,20 +35,20 @@ void add_bends(std::vector<std::vector<double>>& pieces, const std::vector<doubl
 
 struct Outcome {
   std::string failure;         ///< why there is no life; empty: there is one
-  double hours = 0;            ///< planner's life in 10 % of dresspacks; infinite without damage
-  std::vector<double> beyond;  ///< (limit) <= 0: kept; as ScreenedCandidate::beyond is graded
-  bool feasible() const;       ///< done, and every limit is kept
-  double violation() const;    ///< sum of what is beyond
+  double hours = 0;            ///< p10 life; infinite without damage
+  std::vector<double> beyond;  ///< (limit) <= 0: satisfied; units as ScreenedCandidate::beyond
+  bool feasible() const;       ///< done, and every limit is satisfied
+  double violation() const;    ///< sum of the violations
 
-  /// "bend radius by 0.12, ...": what is passed, or the failure; empty: feasible.
+  /// "bend radius by 0.12, ...": violated limits, or the failure; empty: feasible.
   std::string words() const;
 };
 
-/// Of a job that ran in `folder`: its checks from the simulation's receipt, its life from the row. A receipt
-/// that cannot be read is a failure, a check that nobody knows our fault (std::logic_error).
+/// Result of a job in `folder`: checks from the simulation's receipt, life from the row. A receipt that cannot be
+/// read is a failure. An unknown check is an error of the program (std::logic_error).
 Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, const AskedLimits& asked = {});
 
-/// The worst of several jobs: least life, most of each limit, the first failure.
+/// The worst of several jobs: shortest life, largest value of each limit, the first failure.
 Outcome worst_of(const std::vector<Outcome>& jobs);
 
 }  // namespace dresslife::pipeline

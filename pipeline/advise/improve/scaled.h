@@ -1,4 +1,4 @@
-// A dresspack of the same make in another size: what a smaller robot carries.
+// A dresspack of the same make in another size, for another robot.
 #pragma once
 
 #include "pipeline/job/dresspack.h"

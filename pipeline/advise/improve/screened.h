@@ -1,4 +1,4 @@
-// What geometry alone says of routings, as dresslife-sim wrote it (screening.h5).
+// Results of geometric screening and of short runs, from screening.h5.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,18 @@ struct Job;
 struct ScreenedCandidate {
   std::string changes;          ///< YAML
   std::string refusal;          ///< why it is no job; empty: it is one
-  bool rejected = false;        ///< cannot work
-  std::vector<double> beyond;   ///< (limit) <= 0: kept
-  std::vector<double> bends{};  ///< what the bend's limit is the largest of, in a short run; empty: not told
-  double violation() const;     ///< sum of what is beyond
+  bool rejected = false;        ///< infeasible by geometry
+  std::vector<double> beyond;   ///< (limit) <= 0: satisfied
+  std::vector<double> bends{};  ///< pieces whose maximum is the bend's limit, of a short run; empty: unknown
+  double violation() const;     ///< sum of the violations
 };
 
 struct ScreenedList {
   std::vector<std::string> limits;  ///< their names
-  std::string motion;               ///< YAML of the motion that was made for it; empty: the job's own
+  std::string motion;               ///< YAML of a generated motion; empty: the job's own
   std::vector<ScreenedCandidate> candidates;
 
-  /// "bent too tightly by 0.31, too short by 0.02": the limits that a candidate passes; empty: none.
+  /// "bent too tightly by 0.31, too short by 0.02": violated limits; empty: none.
   std::string words(const ScreenedCandidate& candidate) const;
 };
 
@@ -32,8 +32,8 @@ ScreenedList read_screening(const std::filesystem::path& file);
 
 enum class ScreenedBy { geometry, short_runs };
 
-/// (candidate) what dresslife-sim says of a job changed so (a YAML list of maps from keys to values), which
-/// it reads from `folder`. longest_bracket: [m] (V7); absent: the job's. Empty where it refuses the job. Errors:
+/// (candidate) results of dresslife-sim for a job with changes (a YAML list of maps from keys to values) in
+/// `folder`. longest_bracket: [m] (V7); absent: the job's. Empty where it refuses the job. Errors:
 /// InputError when it cannot be started.
 ScreenedList screening_of(const Job& job, const std::string& candidates, ScreenedBy by,
                           std::optional<double> longest_bracket, const std::filesystem::path& folder);

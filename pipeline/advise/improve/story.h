@@ -1,4 +1,4 @@
-// What a search found, told: for its page, and in lines for the terminal.
+// The results of a search for its page and for the terminal.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace dresslife::pipeline {
 ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second,
                           const StudyPlaces& places);
 
-/// Lines: how it was, the best and what was changed for it, or what stands against it. off: the
-/// tolerance by which finals were judged [m].
+/// Lines: the original jobs, the best candidate and its changes, or why none is feasible. off: mounting tolerance
+/// [m].
 std::string improvement_words(const Improvement& found, const Finals& finals, const ImprovementStory& story,
                               SecondAim second, double off, const StudyPlaces& places);
 

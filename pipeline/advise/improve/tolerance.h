@@ -1,10 +1,10 @@
-// The best routings judged by how long they live as people mount them.
+// The life of the best routings within the mounting tolerance.
 //
 // (T1) h_w = min(h, h_1, ..., h_n)   h: p10 life as drawn; h_i: with one clamp, ring or the length off by the
 //                                    tolerance (nudges.h); 0 where that does not run
 //
-// h_w is at most h. So finalists are judged by falling h, until no other can have the largest h_w, and one is given up
-// where its h_w falls below that of another.
+// h_w is at most h. So finalists are evaluated by falling h, until no other can have the largest h_w. One is given up
+// when its h_w falls below that of another.
 #pragma once
 
 #include <functional>
@@ -25,12 +25,12 @@ struct Finalist {
 };
 
 struct WithinTolerance {
-  std::vector<ImprovementStory::Nudge> nudges;  ///< that were run
-  double least_hours = 0;                       ///< h_w, at least; h_w itself where it is whole
-  bool whole = false;                           ///< all were run
+  std::vector<ImprovementStory::Nudge> nudges;  ///< evaluated
+  double least_hours = 0;                       ///< lower bound of h_w; h_w itself if whole
+  bool whole = false;                           ///< all were evaluated
 };
 
-/// Of the first finalists, as many as had to be judged. by_life: longest first.
+/// As many finalists as had to be evaluated. by_life: longest first.
 std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& by_life);
 
 /// Index of the largest h_w. Precondition: at least one, of which the first is whole.

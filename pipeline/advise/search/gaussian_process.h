@@ -21,7 +21,7 @@ class GaussianProcess {
   using Shape = Eigen::VectorXd;
   static Shape usual_shape(Eigen::Index variables);
 
-  /// What is believed of s before anything is seen: s, as sure as so many values would make it.
+  /// Prior of s, with the weight of so many values.
   struct Scale {
     double deviation = 0, worth = 0;
   };
@@ -32,7 +32,7 @@ class GaussianProcess {
   GaussianProcess(const Eigen::MatrixXd& points, const Eigen::MatrixXd& values, const Shape& shape,
                   const Scale& scale);
 
-  /// The likeliest shape, sought from `start` with so many evaluations.
+  /// The most likely shape, from `start`, with so many evaluations.
   static Shape likeliest_shape(const Eigen::MatrixXd& points, const Eigen::MatrixXd& values,
                                const Shape& start, int evaluations);
 

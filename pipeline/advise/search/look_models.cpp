@@ -15,7 +15,7 @@ using Shape = GaussianProcess::Shape;
 namespace {
 
 constexpr std::size_t most_rehearsals = 250;  // in a model: its cost grows with their cube
-constexpr Index most_for_shape = 120;         // likewise
+constexpr Index most_for_shape = 120;         // for a fit of the shapes: its cost grows so, too
 constexpr int shape_evaluations = 60;
 constexpr double same = 1e-9;  // values and places that differ by less are one
 
@@ -27,7 +27,7 @@ Shape& shape_of(LookModels::Shapes& shapes, std::size_t limit, bool difference) 
   return shapes[of_limits + 2 * limit + (difference ? 1 : 0)];
 }
 
-/// Those at places of looks, then the nearest to the centre.
+/// Those at places of looks first, then the nearest to the centre.
 std::vector<const Look*> chosen(const std::vector<Look>& rehearsals, const std::vector<Look>& looks,
                                 const VectorXd& centre) {
   std::vector<std::pair<double, const Look*>> some;
@@ -122,7 +122,7 @@ bool LookModels::holds(const VectorXd& place) const {
   return false;
 }
 
-/// Whether it runs is told by a look where there was one.
+/// A look decides whether the place runs, if there is one.
 void LookModels::add_rehearsal(const Look& rehearsal) {
   if (!holds(rehearsal.place)) {
     failed_.add(rehearsal.place, failure_of(rehearsal));

@@ -17,7 +17,7 @@ VectorXd RandomSearch::drawn() {
 }
 
 std::vector<VectorXd> RandomSearch::ask(int count) {
-  constexpr std::size_t drawn_for_each = 16;  // then the least bad of them is looked at
+  constexpr std::size_t drawn_for_each = 16;  // then the one with the smallest violation is returned
   std::vector<VectorXd> places;
   while (places.size() < static_cast<std::size_t>(count)) {
     std::vector<VectorXd> some;

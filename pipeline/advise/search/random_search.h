@@ -1,4 +1,4 @@
-// Looks anywhere, each place as likely as the others: the yardstick of searches.
+// Uniform random candidates: the baseline of searches.
 #pragma once
 
 #include "pipeline/advise/search/search.h"
@@ -8,7 +8,7 @@ namespace dresslife::pipeline {
 
 class RandomSearch : public Search {
  public:
-  /// screen: places that it rejects are drawn again, a few times.
+  /// screen: rejected candidates are replaced, a few times.
   RandomSearch(Eigen::Index variables, std::uint64_t seed, Screen screen);
   std::vector<Eigen::VectorXd> ask(int count) override;
   void tell(const std::vector<Look>&) override {}

@@ -1,7 +1,7 @@
-// A search that looks where it is told to expect most: asked for places, told what was seen there.
+// The interface of a search: ask() returns the next candidates, tell() receives their results.
 //
-// Places have their variables between 0 and 1. A search is a function of its seed and of what it was told:
-// who tells a new one the same again is asked for the same, which is how a search that was killed goes on.
+// A candidate is a place with variables between 0 and 1. A search is a function of its seed and of the results that
+// it received. A new search with the same results returns the same candidates, so an interrupted search continues.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,39 +10,38 @@
 
 namespace dresslife::pipeline {
 
-/// What was seen at a place.
+/// Result of a candidate.
 struct Look {
   Eigen::VectorXd place;       ///< (variable) 0 .. 1
-  bool ran = false;            ///< else only the place and how far it is beyond what is known beforehand hold
-  std::vector<double> aims;    ///< (aim) to be small
-  std::vector<double> beyond;  ///< (limit) <= 0: kept
-  /// (limit)(piece) what the limit is the largest of, when that is told: pieces are smoother functions of the
-  /// place than their largest. As many of each limit in all looks; shorter, or none: not told.
+  bool ran = false;            ///< false: only the place and the limits of the screen are valid
+  std::vector<double> aims;    ///< (aim) objectives, to be minimised
+  std::vector<double> beyond;  ///< (limit) constraints, <= 0: satisfied
+  /// (limit)(piece) the values whose maximum the constraint is. They are smoother functions of the place than the
+  /// maximum. Every result has the same number of pieces per constraint; fewer or none: not known.
   std::vector<std::vector<double>> pieces{};
 
-  double violation() const;  ///< sum of what is beyond; 0: all limits are kept
+  double violation() const;  ///< sum of the violations; 0: all constraints are satisfied
   bool feasible() const { return ran && violation() == 0; }
 };
 
-/// Whether a is to be preferred, by its first aim: what ran before what did not; less beyond its limits; a
-/// smaller aim, where there are aims.
+/// Whether a is better than b. First criterion: it ran. Second: smaller violation. Third: smaller first objective, if
+/// there is one.
 bool better(const Look& a, const Look& b);
 
-/// Indices of the feasible looks than which none is as good in all aims and better in one, by their first
-/// aim.
+/// Indices of the Pareto-optimal feasible candidates, sorted by the first objective.
 std::vector<std::size_t> front(const std::vector<Look>& looks);
 
-/// (place) how far each is surely beyond its limits, before anything runs; 0: it may work.
+/// (place) lower bound of the violation of each candidate without a run; 0: it may be feasible.
 using Screen = std::function<std::vector<double>(const std::vector<Eigen::VectorXd>&)>;
 
-/// (place) what a cheaper look tells of each: whether it runs, and limits in the order of Look::beyond, which
-/// err; not a number: of that limit it knows nothing. Without aims. Equal places, equal answers.
+/// (place) result of a low-fidelity evaluation: whether it runs, and approximate constraints in the order of
+/// Look::beyond; NaN: unknown. Without objectives. The same places give the same results.
 using Rehearse = std::function<std::vector<Look>(const std::vector<Eigen::VectorXd>&)>;
 
 class Search {
  public:
   virtual ~Search() = default;
-  /// So many places to look at next, none of them asked for before. None at all: the search gives up.
+  /// The next `count` candidates, all of them new. Empty: the search stops.
   virtual std::vector<Eigen::VectorXd> ask(int count) = 0;
   virtual void tell(const std::vector<Look>& looks) = 0;
 };

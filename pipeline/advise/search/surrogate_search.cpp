@@ -18,21 +18,21 @@ constexpr double first_width = 0.3, most_width = 0.5, least_width = 1e-4;  // ha
 constexpr int hits_to_widen = 3, least_misses_to_narrow = 4;
 constexpr double near = 1e-6;  // places nearer than that are one
 constexpr int candidate_count = 200, polish_evaluations = 150;
-constexpr double moved_at_once = 6;  // variables of a candidate that differ from the best look, on average
+constexpr double moved_at_once =
+    6;  // mean number of variables in which a candidate differs from the best one
 constexpr std::size_t screened_at_once = 24;
 constexpr std::size_t rehearsed_for_a_look = 4;
 constexpr int rehearsed_together = 8;
-constexpr int rehearsed_again = 24;  // for a look, while none keeps its limits: a look costs about as much
-constexpr int spread_share =
-    4;                          // of the first looks: places that keep their limits are spread by chance, too
-constexpr double cautious = 1;  // deviations of limits, while none is known to be kept
-constexpr double least_ahead = 0.02;  // width, then the search ahead begins again elsewhere
-// Beyond the limits, all together: a bend of half the least radius (ln 2). In searches of better_hard and
+constexpr int rehearsed_again = 24;   // per look while none is feasible: a look costs about as much
+constexpr int spread_share = 4;       // of the first looks: feasible places are spread by chance, too
+constexpr double cautious = 1;        // deviations of constraints while no candidate is feasible
+constexpr double least_ahead = 0.02;  // width at which the search starts again elsewhere
+// Violation of a hopeless search: a bend of half the least radius (ln 2). In searches of better_hard and
 // better_side_panel, three seeds each, the nearest short run missed by 0.64 at most after 27 of 480, and by 0.16
 // after a third of them.
 constexpr double hopeless = 0.7;
-constexpr double least_gain = 1e-3;   // of a limit, by which a place is nearer
-constexpr double much_more = 1.3;     // rehearsals than shapes were found from
+constexpr double least_gain = 1e-3;  // gain of a constraint that counts as progress
+constexpr double much_more = 1.3;    // data for a new fit of the shapes
 
 const Look& best_of(const std::vector<Look>& looks) {
   return *std::min_element(looks.begin(), looks.end(), better);
@@ -41,7 +41,7 @@ const Look& best_of(const std::vector<Look>& looks) {
 /// The less, the better.
 using Merit = std::pair<double, double>;
 
-/// To keeping all limits: by what is believed, then by what is feared.
+/// Order by predicted violation: first the mean, then the cautious bound.
 Merit nearness(const LookModels& models, const VectorXd& place) {
   return {models.excess(place, 0), models.excess(place, cautious)};
 }
@@ -75,7 +75,7 @@ SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& setti
     for (const double weight : {1.0, 0.5, 0.8, 0.2, 0.9}) regions_.push_back({weight, first_width});
 }
 
-/// Far from all looks, and not rejected where that is possible.
+/// Far from all candidates, and not rejected by the screen if possible.
 VectorXd SurrogateSearch::first_look() {
   constexpr int drawn = 40;
   std::vector<VectorXd> some;
@@ -93,7 +93,7 @@ VectorXd SurrogateSearch::first_look() {
   return some[best];
 }
 
-/// Squared; of looks and what is asked for.
+/// Squared distance to the nearest candidate with or without a result.
 double SurrogateSearch::distance_to_known(const VectorXd& place) const {
   double least = static_cast<double>(variables_);
   for (const Look& look : looks_) least = std::min(least, (look.place - place).squaredNorm());
@@ -122,7 +122,7 @@ std::vector<VectorXd> SurrogateSearch::candidates(const SearchBox& box, const Ve
   return some;
 }
 
-/// The first that is neither known nor rejected; if all are rejected, the one that is least.
+/// The first that is neither known nor rejected; if all are rejected, the one with the smallest violation.
 VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
   std::vector<VectorXd> some;
   for (const VectorXd& place : by_merit)
@@ -132,8 +132,7 @@ VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
   return some[static_cast<std::size_t>(std::min_element(beyond.begin(), beyond.end()) - beyond.begin())];
 }
 
-/// Best first, by what is beyond the limits, then by the aim: places about the best, and what a local search
-/// finds from the best of those.
+/// Places about the best one and results of local searches from them, sorted by violation, then by objective.
 std::vector<VectorXd> SurrogateSearch::ranked(const LookModels& models, const VectorXd& best, double width,
                                               const Trust& trust) {
   const SearchBox whole{VectorXd::Zero(variables_), VectorXd::Ones(variables_)};
@@ -174,7 +173,7 @@ void SurrogateSearch::rehearse(const std::vector<VectorXd>& places) {
   for (Look& told : rehearse_(places)) rehearsals_.push_back(std::move(told));
 }
 
-/// What was told unasked, so that it is known what rehearsals miss there.
+/// Rehearses candidates that were evaluated without a rehearsal, so that the difference is known there.
 void SurrogateSearch::rehearse_looks(const std::vector<Look>& looks) {
   std::vector<VectorXd> places;
   for (const Look& look : looks)
@@ -182,8 +181,7 @@ void SurrogateSearch::rehearse_looks(const std::vector<Look>& looks) {
   if (!places.empty()) rehearse(places);
 }
 
-/// The first few are rehearsed; then that is taken which is best by what is known now, of all that were
-/// rehearsed.
+/// Rehearses the first few, then returns the best of all rehearsed places by the new models.
 VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<VectorXd>& by_merit,
                                          const Trust& trust) {
   std::vector<VectorXd> some;
@@ -204,7 +202,7 @@ VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<V
   return best ? best->place : first_look();
 }
 
-/// Rehearsed, not yet looked at, and most likely to keep all limits.
+/// Rehearsed places without a full evaluation, most likely feasible first.
 std::vector<VectorXd> SurrogateSearch::promising(const LookModels& models) const {
   std::vector<VectorXd> places;
   for (const Look& rehearsal : rehearsals_)
@@ -214,8 +212,7 @@ std::vector<VectorXd> SurrogateSearch::promising(const LookModels& models) const
   return places;
 }
 
-/// That runs and that the models find least beyond its limits, of those from `first` on. Precondition: one
-/// ran.
+/// The rehearsal from `first` on that runs and has the smallest predicted violation. Precondition: one ran.
 VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models, std::size_t first) const {
   Merit least;
   const Look* nearest = nullptr;
@@ -232,7 +229,7 @@ std::vector<Look> SurrogateSearch::rehearsals_from(std::size_t first) const {
   return {rehearsals_.begin() + static_cast<std::ptrdiff_t>(first), rehearsals_.end()};
 }
 
-/// So many, far from each other and from all looks; about the nearest of them the search ahead begins.
+/// `count` rehearsals, far from each other and from all candidates. The search starts at the best of them.
 void SurrogateSearch::rehearse_spread(int count) {
   ahead_from_ = rehearsals_.size();
   ahead_width_ = first_width;
@@ -245,7 +242,7 @@ void SurrogateSearch::rehearse_spread(int count) {
   rehearse(spread);
 }
 
-/// Each where the models are nearest to keeping all limits, if the ones before turn out as believed.
+/// Each at the smallest predicted violation, with the expected results of the ones before.
 std::vector<VectorXd> SurrogateSearch::next_rehearsals(LookModels& models, const VectorXd& centre,
                                                        std::size_t count) {
   static constexpr Trust trusts[] = {{0, 0, false}, {0, cautious, false}, {0, -1, false}, {0, 0, true}};
@@ -261,7 +258,7 @@ std::vector<VectorXd> SurrogateSearch::next_rehearsals(LookModels& models, const
   return batch;
 }
 
-/// After a third of the rehearsals before the first look: none is even near keeping its limits, nor is a look.
+/// Whether after a third of the rehearsals before the first look no result is near feasibility.
 bool SurrogateSearch::is_hopeless() const {
   const auto misses = [](const Look& look) { return !look.ran || look.violation() > hopeless; };
   return asked_ == 0 &&
@@ -303,9 +300,8 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
   }
 }
 
-/// The looks with one aim made of two: the larger of both, each as a share of what it spans among the best,
-/// weighed; and a little of their sum (J. Knowles, ParEGO, IEEE Trans. Evolutionary Computation 10 (2006)
-/// 50).
+/// The looks with one objective made of two: the larger of both, each weighted and as a share of its range among the
+/// best, and a small part of their sum (J. Knowles, ParEGO, IEEE Trans. Evolutionary Computation 10 (2006) 50).
 std::vector<Look> SurrogateSearch::by_weight(double weight) const {
   std::vector<Look> looks = looks_;
   if (settings_.aims == 1) return looks;
@@ -329,8 +325,8 @@ std::vector<Look> SurrogateSearch::by_weight(double weight) const {
   return looks;
 }
 
-/// Of looks, and of rehearsals near the best that is known, of rehearsals from `first` on; of shapes that are
-/// looked for when there is much more to find them from.
+/// Models of the looks, and of the rehearsals from `first` on near the best known place. Shapes are fitted again when
+/// there is much more data.
 LookModels SurrogateSearch::models_of(const std::vector<Look>& looks, std::size_t first) {
   const bool by_looks = !any_ran(rehearsals_) || (!looks.empty() && best_of(looks).feasible());
   const std::vector<Look> those = by_looks ? looks : rehearsals_from(first);
@@ -345,7 +341,7 @@ LookModels SurrogateSearch::models_of(const std::vector<Look>& looks, std::size_
   return models;
 }
 
-/// What is promising and farthest from all looks; the first few looks of a search that rehearses.
+/// A promising place, farthest from all candidates: the first few looks of a search with rehearsals.
 std::optional<VectorXd> SurrogateSearch::spread_look(const LookModels& models) const {
   std::optional<VectorXd> farthest;
   double most = -1;

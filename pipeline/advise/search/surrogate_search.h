@@ -1,4 +1,4 @@
-// Looks where a model of all looks so far promises most (README.md: (Q1) to (Q6)).
+// Constrained Bayesian optimisation in a trust region (README.md: (Q1) to (Q6)).
 #pragma once
 
 #include <cstdint>
@@ -14,31 +14,30 @@ namespace dresslife::pipeline {
 
 struct SurrogateSettings {
   std::uint64_t seed = 1;
-  int first_looks = 0;   ///< spread over the box before a model is made; 0: twice as many as variables, and 2
-  std::size_t aims = 1;  ///< 2: places along the front between both
-  int rehearsals = 0;    ///< most before the first look is asked for; 0: 40 times as many as variables
+  int first_looks = 0;   ///< candidates spread over the box before the first model; 0: 2 variables + 2
+  std::size_t aims = 1;  ///< number of objectives; 2: candidates along the Pareto front
+  int rehearsals = 0;    ///< most rehearsals before the first candidate; 0: 40 times the variables
 };
 
 class SurrogateSearch : public Search {
  public:
-  /// rehearse: empty, or looks that cost a small part of one; what they tell, nothing is rejected beforehand
-  /// for.
+  /// rehearse: low-fidelity evaluation, or empty. The screen ignores the constraints that it computes.
   SurrogateSearch(Eigen::Index variables, const SurrogateSettings& settings, Screen screen,
                   Rehearse rehearse = {});
   std::vector<Eigen::VectorXd> ask(int count) override;
   void tell(const std::vector<Look>& looks) override;
 
-  /// Without aims, in their order.
+  /// In their order, without objectives.
   const std::vector<Look>& rehearsals() const { return rehearsals_; }
 
  private:
-  /// About which weight of two aims, and how far from the best look by it (Q2). One aim: one region.
+  /// A trust region (Q2) about the best candidate for one weight of two objectives. One objective: one region.
   struct Region {
-    double weight = 1;  ///< of the first aim
+    double weight = 1;  ///< of the first objective
     double width = 0;   ///< half of each side
     int hits = 0, misses = 0;
   };
-  /// How far a pick trusts the models (Q1).
+  /// Deviations of objective and constraints for a candidate (Q1).
   struct Trust {
     double of_aim, of_limits;  ///< b, c
     bool anywhere;             ///< else in the trust region
@@ -73,15 +72,15 @@ class SurrogateSearch : public Search {
   Screen screen_;
   Rehearse rehearse_;
   RandomNumbers numbers_;
-  std::vector<Look> looks_;  // told
+  std::vector<Look> looks_;  // results received
   std::vector<Look> rehearsals_;
-  std::vector<Eigen::VectorXd> pending_;        // asked for, not yet told
+  std::vector<Eigen::VectorXd> pending_;        // candidates without results
   std::vector<GaussianProcess::Shape> shapes_;  // of the models, the last found
-  std::size_t shapes_of_looks_ = 0;             // that they were found from
-  double shapes_of_ = 0;                        // likewise, with rehearsals
+  std::size_t shapes_of_looks_ = 0;             // number of looks that the shapes were fitted to
+  double shapes_of_ = 0;                        // the same with rehearsals
   std::vector<Region> regions_;
-  std::size_t region_ = 0;      // of the last places asked for
-  double ahead_width_;          // of the region about the rehearsal that is nearest to keeping its limits ...
+  std::size_t region_ = 0;      // of the last candidates
+  double ahead_width_;          // width of the region about the best rehearsal ...
   std::size_t ahead_from_ = 0;  // ... of those from here on
   int asked_ = 0, picks_ = 0;
 };

@@ -50,7 +50,7 @@ const pipeline::Format& format() {
   return pipeline::life_format();
 }
 
-/// The seed with chunks as small as what they hold, and the job that it tells.
+/// The seed with chunks as small as what they hold, and its job.
 struct Seed {
   Bytes bytes;
   std::string job;
@@ -145,7 +145,7 @@ void change_values(hid_t dataset, Choices& choices) {
   }
 }
 
-/// A dataset of the same name with a type, rank or storage that nobody expects.
+/// A dataset of the same name with a type, rank or storage other than expected.
 void replace(hid_t file, const char* path, Choices& choices) {
   H5Ldelete(file, path, H5P_DEFAULT);
   const hid_t types[] = {H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_I32LE,

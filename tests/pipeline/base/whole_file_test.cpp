@@ -181,7 +181,7 @@ TEST_CASE("shown text: nothing in it acts on a terminal or turns the text around
               "2J \xc2\xb5") ==
         "K\xc3\xa4"
         "fig \\x9b2J \xc2\xb5");
-  // U+202E turns what follows it: "a\u202egpj.exe" looks like "aexe.jpg". All of UAX #9, and the letters beside them.
+  // U+202E reverses what follows: "a\u202egpj.exe" looks like "aexe.jpg". All of UAX #9, and the letters beside them.
   CHECK(shown("a\u202egpj.exe") == "a\\u202egpj.exe");
   for (const char* control : {"\u061c", "\u200e", "\u200f", "\u202a", "\u202b", "\u202c", "\u202d", "\u202e", "\u2066",
                               "\u2067", "\u2068", "\u2069"})

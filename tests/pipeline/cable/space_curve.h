@@ -1,4 +1,4 @@
-// The oracle of the nested kinematics: helices laid in space on a bent, twisted and stretched rod, their
+// The oracle of the nested kinematics: helices in space on a bent, twisted and stretched rod, their
 // lengths and frames by finite differences of positions. It shares no formula with pipeline/cable/helix.h:
 // only the definition of a helix.
 #pragma once

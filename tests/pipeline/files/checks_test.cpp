@@ -1,4 +1,4 @@
-// What a receipt tells of a motion's checks.
+// The checks of a motion in its receipt.
 #include "pipeline/files/checks.h"
 
 #include <limits>

@@ -14,7 +14,7 @@ TEST_CASE("a noted digest is believed of a file that is as it was, and of no oth
   REQUIRE(notes.starts_with(digest + " "));
   REQUIRE(std::count(notes.begin(), notes.end(), '\n') == 1);
 
-  Digests unread;  // another digest in its place tells whether the file was read
+  Digests unread;  // another digest in its place shows whether the file was read
   unread.believe("noted" + notes.substr(digest.size()));
   CHECK(unread.of(file) == "noted");
 

@@ -1,4 +1,4 @@
-// What stands for the friction, the stiffness and the bed of a shipped cable that nobody measured.
+// Defaults of friction, stiffness and bed of the shipped cables.
 #include "pipeline/resolve/beds.h"
 
 #include <cmath>

@@ -428,7 +428,7 @@ TEST_CASE("job: clamp poses make robot and clamps needless, and a given clamp wr
       text, text.substr(text.find("  base_clamp"), text.find("simulation:") - text.find("  base_clamp")), "");
   const auto file = scratch.write("job.yaml", "motion: {clamp_poses: poses/p.csv}\n" + without);
   const Job job = read_job(file);
-  CHECK(job.motion.clamp_poses == scratch / "poses/p.csv");  // beside the job, whoever reads it from wherever
+  CHECK(job.motion.clamp_poses == scratch / "poses/p.csv");  // beside the job, independent of the working folder
   CHECK(files_beside(job) == std::vector<std::filesystem::path>{scratch / "poses/p.csv"});
   CHECK(job.robot.joints.empty());
   CHECK(job_text(job_of_text(job_text(job))) == job_text(job));

@@ -108,7 +108,7 @@ TEST_CASE("known study: nothing is remembered of what could expand to something 
   forgets("a comment", [](Bench& bench) {
     bench.scratch().write("study.yaml", bytes_of(bench.scratch() / "study.yaml") + "# more\n");
   });
-  forgets("an entry nearer to the job", [](Bench& bench) {  // it was looked for there, and was not there
+  forgets("an entry nearer to the job", [](Bench& bench) {  // the search did not find it there
     bench.scratch().write("materials/own.yaml", "from: copper\nname: own\nfatigue_ductility: 0.5\n");
   });
   forgets("a stage", [](Bench& bench) {

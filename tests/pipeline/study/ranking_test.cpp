@@ -506,7 +506,7 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
   CHECK(cell(1, "periodic_ok") == "yes");
   CHECK(cell(2, "warnings") == "0");
   CHECK(cell(2, "twist_ok") == "yes");
-  CHECK(cell(3, "warnings").empty());  // nobody knows
+  CHECK(cell(3, "warnings").empty());  // not known
   CHECK(cell(3, "twist_ok").empty());
   CHECK(warning_kinds(rows[0]) == "skipped instructions x2, twist");
   CHECK(warning_kinds(rows[1]).empty());

@@ -303,7 +303,7 @@ TEST_CASE("fanuc values: components of position registers, with names and in sum
   CHECK(frame.program.work_objects.at(0).frame.position.x() == Approx(0.5).epsilon(rounding));
   REQUIRE(frame.problems.size() == 1);  // PR[5] is not known, and the frame is what it was no more
   CHECK(frame.problems[0].what == "uses UFRAME[4], which lies in the controller");
-  // One component of a register that nobody knows makes no position of zeros.
+  // One component of an unknown register makes no position of zeros.
   const Reading unknown = run("   1:  PR[9,3]=50 ;\n   2:L PR[9] 100mm/sec FINE ;\n", known);
   CHECK(unknown.problems.at(0).what == "moves to PR[9], which is known only while the robot runs");
   CHECK(run("   1:L PR[1] 100mm/sec FINE ;\n", {.values = {{"PR[1]", "1,2,3,4,5,6"}}}).problems.at(0).what ==
@@ -426,7 +426,7 @@ TEST_CASE("fanuc loops: an endless one runs until it repeats itself, or as often
       "JMP LBL[1] ;\n";
   CHECK(stops(run(parts)) == std::vector<int>{1, 2});
   CHECK(stops(run(parts, {.passes = 3})) == std::vector<int>{1, 2, 1, 2, 1, 2});
-  // One that only counts is told with the line that decides it.
+  // One that only counts is reported with the line that decides it.
   const std::string counts =
       "   1:  R[1]=1 ;\n   2:  R[2]=0 ;\n   3:  LBL[1] ;\n   4:  R[2]=R[2]+1 ;\n   5:  IF R[1]=1,JMP LBL[1] "
       ";\n   6:J P[1] "

@@ -40,7 +40,7 @@ inline std::string fault_of_reading(sim::Language language, const std::string& t
   std::deque<sim::SourceFile> files;
   files.emplace_back(name_of(language), text);
   if (language == sim::Language::fanuc) files.emplace_back("p.va", text);  // also as the backup's variables
-  if (language == sim::Language::inform) {  // likewise
+  if (language == sim::Language::inform) {  // also as its conditions and variables
     files.emplace_back("p.cnd", text);
     files.emplace_back("var.dat", text);
   }

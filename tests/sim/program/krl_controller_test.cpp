@@ -133,7 +133,7 @@ TEST_CASE("krl: one program twice is refused where it runs, two values of one na
 }
 
 TEST_CASE("krl: what a program writes to an undeclared name stays in it while its data list is missing") {
-  // The name may be the list's own, so another program's use of it tells nothing.
+  // The name may be the list's own, so another program's use of it has no effect.
   const Reading r =
       run("n=1\nsub()", "", {{"sub.src", "DEF sub()\nIF n==1 THEN\nPTP " + axes(1) + "\nENDIF\nEND\n"}});
   REQUIRE(r.problems.size() == 1);
@@ -369,7 +369,7 @@ TEST_CASE("krl: a coordinate that input decides asks, also beside known ones") {
 }
 
 TEST_CASE("krl: an assignment by aggregate leaves nothing of the value before") {
-  // E1 was known and is left out: nobody tells what the controller keeps of it.
+  // E1 was known and is left out: the controller's rule is not known.
   const Reading r =
       run("DECL E6POS p1\np1={X 1,Y 2,Z 3,A 0,B 0,C 0,E1 7}\np1={X 1,Y 2,Z 4,A 0,B 0,C 0}\nPTP p1");
   CHECK(r.problems.size() == 1);
@@ -597,7 +597,7 @@ TEST_CASE("krl: SPL points of passes that are cut off are none of the motion") {
 }
 
 TEST_CASE("krl: nothing behind an endless loop is run, and one that makes none of its moves is told") {
-  // The controller never comes to what stands behind. `n` may be written over the network: that is told.
+  // The controller never comes to what stands behind. `n` may be written over the network, which is reported.
   const Reading quiet = run("PTP " + axes(1) + "\nLOOP\nn=1\nENDLOOP\nPTP " + axes(2), "INT n");
   REQUIRE(quiet.problem() == "no such problem");
   CHECK(first_axes(quiet) == std::vector<double>{1});
@@ -614,7 +614,7 @@ TEST_CASE("krl: nothing behind an endless loop is run, and one that makes none o
 }
 
 TEST_CASE("krl: what a submit program writes to may have any value") {
-  // sps.sub runs beside the robot over and over: the value of the data list tells nothing. Its own names are
+  // sps.sub runs beside the robot over and over: the value of the data list is not used. Its own names are
   // its own.
   const std::string body = "PTP " + axes(1) + "\nIF ready THEN\nPTP " + axes(2) +
                            "\nENDIF\nIF mine THEN\nPTP " + axes(3) + "\nENDIF";

@@ -241,7 +241,7 @@ TEST_CASE("questions: data of inline forms are asked for as wholes, in their for
     INFO(lines);
     CHECK(questions(asked) == std::set<std::string>{"value m:fpick", "value m:ppdat1", "value m:lcpdat1", "value m:xpick"});
     CHECK(by_name["m:fpick"].form == "{TOOL_NO .., BASE_NO .., IPO_FRAME #BASE}");
-    CHECK(by_name["m:fpick"].preset.empty());  // which tool it is nobody knows
+    CHECK(by_name["m:fpick"].preset.empty());  // the tool is not known
     CHECK(by_name["m:ppdat1"].form.starts_with("{VEL .., ACC .., APO_DIST .."));
     CHECK(by_name["m:ppdat1"].preset == "{VEL 100, ACC 100, APO_DIST 100}");
     CHECK(by_name["m:lcpdat1"].preset == "{VEL 2, ACC 100, APO_DIST 100}");

@@ -47,7 +47,7 @@ void write_task(const Scratch& folder, const std::string& slash) {
 }  // namespace
 
 TEST_CASE("rapid backup: the modules that its contents name are the program") {
-  // HOME is the controller's disk and loaded by nobody; real controllers write '/', virtual ones '\'.
+  // HOME is the controller's disk and is not loaded; real controllers write '/', virtual ones '\'.
   for (const char* slash : {"/", "\\"}) {
     CAPTURE(slash);
     const Scratch folder;
@@ -128,7 +128,7 @@ TEST_CASE("rapid backup: a byte order mark is no letter of the program") {
 }
 
 TEST_CASE("rapid backup: persistent data that another task writes may have any value") {
-  // TASK2 moves no robot; it writes `go_on` and its own `mine`. TASK1's initial values tell nothing of go_on.
+  // TASK2 moves no robot; it writes `go_on` and its own `mine`. TASK1's initial value of go_on is not used.
   const Scratch folder;
   const std::string shared = "PERS bool go_on:=FALSE;\nPERS bool quiet:=FALSE;\nVAR bool mine:=FALSE;\n";
   const std::string body =

@@ -14,7 +14,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr double rounding = 1e-12;  // of a few products of numbers near 1
 
-/// Axis angles of which the first one tells moves apart.
+/// Axis angles; the first one identifies the move.
 std::string axes(double first) { return fmt::format("[[{},0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]", first); }
 std::string go(double first) { return "MoveAbsJ " + axes(first) + ",v1000,fine,tool0;\n"; }
 const std::string pose =
@@ -70,7 +70,7 @@ TEST_CASE("rapid controller: LOCAL data and routines are their module's own") {
 }
 
 TEST_CASE("rapid controller: one name for two global things is refused where it is used") {
-  // A controller does not load the second module; which of the two was meant, nobody can tell.
+  // A controller does not load the second module; which of the two was meant is not known.
   const std::string twice =
       "MODULE m\nPROC main()\n" + go(1) + "ENDPROC\nPROC main()\n" + go(2) + "ENDPROC\nENDMODULE\n";
   CHECK_THAT(Reader{Language::rapid}({{"m.mod", twice}}).problem(),
@@ -487,7 +487,7 @@ TEST_CASE("rapid controller: main begins again at its end") {
   CHECK(first_axes(run("VAR num state:=0;\n" + machine)) == Angles{1});
   CHECK(first_axes(run(go(1) + "Incr parts;\n", "VAR num parts:=0;\n")) == Angles{1});
   CHECK(first_axes(run(go(1) + "Incr parts;\nIF parts=3 EXIT;\n", "VAR num parts:=0;\n")) == Angles{1, 1, 1});
-  // What nobody knows of the next cycle leaves the first one as it is, with a warning.
+  // If the next cycle is unknown, the motion is the first one, with a warning.
   const std::string next = "IF again THEN\n" + go(2) + "ENDIF\n" + go(1);
   const std::string typed = "TPReadNum n,\"\";\nagain:=n>0;\n", data = "VAR bool again:=FALSE;\nVAR num n;\n";
   const Reading asks = run(next + go(3) + typed, data);
@@ -503,7 +503,7 @@ TEST_CASE("rapid controller: main begins again at its end") {
 }
 
 TEST_CASE("rapid controller: one state of a machine is no motion") {
-  // An input leads from the third state on: the two before are known, and nobody knows what follows.
+  // An input leads from the third state on: the two before are known, the following ones are not.
   const std::string machine = "TEST state\nCASE 0:\n" + go(1) + go(2) + "state:=1;\nCASE 1:\n" + go(3) +
                               "state:=2;\nCASE 2:\nIF di1=1 state:=3;\nCASE 3:\n" + go(4) + "ENDTEST\n",
                     data = "VAR num state:=0;\n";

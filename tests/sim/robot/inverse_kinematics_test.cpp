@@ -117,10 +117,10 @@ TEST_CASE("inverse kinematics: a configuration brings back the very angles, turn
     const VectorXd elsewhere = VectorXd::Zero(6);
     for (int round = 0; round < 300; ++round) {
       const VectorXd joints = random_joints(robot, random);
-      // KUKA's turn bits tell signs only: an axis that may turn more than once round is told apart no
+      // KUKA's turn bits contain signs only: turns of an axis with more than one turn are distinguished no
       // further.
       if (kind == Kind::kuka && joints.cwiseAbs().maxCoeff() > pi) continue;
-      // Of axes 2 and 3 no controller tells turns.
+      // No controller states turns of axes 2 and 3.
       if (std::abs(joints[2]) > pi) continue;
       if (std::abs(joints[4]) < 0.05) continue;  // near the singular wrist q4 and q6 blur
       std::string reason;
@@ -255,7 +255,7 @@ TEST_CASE(
       CHECK(distance(arm.flange(found), flange) < place_rounding);
       double off = 0;
       for (int i = 0; i < 6; ++i) off = std::max(off, std::abs(std::remainder(found[i] - joints[i], 2 * pi)));
-      found_own |= off < 1e-5;  // a singular arm is told from its neighbours to the root of the rounding
+      found_own |= off < 1e-5;  // a singular arm differs from its neighbours by the root of the rounding
     }
     own += found_own;
     std::string reason;

@@ -20,7 +20,7 @@ constexpr double rounding = 1e-9;  // the URDF below is written with 12 digits
 
 std::string numbers(const Vector3& v) { return fmt::format("{:.12g} {:.12g} {:.12g}", v.x(), v.y(), v.z()); }
 
-/// Every joint hangs on a fixed one that takes a random part of its place away.
+/// Every joint follows a fixed one with a random part of its origin.
 std::string urdf_of(const pipeline::Robot& robot, std::mt19937& random) {
   std::string text = "<robot name=\"copy\">\n<link name=\"root\"/>\n";
   std::string parent = "root";
@@ -106,7 +106,7 @@ TEST_CASE("robot urdf: the frame of the programs is link `base`, however many fi
 }
 
 TEST_CASE("robot urdf: a joint that follows another keeps the wrist level") {
-  // A parallelogram: the hand hangs on a joint that turns back what joints 2 and 3 turn.
+  // A parallelogram: a joint before the hand turns back the angles of joints 2 and 3.
   pipeline::Robot robot;
   const auto joint = [&](const char* name, const Vector3& origin, const Vector3& axis) {
     pipeline::Joint made;

@@ -121,7 +121,7 @@ double out_of_round(const RodState& state) {
 }  // namespace
 
 TEST_CASE("Michell's ring leaves its plane at an imposed twist of 2 pi sqrt(3) EI/GJ") {
-  // The chain of 60 is some 0.5 % off. Nearer to the limit the disturbance of 1e-3 does not tell the sides
+  // The chain of 60 is some 0.5 % off. Nearer to the limit the disturbance of 1e-3 does not distinguish the sides
   // apart: out of round grows as the root of the distance from it.
   const double bracket = 0.03;
   for (const double ratio : {0.5, 0.8, 1.0, 1.25, 2.0, 3.0}) {  // EI/GJ

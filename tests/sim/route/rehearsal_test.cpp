@@ -1,4 +1,4 @@
-// What a search is told of a short run, against the run itself; and routings that keep their limits in it.
+// The limits of a short run for a search, against the run itself; and routings that keep their limits in it.
 #include "sim/route/rehearsal.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ TEST_CASE("bends of a rehearsal are told by moment and stretch, and their larges
   const Rehearsal found = rehearsed(job, as_the_job, 1);
   REQUIRE(found.refusal.empty());
   REQUIRE(found.bends.size() == bend_moments * bend_stretches);
-  // The samples and the ends of links, looked at one by one.
+  // The samples and the ends of links, compared one by one.
   const Simulation simulation(job);
   const Rod& rod = simulation.rod();
   std::vector<double> sharpest(found.bends.size(), 0.0);

@@ -248,7 +248,7 @@ TEST_CASE("dresspacks of a job that would hang through each other are mounted si
     for (int i = 0; i < 24; ++i)
       for (int j = 24; j < 48; ++j) least = std::min(least, (state.position[i] - state.position[j]).norm());
   CHECK(least > 0.029);
-  // What cannot be is told: both in the same place.
+  // An impossible setup is reported: both in the same place.
   const std::string message =
       message_of(job_text("dresspacks:\n" + item("hose", hose_text(40, 0.3), routing_text(1.3, 0)) +
                           item("dress cable", hose_text(20, 0.2), routing_text(1.3, 0))));

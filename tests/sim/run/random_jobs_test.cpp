@@ -128,7 +128,7 @@ void run_jobs(unsigned first, unsigned count, unsigned least_ended) {
   unsigned known = 0;
   for (const auto& [kind, times] : outcomes) {
     CAPTURE(kind, times);
-    CHECK(kind.size() < 30);  // not a message that nobody foresaw
+    CHECK(kind.size() < 30);  // not an unexpected message
     known += times;
   }
   CHECK(known == count);

@@ -88,7 +88,7 @@ TEST_CASE(
   // next one.
   CHECK(told[2] < told[1] / 2.5);
   CHECK(told[3] < told[2] / 2.5);
-  // What is told bounds what the mesh does to the strain, over the motion's largest.
+  // The stated error bounds the effect of the mesh on the strain, over the motion's largest.
   for (std::size_t k = 1; k < 3; ++k) {
     INFO(told[k] << " told, strain " << strain[k] << " for " << strain[3] << " of " << largest[3]);
     CHECK(std::abs(strain[k] - strain[3]) < 2 * told[k] * largest[3]);

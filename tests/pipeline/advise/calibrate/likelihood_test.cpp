@@ -49,7 +49,7 @@ TEST_CASE("likelihood: several specimens share what their spool does to them") {
     const double both = 0.25 + std::asin(shared) / (2 * std::numbers::pi);
     CHECK(value(two) == Approx(std::log(both)).epsilon(1e-4));
   }
-  // Of n that broke the mean of their logarithms is told.
+  // Of n broken specimens the mean of the logarithms is given.
   ObservedLife mean = life(LifeEnd::broken, 2, 3, 0.5, 4);
   mean.common_share = 0.5;
   mean.unshared_spread = 0.3;

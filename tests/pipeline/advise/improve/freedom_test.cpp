@@ -1,4 +1,4 @@
-// What keys may be, and searches over jobs that nobody runs.
+// Ranges of free keys, and searches over jobs without runs.
 #include <cmath>
 
 #include "pipeline/advise/improve/freedom.h"

@@ -91,7 +91,7 @@ Problem springs() {
           }};
 }
 
-/// What a cheaper look tells of it: of the first three limits, and a little wrong.
+/// Its low-fidelity evaluation: the first three limits, with a small error.
 Look rehearsal_of(const Problem& problem, const VectorXd& place) {
   std::vector<double> beyond = problem.beyond(problem.at(place));
   for (std::size_t k = 0; k < 3; ++k) beyond[k] += 0.03 * std::cos(5 * place[static_cast<Eigen::Index>(k)]) - 0.05;
@@ -230,10 +230,10 @@ TEST_CASE("where a thousandth keeps all limits, rehearsals lead there within a f
     const std::vector<Look> looks = searched(search, problem, 20, 4);
     const auto first = std::find_if(looks.begin(), looks.end(), [](const Look& look) { return look.feasible(); });
     CHECK(first - looks.begin() < 8);
-    // No more than were allowed beforehand, and of each look a few.
+    // At most the allowed number before the first candidate, and a few per candidate.
     CHECK(search.rehearsals().size() <= 150 + 20 * 12);
     CHECK_FALSE(best_of(searched(chance, problem, 20, 4)).feasible());
-    // Without rehearsals it takes longer, but less than the thousand looks of chance.
+    // Without rehearsals it takes longer, but less than a thousand random candidates.
     SurrogateSearch alone = surrogate(problem, seed);
     CHECK(best_of(searched(alone, problem, 60, 4)).feasible());
   }
@@ -329,7 +329,7 @@ TEST_CASE("of many rehearsals of which none keeps its limits the nearest are loo
 }
 
 TEST_CASE("rehearsals that do not run, or tell nothing, do not lead astray") {
-  // Runs where x0 > 0.5 alone; of limits nothing is told there.
+  // Runs only where x0 > 0.5; elsewhere the limits are unknown.
   const Problem problem = g24();
   const auto runs = [](const VectorXd& place) { return place[0] > 0.5; };
   const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
