@@ -116,8 +116,9 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
         job.elements_per_segment > 0
             ? job.elements_per_segment
             : std::clamp<std::size_t>(of_waves, least_elements, pipeline::most_cable_elements);
-    loose_.emplace(loose, LooseSettings{length, node_segments() * per_segment, construction.rest_curvature(),
-                                        std::ranges::any_of(cables_, &Cable::rubs)});
+    loose_ = std::make_shared<LooseCables>(
+        loose, LooseSettings{length, node_segments() * per_segment, construction.rest_curvature(),
+                             std::ranges::any_of(cables_, &Cable::rubs)});
     nodes_.resize(loose_->nodes());
     for (std::size_t k = 0; k < loosened_.size(); ++k) cables_[loosened_[k]].room = winding_radius(loose_->cable(k));
     curvature_.emplace(segments + 2, 2 * loosened_.size(), samples, scratch);
@@ -133,6 +134,11 @@ const std::string& CablePaths::name(std::size_t cable) const {
 
 int CablePaths::component(std::size_t cable) const {
   return construction_.layers()[construction_.parts()[cables_[cable].part].layer].component;
+}
+
+void CablePaths::share_loose(const CablePaths& other) {
+  assert(next_ == 0 && other.next_ == 0);
+  if (loose_ && other.loose_ && loose_->same_cables(*other.loose_)) loose_ = other.loose_;
 }
 
 void CablePaths::add(const SpanBlock& block) {
@@ -235,15 +241,18 @@ void CablePaths::add_stuck(Cable& cable, std::size_t segment, const double* twis
 }
 
 void CablePaths::add_loose(std::span<CablePaths* const> all, const SpanBlock& block) {
+  std::vector<CablePaths*> moved;  // of those that share, the first
   std::vector<LooseCables*> cables;
   for (CablePaths* const of : all) {
-    cables.push_back(&*of->loose_);
     of->curvature_->begin(block.deformation.samples());
+    if (std::ranges::find(cables, of->loose_.get()) != cables.end()) continue;
+    moved.push_back(of);
+    cables.push_back(of->loose_.get());
   }
   CablePaths& first = *all.front();
   for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
     first.find_nodes(block, t);
-    for (CablePaths* const of : all) of->shorten_loose(t);
+    for (CablePaths* const of : moved) of->shorten_loose(t);
     for (CablePaths* const of : all) of->see_gains(first.nodes_, t);
     LooseCables::advance(cables, first.nodes_, block.step);
     for (CablePaths* const of : all) of->put_loose(t);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,12 +56,18 @@ class CablePaths {
 
   /// Whether there is any cable that can slide.
   bool any() const { return !cables_.empty(); }
-  bool any_loose() const { return loose_.has_value(); }
+  bool any_loose() const { return loose_ != nullptr; }
   /// Whether what clamps and friction did stays in memory: strains are known after finish() only.
   bool remembers() const;
 
+  /// Before the first sample: takes the loose cables of `other` as its own, if they rest at the same places. Friction along
+  /// the hose, for one, does not move them. other: the same span of the same dresspack, with other factors.
+  void share_loose(const CablePaths& other);
+  bool shares_loose(const CablePaths& other) const { return loose_ && loose_ == other.loose_; }
+
   void add(const SpanBlock& block);  ///< in order of time
-  /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone.
+  /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone. All that
+  /// share loose cables are among them.
   static void add(std::span<CablePaths* const> all, const SpanBlock& block);
   void finish();  ///< all samples are there; again: changes nothing
 
@@ -156,7 +163,7 @@ class CablePaths {
   std::vector<std::size_t> held_;  ///< of cables_, in the order of rates_
   std::optional<PathRates> rates_;
   std::vector<std::size_t> loosened_;  ///< of cables_, in the order of loose_
-  std::optional<LooseCables> loose_;
+  std::shared_ptr<LooseCables> loose_;  ///< null: none lies loose
   KnownEnds known_ends_;
   std::optional<SegmentRows>
       curvature_;  ///< (segment, base end, tool end; loose cable x 2; sample) of their paths [1/m]
