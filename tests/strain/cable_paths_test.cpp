@@ -608,7 +608,7 @@ TEST_CASE("the same cables come out in blocks of any size") {
   CHECK(pulls_of(paths).tension == pulls_of(whole.paths).tension);
 }
 
-TEST_CASE("cables that differ in friction along the hose share the places of loose cables, and get what they get alone") {
+TEST_CASE("cables that differ in friction along the hose rest at shared places, and get what they get alone") {
   const auto hose = [](double friction, double slack) {
     Dresspack dresspack = thesis_hose();
     dresspack.components[0].laying.slack = slack;

@@ -412,9 +412,9 @@ void Lines<packs>::newton_step(Progress* progress) const {
   }
 }
 
-/// path: `share` of the step on from `from`; a cable whose step is short rests there. A node that lies against a round wall goes along it: in polar
-/// coordinates about its centre, since a straight way would press it in by the square of its length. going:
-/// where each node is heading there.
+/// path: `share` of the step on from `from`; a cable whose step is short rests there. A node that lies against a
+/// round wall goes along it: in polar coordinates about its centre, since a straight way would press it in by the
+/// square of its length. going: where each node is heading there.
 template <int packs>
 void Lines<packs>::go(Progress* progress) const {
   Pack share[packs];
