@@ -382,9 +382,11 @@ void CablePaths::put_curvature(std::size_t t) {
       curvature_->at(segments, 2 * k + d, t) = static_cast<float>(curvature[d]);
       curvature_->at(segments + 1, 2 * k + d, t) = static_cast<float>(curvature[2 * elements + d]);
       for (std::size_t i = 0; i < segments; ++i) {
-        const std::size_t first = i * elements / segments, end = std::max(first + 1, (i + 1) * elements / segments);
+        const std::size_t first = i * elements / segments,
+                          end = std::max(first + 1, (i + 1) * elements / segments);
         double sum = 0;  // trapezoids over its elements
-        for (std::size_t e = first; e < end; ++e) sum += (curvature[2 * e + d] + curvature[2 * (e + 1) + d]) / 2;
+        for (std::size_t e = first; e < end; ++e)
+          sum += (curvature[2 * e + d] + curvature[2 * (e + 1) + d]) / 2;
         curvature_->at(i, 2 * k + d, t) = static_cast<float>(sum / (end - first));
       }
     }
@@ -399,7 +401,8 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
   for (const double gain : state.gain) mean += gain / static_cast<double>(elements);
   cable.strain[sample] = (1 + mean) / free_length - 1;
   for (std::size_t i = 0; cable.rubs && i < segments; ++i) {
-    const std::size_t first = i * elements / segments, end = std::max(first + 1, (i + 1) * elements / segments);
+    const std::size_t first = i * elements / segments,
+                      end = std::max(first + 1, (i + 1) * elements / segments);
     double gain = 0, press = 0;
     for (std::size_t e = first; e < end; ++e) {
       gain += state.gain[e] / (end - first);

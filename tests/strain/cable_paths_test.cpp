@@ -608,7 +608,8 @@ TEST_CASE("the same cables come out in blocks of any size") {
   CHECK(pulls_of(paths).tension == pulls_of(whole.paths).tension);
 }
 
-TEST_CASE("cables that differ in friction along the hose rest at shared places, and get what they get alone") {
+TEST_CASE(
+    "cables that differ in friction along the hose rest at shared places, and get what they get alone") {
   const auto hose = [](double friction, double slack) {
     Dresspack dresspack = thesis_hose();
     dresspack.components[0].laying.slack = slack;
@@ -622,9 +623,9 @@ TEST_CASE("cables that differ in friction along the hose rest at shared places, 
   std::list<CablePaths> paths;
   std::vector<CablePaths*> all;
   for (const Run& run : alone) {
-    all.push_back(&paths.emplace_back(run.construction,
-                                      plan_slip(run.construction, {Slip::friction, Slip::free}, length),
-                                      CablesInJob{.rub = true, .elements_per_segment = 1}, run.lengths, run.arcs, 20));
+    all.push_back(&paths.emplace_back(
+        run.construction, plan_slip(run.construction, {Slip::friction, Slip::free}, length),
+        CablesInJob{.rub = true, .elements_per_segment = 1}, run.lengths, run.arcs, 20));
     all.back()->share_loose(*all.front());
   }
   CHECK(all[1]->shares_loose(*all[0]));

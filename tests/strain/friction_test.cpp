@@ -424,11 +424,12 @@ TEST_CASE("a slider's slip at the end of a repeat is found backward from its las
     for (int history = 0; history < 50; ++history) {
       std::vector<double> deviation(100), cap(100);
       for (double& of : deviation) of = part(random);
-      for (double& of : cap) of = most == 0 || most == glued ? most : most * (1 - 0.3 * std::abs(part(random)));
+      for (double& of : cap)
+        of = most == 0 || most == glued ? most : most * (1 - 0.3 * std::abs(part(random)));
       Slider slider;
       for (std::size_t t = 0; t < 100; ++t) slider.next(deviation[t], cap[t]);
-      const double found = settled_slip(100, [&](std::size_t t) { return deviation[t]; },
-                                        [&](std::size_t t) { return cap[t]; });
+      const double found = settled_slip(
+          100, [&](std::size_t t) { return deviation[t]; }, [&](std::size_t t) { return cap[t]; });
       CHECK(std::abs(found - slider.slip()) < 1e-14);  // a hundred roundings of numbers below 1
     }
   }

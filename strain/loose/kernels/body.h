@@ -347,8 +347,10 @@ void Lines<packs>::judge(int most, Progress* progress) const {
     Progress& at_p = progress[p];
     const Pack there = along_way(p), down = load<Pack>(at_p.down), share = load<Pack>(at_p.share);
     const Pack tries = load<Pack>(at_p.tries);
-    const DoubleMask good = at_least(-0.5 * down, there) | at_least(tries, Pack(static_cast<double>(most_tries)));
-    const DoubleMask ends = set(at_p.trying) & good & at_least(load<Pack>(at_p.took), Pack(static_cast<double>(most)));
+    const DoubleMask good =
+        at_least(-0.5 * down, there) | at_least(tries, Pack(static_cast<double>(most_tries)));
+    const DoubleMask ends =
+        set(at_p.trying) & good & at_least(load<Pack>(at_p.took), Pack(static_cast<double>(most)));
     const Pack shorter = smaller(larger(-down / (there - down), Pack(0.1)), Pack(0.7));
     store(simd::select(good, share, share * shorter), at_p.share);
     store(tries + 1.0, at_p.tries);
