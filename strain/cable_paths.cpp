@@ -121,11 +121,12 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
         job.elements_per_segment > 0
             ? job.elements_per_segment
             : std::clamp<std::size_t>(of_waves, least_elements, pipeline::most_cable_elements);
-    loose_.emplace(loose, LooseSettings{length, node_segments() * per_segment, construction.rest_curvature(),
-                                        std::ranges::any_of(cables_, &Cable::rubs)});
+    loose_ = std::make_shared<LooseCables>(
+        loose, LooseSettings{length, node_segments() * per_segment, construction.rest_curvature(),
+                             std::ranges::any_of(cables_, &Cable::rubs)});
     nodes_.resize(loose_->nodes());
     for (std::size_t k = 0; k < loosened_.size(); ++k) cables_[loosened_[k]].room = winding_radius(loose_->cable(k));
-    curvature_.emplace(segments + 2, 2 * loosened_.size(), samples, scratch);
+    curvature_ = std::make_shared<SegmentRows>(segments + 2, 2 * loosened_.size(), samples, scratch);
   }
   if (!any()) return;
   hose_curvature_.assign(4 * samples, 0.0f);
@@ -138,6 +139,13 @@ const std::string& CablePaths::name(std::size_t cable) const {
 
 int CablePaths::component(std::size_t cable) const {
   return construction_.layers()[construction_.parts()[cables_[cable].part].layer].component;
+}
+
+void CablePaths::share_loose(const CablePaths& other) {
+  assert(next_ == 0 && other.next_ == 0);
+  if (!loose_ || !other.loose_ || !loose_->same_cables(*other.loose_)) return;
+  loose_ = other.loose_;
+  curvature_ = other.curvature_;
 }
 
 void CablePaths::add(const SpanBlock& block) {
@@ -243,7 +251,7 @@ void CablePaths::rehearse(std::span<CablePaths* const> all, const SpanBlock& blo
   std::vector<CablePaths*> own;
   std::vector<LooseCables*> cables;
   for (CablePaths* const of : all)
-    if (of->loose_) {
+    if (of->loose_ && std::ranges::find(cables, of->loose_.get()) == cables.end()) {  // of those that share, the first
       own.push_back(of);
       cables.push_back(&*of->loose_);
       of->add_hose(block);  // its twist; add() writes over it
@@ -259,20 +267,24 @@ void CablePaths::rehearse(std::span<CablePaths* const> all, const SpanBlock& blo
 }
 
 void CablePaths::add_loose(std::span<CablePaths* const> all, const SpanBlock& block) {
+  std::vector<CablePaths*> moved;  // of those that share, the first
   std::vector<LooseCables*> cables;
   for (CablePaths* const of : all) {
-    cables.push_back(&*of->loose_);
+    if (std::ranges::find(cables, of->loose_.get()) != cables.end()) continue;
     of->curvature_->begin(block.deformation.samples());
+    moved.push_back(of);
+    cables.push_back(of->loose_.get());
   }
   CablePaths& first = *all.front();
   for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
     first.find_nodes(block, t);
-    for (CablePaths* const of : all) of->shorten_loose(t);
+    for (CablePaths* const of : moved) of->shorten_loose(t);
     for (CablePaths* const of : all) of->see_gains(first.nodes_, t);
     LooseCables::advance(cables, first.nodes_, block.step);
+    for (CablePaths* const of : moved) of->put_curvature(t);
     for (CablePaths* const of : all) of->put_loose(t);
   }
-  for (CablePaths* const of : all) of->curvature_->end();
+  for (CablePaths* const of : moved) of->curvature_->end();
 }
 
 /// Of the hose at sample t of the block.
@@ -368,7 +380,7 @@ void CablePaths::shorten_loose(std::size_t t) {
 }
 
 void CablePaths::put_loose(std::size_t t) {
-  for (std::size_t k = 0; k < loosened_.size(); ++k) put_loose(loosened_[k], k, next_ + t, t);
+  for (std::size_t k = 0; k < loosened_.size(); ++k) put_loose(loosened_[k], k, next_ + t);
   if ((next_ + t) % std::max<std::size_t>(1, all_ / most_offset_samples) == 0) put_offsets(next_ + t);
 }
 
@@ -386,7 +398,25 @@ void CablePaths::put_offsets(std::size_t sample) {
       }
 }
 
-void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size_t sample, std::size_t of_block) {
+void CablePaths::put_curvature(std::size_t t) {
+  const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
+  for (std::size_t k = 0; k < loosened_.size(); ++k)
+    for (std::size_t d = 0; d < 2; ++d) {
+      const std::vector<double>& curvature = loose_->state(k).curvature;
+      curvature_->at(segments, 2 * k + d, t) = static_cast<float>(curvature[d]);
+      curvature_->at(segments + 1, 2 * k + d, t) = static_cast<float>(curvature[2 * elements + d]);
+      for (std::size_t i = 0; i < segments; ++i) {
+        const std::size_t first = i * elements / segments,
+                          end = std::max(first + 1, (i + 1) * elements / segments);
+        double sum = 0;  // trapezoids over its elements
+        for (std::size_t e = first; e < end; ++e)
+          sum += (curvature[2 * e + d] + curvature[2 * (e + 1) + d]) / 2;
+        curvature_->at(i, 2 * k + d, t) = static_cast<float>(sum / (end - first));
+      }
+    }
+}
+
+void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size_t sample) {
   Cable& cable = cables_[index];
   const CableState& state = loose_->state(state_index);
   const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
@@ -394,20 +424,9 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
   double mean = 0;
   for (const double gain : state.gain) mean += gain / static_cast<double>(elements);
   cable.strain[sample] = (1 + mean) / free_length - 1;
-  for (std::size_t d = 0; d < 2; ++d) {
-    curvature_->at(segments, 2 * state_index + d, of_block) = static_cast<float>(state.curvature[d]);
-    curvature_->at(segments + 1, 2 * state_index + d, of_block) =
-        static_cast<float>(state.curvature[2 * elements + d]);
-  }
-  for (std::size_t i = 0; i < segments; ++i) {
-    const std::size_t first = i * elements / segments, end = std::max(first + 1, (i + 1) * elements / segments);
-    for (std::size_t d = 0; d < 2; ++d) {  // trapezoids over its elements
-      double sum = 0;
-      for (std::size_t e = first; e < end; ++e)
-        sum += (state.curvature[2 * e + d] + state.curvature[2 * (e + 1) + d]) / 2;
-      curvature_->at(i, 2 * state_index + d, of_block) = static_cast<float>(sum / (end - first));
-    }
-    if (!cable.rubs) continue;
+  for (std::size_t i = 0; cable.rubs && i < segments; ++i) {
+    const std::size_t first = i * elements / segments,
+                      end = std::max(first + 1, (i + 1) * elements / segments);
     double gain = 0, press = 0;
     for (std::size_t e = first; e < end; ++e) {
       gain += state.gain[e] / (end - first);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,12 +56,19 @@ class CablePaths {
 
   /// Whether there is any cable that can slide.
   bool any() const { return !cables_.empty(); }
-  bool any_loose() const { return loose_.has_value(); }
+  bool any_loose() const { return loose_ != nullptr; }
   /// Whether what clamps and friction did stays in memory: strains are known after finish() only.
   bool remembers() const;
 
+  /// Before the first sample: takes the loose cables of `other` as its own, if they rest at the same places.
+  /// Friction along the hose, for one, does not move them. other: the same span of the same dresspack, with
+  /// other factors.
+  void share_loose(const CablePaths& other);
+  bool shares_loose(const CablePaths& other) const { return loose_ && loose_ == other.loose_; }
+
   void add(const SpanBlock& block);  ///< in order of time
-  /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone.
+  /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone. All that
+  /// share loose cables are among them.
   static void add(std::span<CablePaths* const> all, const SpanBlock& block);
   /// Samples before the first one: loose cables move with them, and come to lie as a repeat of the motion leaves them.
   static void rehearse(std::span<CablePaths* const> all, const SpanBlock& block);
@@ -140,7 +148,8 @@ class CablePaths {
   void see_gains(const std::vector<HoseNode>& nodes, std::size_t of_block);
   void see_held_gains();
   void put_loose(std::size_t of_block);
-  void put_loose(std::size_t cable, std::size_t state, std::size_t sample, std::size_t of_block);
+  void put_loose(std::size_t cable, std::size_t state, std::size_t sample);
+  void put_curvature(std::size_t of_block);
   void put_offsets(std::size_t sample);
   void add_stuck(Cable& cable, std::size_t segment, const double* twist, std::span<const double> path,
                  double rest);
@@ -158,10 +167,10 @@ class CablePaths {
   std::vector<std::size_t> held_;  ///< of cables_, in the order of rates_
   std::optional<PathRates> rates_;
   std::vector<std::size_t> loosened_;  ///< of cables_, in the order of loose_
-  std::optional<LooseCables> loose_;
+  std::shared_ptr<LooseCables> loose_;  ///< null: none lies loose
   KnownEnds known_ends_;
-  std::optional<SegmentRows>
-      curvature_;  ///< (segment, base end, tool end; loose cable x 2; sample) of their paths [1/m]
+  /// (segment, base end, tool end; loose cable x 2; sample) of their paths [1/m], shared with them
+  std::shared_ptr<SegmentRows> curvature_;
   std::vector<HoseNode> nodes_;
   std::vector<double> hose_twist_;     ///< (sample) mean along it [rad/m]
   std::vector<float> hose_curvature_;  ///< (clamp, 2, sample) at the base and the tool end [1/m]

@@ -394,6 +394,17 @@ BundleNesting Evaluation::site_nesting(std::span<const Site> sites, std::size_t 
   return nesting;
 }
 
+namespace {
+
+/// Its strain as one that counts shear, too.
+void count_shear(FibreHistory& both) {
+  for (std::size_t t = 0; t < both.strain.size(); ++t)
+    both.strain[t] =
+        std::copysign(std::hypot(both.strain[t], both.shear[t] / std::numbers::sqrt3), both.strain[t]);
+}
+
+}  // namespace
+
 std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> sites, std::size_t segment,
                                                           const ClampMeans& means,
                                                           const SegmentMotion& motion, Worker& worker) const {
@@ -401,9 +412,7 @@ std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> 
   std::vector<std::vector<double>> histories;
   if (mixed(means)) {
     for (FibreHistory& both : fibre_histories(sites, segment, means, motion, scan_.with_shear, worker)) {
-      for (std::size_t t = 0; scan_.with_shear && t < samples; ++t)
-        both.strain[t] =
-            std::copysign(std::hypot(both.strain[t], both.shear[t] / std::numbers::sqrt3), both.strain[t]);
+      if (scan_.with_shear) count_shear(both);
       histories.push_back(std::move(both.strain));
     }
     return histories;
@@ -480,11 +489,10 @@ FibreHistory Evaluation::mixed_history(const WireNode& node, const Fibre& fibre,
   const auto cap = [&](std::size_t t) {
     return slip.sliding == Sliding::glued ? glued : cap_at(slip.cap, means[t]);
   };
-  Slider slider;
-  for (std::size_t t = 0; slip.friction && t < samples; ++t)
-    slider.next((1 - slip.elastic) * deviations[t], cap(t));
+  const auto slides = [&](std::size_t t) { return (1 - slip.elastic) * deviations[t]; };
+  Slider slider(slip.friction ? settled_slip(samples, slides, cap) : 0);
   std::vector<double> held(samples);
-  for (std::size_t t = 0; t < samples; ++t) held[t] = slider.next((1 - slip.elastic) * deviations[t], cap(t));
+  for (std::size_t t = 0; t < samples; ++t) held[t] = slider.next(slides(t), cap(t));
   FibreHistory both{0, std::vector<double>(samples), std::vector<double>(with_shear ? samples : 0)};
   for (std::size_t t = 0; t < samples; ++t) {
     const double mean = means[t], away = deviations[t];
@@ -678,14 +686,17 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
 void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment, const SegmentMotion& motion,
                             const Sink& sink) {
   std::vector<Probe> found(workers_.size());
+  const auto probe = [&](Site site, Worker& worker) -> Probe {
+    FibreHistory both = std::move(fibre_histories({&site, 1}, segment, means_, motion, true, worker)[0]);
+    if (!mixed(means_))
+      both.strain = std::move(histories_of({&site, 1}, segment, means_, motion, worker)[0]);
+    else if (scan_.with_shear)
+      count_shear(both);
+    return {site_row(segment, site), std::move(both.strain), std::move(both.shear)};
+  };
   pipeline::in_order(
       workers_.size(), sites.size(), found.size(),
-      [&](std::size_t part, std::size_t k) {
-        found[k % found.size()] = {
-            site_row(segment, sites[k]),
-            histories_of({&sites[k], 1}, segment, means_, motion, workers_[part])[0],
-            fibre_histories({&sites[k], 1}, segment, means_, motion, true, workers_[part])[0].shear};
-      },
+      [&](std::size_t part, std::size_t k) { found[k % found.size()] = probe(sites[k], workers_[part]); },
       [&](std::size_t k) { sink.probe(found[k % found.size()]); });
 }
 

@@ -104,7 +104,8 @@ class Evaluation {
 
   /// First pass, in order of time.
   void add(const SpanBlock& block);
-  /// The same for several of one span, whose loose cables go side by side: each gets what it would get alone.
+  /// The same for several of one span, whose loose cables go side by side: each gets what it would get alone. All that
+  /// share loose cables are among them.
   static void add(std::span<Evaluation* const> all, const SpanBlock& block);
   /// Samples before the first one, for loose cables (CablePaths::rehearse()).
   static void rehearse(std::span<Evaluation* const> all, const SpanBlock& block);
@@ -124,6 +125,8 @@ class Evaluation {
   std::string name_of_layer(int layer) const;
   std::size_t dresspack() const { return place_.dresspack; }
   /// What the cables do. Precondition: end_first_pass(), or evaluate(), which does the same.
+  /// Before the first sample, see CablePaths.
+  void share_loose(const Evaluation& other) { cables_.share_loose(other.cables_); }
   const CablePaths& cables() const { return cables_; }
   void end_first_pass();
   /// Wave length over which what varies of the span's curvature changes, 2 pi rms/rms of its slope [m]; infinite: it

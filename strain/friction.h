@@ -16,6 +16,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -26,6 +27,8 @@ namespace dresslife::strain {
 
 class Slider {
  public:
+  Slider() = default;
+  explicit Slider(double slip) : slip_(slip) {}
   /// What is held of the next deviation. cap >= 0.
   double next(double deviation, double cap) {
     const double held = std::clamp(deviation - slip_, -cap, cap);
@@ -43,6 +46,21 @@ class Slider {
  private:
   double slip_ = 0;
 };
+
+/// Slip of a slider at the end of the first repeat of the motion (W17). Every sample keeps the slip between its
+/// deviation less and plus its cap. From the last sample backward these limits close, mostly within a few
+/// samples, and then no earlier sample counts. deviation(t), cap(t) >= 0: of sample t, strains; infinite: glued.
+double settled_slip(std::size_t samples, const auto& deviation, const auto& cap) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  double low = -none, high = none;
+  for (std::size_t t = samples; t-- > 0 && low < high;) {
+    const double at = deviation(t), limit = cap(t);
+    const double lower = std::clamp(at - limit, low, high);
+    high = std::clamp(at + limit, low, high);
+    low = lower;
+  }
+  return std::clamp(0.0, low, high);
+}
 
 inline double cap_at(const FrictionCap& cap, double mean) {
   return std::max(0.0, cap.constant + cap.per_mean * mean);

@@ -567,10 +567,19 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
       const SpanBlock span_block{of_span, pull, reader.step(), ends};
       std::vector<Evaluation*> together = variations.placed(k);
       together.insert(together.begin(), evaluations[k].get());
+      std::vector<std::vector<Evaluation*>> of_thread(threads);  // those that share loose cables in one
+      std::size_t next = 0;
+      for (Evaluation* const evaluation : together) {
+        const auto shares = [&](const std::vector<Evaluation*>& own) {
+          return std::ranges::any_of(own, [&](const Evaluation* other) {
+            return other->cables().shares_loose(evaluation->cables());
+          });
+        };
+        const auto found = std::ranges::find_if(of_thread, shares);
+        (found != of_thread.end() ? *found : of_thread[next++ % threads]).push_back(evaluation);
+      }
       pipeline::in_parallel(threads, [&](std::size_t part) {
-        std::vector<Evaluation*> own;
-        for (std::size_t e = part; e < together.size(); e += threads) own.push_back(together[e]);
-        if (!own.empty()) use(own, span_block);
+        if (!of_thread[part].empty()) use(of_thread[part], span_block);
       });
     }
   };

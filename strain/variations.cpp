@@ -87,7 +87,9 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Bui
     for (const double z : nodes) {
       Point point{};
       point[index_of(parameter)] = z;
-      add(build(moved(job.strain.factors, parameter, z)), point, friction);
+      const Spans& placed = build(moved(job.strain.factors, parameter, z));
+      for (std::size_t span = 0; span < placed.size(); ++span) placed[span]->share_loose(*as_told[span]);
+      add(placed, point, friction);
     }
   };
   lay(Uncertain::slack, std::array<double, slack_nodes>{low_slack, -1.25, reach}, all);

@@ -85,7 +85,7 @@ void add_sites(Format& format, const std::string& group, const std::string& set)
     {"/site/fibre",      f64,  "site, 2",        "m, rad", deflated,
      "radius and angle of the fibre on the wire, from the inward normal; 0 0: the wire's axis"},
     {"/site/material",   text, "site",           "1",    deflated, "material of the wire"},
-    {"/reversal/offset", u64,  "site+1",         "1",    always,
+    {"/reversal/offset", u64,  "site+1",         "1",    deflated,
      "turning points of site k are [offset k, offset k+1)"},
     {"/reversal/strain", f32,  "reversal",       "1",    decimals_7, "strain at the turning point, kept to 5e-8"},
     {"/reversal/sample", u32,  "reversal",       "1",    lists, "sample of the turning point"},
@@ -189,9 +189,9 @@ Format make_strain_format() {
     {"/segment/length",         f64,  "segment",            "m",    always, "rest length"},
     {"/segment/wires_at",       f64,  "segment",            "m",    always,
      "arc from the base clamp of its dresspack at which its wires are evaluated: its centre, or the clamp beside it"},
-    {"/deformation/curvature",  f64,  "sample, segment, 2", "1/m",  always, "about d1 and d2 of the segment"},
-    {"/deformation/twist",      f64,  "sample, segment",    "rad/m", always, "about the tangent"},
-    {"/deformation/elongation", f64,  "sample, segment",    "1",    always, "relative change of length"},
+    {"/deformation/curvature",  f32,  "sample, segment, 2", "1/m",  always, "about d1 and d2 of the segment"},
+    {"/deformation/twist",      f32,  "sample, segment",    "rad/m", always, "about the tangent"},
+    {"/deformation/elongation", f32,  "sample, segment",    "1",    always, "relative change of length"},
   });
   add_dresspacks(format);
   add_sites(format, "", "");
@@ -228,8 +228,8 @@ Format make_strain_format() {
     {"/bending/moment",          f64,  "bend",               "N m",  maybe,
      "its moment: polymer, wires and friction (W29)"},
     {"/probe/site",              u32,  "probe",              "1",    always, "site of each probe"},
-    {"/probe/strain",            f64,  "probe, sample",      "1",    always, "whole strain history of each probe"},
-    {"/probe/shear",             f64,  "probe, sample",      "1",    maybe,
+    {"/probe/strain",            f32,  "probe, sample",      "1",    always, "whole strain history of each probe"},
+    {"/probe/shear",             f32,  "probe, sample",      "1",    maybe,
      "shear strain gamma of its surface, by the wire's torsion"},
     {"/plane/site",              u32,  "plane",              "1",    maybe,
      "likely worst wires of each segment and layer; with strain.equivalent critical_plane only"},

@@ -46,9 +46,9 @@ class Slab {
                 fmt::format("{} {}", rows_, segments_), "3 2", fmt::format("{}", segments_), bytes);
   }
   /// Component `k` of pairs.
-  std::string component(const std::string& dataset, std::size_t sample, int k) const {
+  std::string component(const std::string& dataset, std::size_t sample, int k, int bytes) const {
     return slab(dataset, fmt::format("{} 0 {} 1 1 1 1 {} 1", sample, k, segments_),
-                fmt::format("{} {} 2", rows_, segments_), "3 3", fmt::format("{}", segments_), 8);
+                fmt::format("{} {} 2", rows_, segments_), "3 3", fmt::format("{}", segments_), bytes);
   }
   std::string constant(const std::string& dataset) const {
     return fmt::format(
@@ -218,10 +218,10 @@ std::string xdmf_text(const JobFiles& files, const fs::path& output) {
     if (motion.has("/contact/force"))
       text += at_nodes("contact force [N]", moved.scalars("/contact/force", k, 4));
     if (strain) {
-      text += at_nodes("curvature 1 [1_m]", strained.component("/deformation/curvature", k, 0));
-      text += at_nodes("curvature 2 [1_m]", strained.component("/deformation/curvature", k, 1));
-      text += at_nodes("twist [rad_m]", strained.scalars("/deformation/twist", k, 8));
-      text += at_nodes("elongation", strained.scalars("/deformation/elongation", k, 8));
+      text += at_nodes("curvature 1 [1_m]", strained.component("/deformation/curvature", k, 0, 4));
+      text += at_nodes("curvature 2 [1_m]", strained.component("/deformation/curvature", k, 1, 4));
+      text += at_nodes("twist [rad_m]", strained.scalars("/deformation/twist", k, 4));
+      text += at_nodes("elongation", strained.scalars("/deformation/elongation", k, 4));
     }
     if (life) text += at_nodes("damage per repeat", lived.constant("/segment/damage"));
     text += "</Grid>\n";

@@ -38,6 +38,8 @@ struct LooseCable {
   double nearest = 0;               ///< to the hose's axis: what lies there [m]
   int ring = no_ring;               ///< of cables around the hose's axis, which turn as one
   double gap = without_limit;       ///< along its ring either way, by what its neighbours leave [m]
+
+  bool operator==(const LooseCable&) const = default;
 };
 
 /// One cable at one sample. Nodes are evenly spaced from the base clamp (0) to the tool clamp (last);

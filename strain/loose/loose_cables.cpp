@@ -53,6 +53,13 @@ LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSetti
   }
 }
 
+bool LooseCables::same_cables(const LooseCables& other) const {
+  if (!(settings_ == other.settings_) || cables() != other.cables()) return false;
+  for (std::size_t k = 0; k < cables(); ++k)
+    if (!(cable(k) == other.cable(k))) return false;
+  return true;
+}
+
 void LooseCables::shorten(std::size_t cable, double share) {
   lines_.shorten(cable, share);
   if (const auto& [ring, number] = in_ring_[cable]; ring) ring->shorten(number, share);

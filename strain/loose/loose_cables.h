@@ -44,6 +44,9 @@ class LooseCables {
   const LooseCable& cable(std::size_t k) const { return lines_.cable(k); }
   double laid_in(std::size_t k) const { return lines_.laid_in(k); }  ///< see CableLines
 
+  /// Whether these are the same cables in the same hose: under the same motion they rest at the same places.
+  bool same_cables(const LooseCables& other) const;
+
   /// At the samples to come twist takes this share of a cable's length, if nothing pulls.
   void shorten(std::size_t cable, double share);
   /// Takes all cables to where they rest at the next sample. hose: (node). step: since the sample before [s].

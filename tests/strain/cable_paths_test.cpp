@@ -2,6 +2,7 @@
 // onset of tension with slack, lays from straight to steep, memory, forces and moments.
 #include <algorithm>
 #include <cmath>
+#include <list>
 #include <numbers>
 #include <tuple>
 
@@ -605,6 +606,36 @@ TEST_CASE("the same cables come out in blocks of any size") {
   }
   paths.finish();
   CHECK(pulls_of(paths).tension == pulls_of(whole.paths).tension);
+}
+
+TEST_CASE(
+    "cables that differ in friction along the hose rest at shared places, and get what they get alone") {
+  const auto hose = [](double friction, double slack) {
+    Dresspack dresspack = thesis_hose();
+    dresspack.components[0].laying.slack = slack;
+    dresspack.components[0].friction = friction;
+    dresspack.components[0].radial_line_load = 5;
+    return dresspack;
+  };
+  const Run alone[] = {{hose(0.3, 0.5), Slip::friction, 20, 20},
+                       {hose(0.6, 0.5), Slip::friction, 20, 20},
+                       {hose(0.3, 0.6), Slip::friction, 20, 20}};
+  std::list<CablePaths> paths;
+  std::vector<CablePaths*> all;
+  for (const Run& run : alone) {
+    all.push_back(&paths.emplace_back(
+        run.construction, plan_slip(run.construction, {Slip::friction, Slip::free}, length),
+        CablesInJob{.rub = true, .elements_per_segment = 1}, run.lengths, run.arcs, 20));
+    all.back()->share_loose(*all.front());
+  }
+  CHECK(all[1]->shares_loose(*all[0]));
+  CHECK_FALSE(all[2]->shares_loose(*all[0]));
+  CablePaths::add(all, {alone[0].history});
+  for (std::size_t k = 0; k < 3; ++k) {
+    all[k]->finish();
+    CHECK(pulls_of(*all[k]).tension == pulls_of(alone[k].paths).tension);
+  }
+  CHECK(pulls_of(*all[1]).tension != pulls_of(*all[0]).tension);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <random>
@@ -412,6 +413,26 @@ TEST_CASE("closed loops of a slider lose energy and never gain it") {
   move(-amplitude, amplitude, true);
   constexpr double corners = 1e-3;  // trapezoids cut the corners where it begins to slide
   CHECK(work == Approx(4 * cap * (amplitude - cap)).epsilon(corners));
+}
+
+TEST_CASE("a slider's slip at the end of a repeat is found backward from its last samples") {
+  constexpr double glued = std::numeric_limits<double>::infinity();
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> part(-1, 1);
+  for (const double most : {0.0, 0.1, 0.8, 3.0, glued}) {  // 3: no sample slides
+    INFO("cap up to " << most);
+    for (int history = 0; history < 50; ++history) {
+      std::vector<double> deviation(100), cap(100);
+      for (double& of : deviation) of = part(random);
+      for (double& of : cap)
+        of = most == 0 || most == glued ? most : most * (1 - 0.3 * std::abs(part(random)));
+      Slider slider;
+      for (std::size_t t = 0; t < 100; ++t) slider.next(deviation[t], cap[t]);
+      const double found = settled_slip(
+          100, [&](std::size_t t) { return deviation[t]; }, [&](std::size_t t) { return cap[t]; });
+      CHECK(std::abs(found - slider.slip()) < 1e-14);  // a hundred roundings of numbers below 1
+    }
+  }
 }
 
 TEST_CASE("a motion's slip settles: the strain at its end leads on to that at its start") {

@@ -80,6 +80,7 @@ struct Lines {
   void slopes() const;
   struct Touch;
   void contacts(std::size_t node, int p, Touch& touch) const;
+  void put_press(int p) const;
   void factor(const Progress* progress, Pack* negative) const;
   void substitute() const;
   void judge(int most, Progress* progress) const;
@@ -179,7 +180,17 @@ inline void Lines<packs>::contacts(std::size_t node, int p, Touch& touch) const 
   if (bits(beside)) touch.add(beside, wall, side * along, depth, zero);
 }
 
-/// Of the energy over each node inside; with_contact: with press and blocks.
+/// How cables press where they are.
+template <int packs>
+void Lines<packs>::put_press(int p) const {
+  for (std::size_t i = 1; i + 1 < of.nodes; ++i) {
+    Touch touch;
+    contacts(i, p, touch);
+    store(touch.press, of.press + i * of.lanes + lane(p));
+  }
+}
+
+/// Of the energy over each node inside; with_contact: with blocks.
 template <int packs>
 template <bool with_contact>
 void Lines<packs>::slopes() const {
@@ -216,7 +227,6 @@ void Lines<packs>::slopes() const {
           Touch touch;
           contacts(i, p, touch);
           slope = slope + Pack(h) * touch.slope;
-          if (of.press) store(touch.press, of.press + i * lanes + lane(p));
           double* const block = of.blocks + 3 * i * lanes + lane(p);
           store(touch.xx, block);
           store(touch.xy, block + lanes);
@@ -329,7 +339,7 @@ void Lines<packs>::substitute() const {
     }
 }
 
-/// Of cables that try a step: whether they take its share, try a shorter one, or rest.
+/// Of cables that try a step: whether they take its share, try a shorter one, or are given up.
 template <int packs>
 void Lines<packs>::judge(int most, Progress* progress) const {
   const Pack zero(0.0);
@@ -337,15 +347,16 @@ void Lines<packs>::judge(int most, Progress* progress) const {
     Progress& at_p = progress[p];
     const Pack there = along_way(p), down = load<Pack>(at_p.down), share = load<Pack>(at_p.share);
     const Pack tries = load<Pack>(at_p.tries);
-    const DoubleMask trying = set(at_p.trying), near = greater(Pack(at_rest), load<Pack>(at_p.largest));
     const DoubleMask good =
-        near | at_least(-0.5 * down, there) | at_least(tries, Pack(static_cast<double>(most_tries)));
-    const DoubleMask ends = near | at_least(load<Pack>(at_p.took), Pack(static_cast<double>(most)));
+        at_least(-0.5 * down, there) | at_least(tries, Pack(static_cast<double>(most_tries)));
+    const DoubleMask ends =
+        set(at_p.trying) & good & at_least(load<Pack>(at_p.took), Pack(static_cast<double>(most)));
     const Pack shorter = smaller(larger(-down / (there - down), Pack(0.1)), Pack(0.7));
     store(simd::select(good, share, share * shorter), at_p.share);
     store(tries + 1.0, at_p.tries);
-    store(simd::select(trying & good & ends, zero, load<Pack>(at_p.busy)), at_p.busy);
+    store(simd::select(ends, zero, load<Pack>(at_p.busy)), at_p.busy);
     store(simd::select(good, zero, load<Pack>(at_p.trying)), at_p.trying);
+    if (of.press && bits(ends)) put_press(p);
   }
 }
 
@@ -403,9 +414,9 @@ void Lines<packs>::newton_step(Progress* progress) const {
   }
 }
 
-/// path: `share` of the step on from `from`. A node that lies against a round wall goes along it: in polar
-/// coordinates about its centre, since a straight way would press it in by the square of its length. going:
-/// where each node is heading there.
+/// path: `share` of the step on from `from`; a cable whose step is short rests there. A node that lies against a
+/// round wall goes along it: in polar coordinates about its centre, since a straight way would press it in by the
+/// square of its length. going: where each node is heading there.
 template <int packs>
 void Lines<packs>::go(Progress* progress) const {
   Pack share[packs];
@@ -442,10 +453,12 @@ void Lines<packs>::go(Progress* progress) const {
       put(select(moves[p], path, pair(of.path, i, p)), of.path, i, p);
       put(going, of.going, i, p);
     }
-  if (of.press) return;  // there they rest after another look
   for (int p = 0; p < packs; ++p) {
-    const DoubleMask near = greater(Pack(at_rest), load<Pack>(progress[p].largest));
-    store(simd::select(moves[p] & near, Pack(0.0), load<Pack>(progress[p].busy)), progress[p].busy);
+    const DoubleMask rests = moves[p] & greater(Pack(at_rest), load<Pack>(progress[p].largest));
+    if (!bits(rests)) continue;
+    store(simd::select(rests, Pack(0.0), load<Pack>(progress[p].busy)), progress[p].busy);
+    store(simd::select(rests, Pack(0.0), load<Pack>(progress[p].trying)), progress[p].trying);
+    if (of.press) put_press(p);
   }
 }
 
