@@ -92,6 +92,23 @@ void add_sites(Format& format, const std::string& group, const std::string& set)
   }, group, set);
 }
 
+/// Where the surface of the dresspacks is rubbed.
+void add_rubbing(Format& format) {
+  add(format, {
+    {"/rubbing/dresspack", i32,  "patch",    "1",    maybe | deflated,
+     "dresspack of each patch of surface that is rubbed, 0 first; absent: the motion has no contact, or an older file"},
+    {"/rubbing/place",     f64,  "patch, 4", "m, m, rad, rad", maybe | deflated,
+     "middle of the patch from the base clamp along the dresspack, its length; its middle around the hose from d1 toward "
+     "d2, its width"},
+    {"/rubbing/obstacle",  text, "patch",    "1",    maybe | deflated,
+     "what rubs: a link of the robot, floor, dresspack (itself or another), cell, ring 1 .."},
+    {"/rubbing/work",      f64,  "patch",    "J",    maybe | deflated,
+     "normal force times sliding distance, of one repeat (S23)"},
+    {"/rubbing/time",      f64,  "patch",    "s",    maybe | deflated,
+     "sample until which this obstacle rubs this place of the dresspack most"},
+  });
+}
+
 Format make_motion_format() {
   Format format{"dresslife-motion", 1, "dresslife-sim", "how the dresspack moves", {}, {}};
   add(format, {
@@ -132,6 +149,7 @@ Format make_motion_format() {
     {"/tension",               f64,  "sample, segment",    "N",    always, "axial force in each segment"},
   });
   add_dresspacks(format);
+  add_rubbing(format);
   add(format, {
     {"/dresspack/bending_stiffness", f64,  "dresspack", "N m2", maybe,
      "E I as it was simulated, given or from the construction"},
@@ -193,6 +211,7 @@ Format make_strain_format() {
     {"/deformation/elongation", f64,  "sample, segment",    "1",    always, "relative change of length"},
   });
   add_dresspacks(format);
+  add_rubbing(format);
   add_sites(format, "", "");
   add_sites(format, "/bound_stick", "stick_");
   add_sites(format, "/bound_free", "free_");
