@@ -453,6 +453,12 @@ Format make_life_format() {
     {"hose_position_from_tool", f64, maybe, "its distance from the tool clamp along the dresspack, m"},
     {"hose_time", f64, maybe, "time at which its most damaging cycle closes, s"},
     {"hose_step", text, maybe, "program line being executed then"},
+    {"unvalidated_modes", text, maybe,
+     "failure modes that are not in life_hours_p10 .. _p90, because no test validates their laws: a line each with tabs "
+     "between mode, dresspack among several, hours until it has failed in 10, 50, 90 % of cases (nan: not known), share of "
+     "samples in which it fails before the wires, life_hours_p10 if it counted, segment from the tool, distance from the "
+     "tool m, what rubs or place around the hose, time s, program line"},
+    {"not_evaluated", text, maybe, "parts of the dresspacks and failure modes without a life"},
     {"conductor_life_hours_p10", f64, maybe,
      "by then 10 % of such dresspacks have a conductor with fatigue.failed_wires_percent of its wires broken"},
     {"conductor_life_hours_p50", f64, maybe, "the same of half of them"},

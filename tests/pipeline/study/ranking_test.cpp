@@ -234,17 +234,17 @@ TEST_CASE("ranking: the hose's wall has columns and a line of its own and does n
       read_ranking({job_with(scratch, "short hose", with_hose), job_with(scratch, "sound", sound),
                     job_with(scratch, "unknown", living(10000))});
   CHECK(names(rows) == std::vector<std::string>{"short hose", "sound", "unknown"});
-  REQUIRE(rows[0].hose);
-  CHECK_FALSE(rows[2].hose);
+  REQUIRE(rows[0].unvalidated_mode(UnvalidatedMode::wall));
+  CHECK(rows[2].unvalidated.empty());
   const auto table = read_csv(ranking_csv(rows));
   CHECK(table[1][20] == "2.5");
   CHECK(table[1][21] == "2");
-  CHECK(std::stod(table[1][22]) == rows[0].hose->position_from_tool);
+  CHECK(std::stod(table[1][22]) == rows[0].unvalidated[0].position_from_tool);
   CHECK(table[2][20] == "inf");
   const std::string text = ranking_table(rows);
   CHECK(text.find("By the model it is 2.50 h.") != std::string::npos);
   CHECK(text.find("By the model it is not damaged.") != std::string::npos);
-  CHECK(hose_life_words(5.7e10) == "more than 1,000,000 h");
+  CHECK(unvalidated_life(5.7e10) == "more than 1,000,000 h");
 }
 
 TEST_CASE("ranking: the relative life of a rated cable has columns and words, empty without a rating") {
