@@ -31,16 +31,24 @@ std::vector<std::vector<RubbedPatch>> patches_of(const FileReader& strain, std::
              time = strain.read<double>("/rubbing/time");
   const auto obstacle = strain.read<std::string>("/rubbing/obstacle");
   std::vector<std::vector<RubbedPatch>> patches(dresspacks);
-  constexpr double least = 1e-5, most = 1e3;  // [m] of a patch, of a dresspack
+  const double turn = 2 * std::numbers::pi;
+  constexpr double most = 1e3;          // [m] of a dresspack
+  constexpr double most_patches = 5e7;  // 0.4 GB
+  const auto refuse = [&](const std::string& what) {
+    throw pipeline::InputError(strain.where(), "/rubbing: " + what, "make the file again with dresslife-strain");
+  };
+  const auto is_length = [](double value, double longest) { return value > 0 && value <= longest; };
+  double shortest = most, end = 0;
   for (std::size_t k = 0; k < work.size(); ++k) {
-    const double *const p = &place[4 * k], turn = 2 * std::numbers::pi;
-    if (dresspack[k] < 0 || static_cast<std::size_t>(dresspack[k]) >= dresspacks || !(work[k] >= 0) || !(p[0] >= 0) ||
-        !(p[0] <= most) || !(p[1] >= least) || !(p[1] <= most) || !(p[2] >= 0) || !(p[2] <= turn) ||
-        !(p[3] >= turn / 10000) || !(p[3] <= turn))
-      throw pipeline::InputError(strain.where(), fmt::format("/rubbing: row {} is no place of a dresspack", k + 1),
-                                 "make the file again with dresslife-strain");
+    const double* const p = &place[4 * k];
+    if (dresspack[k] < 0 || static_cast<std::size_t>(dresspack[k]) >= dresspacks || !(work[k] >= 0) ||
+        !is_length(p[0], most) || !is_length(p[1], most) || !(p[2] >= 0 && p[2] <= turn) || !is_length(p[3], turn) ||
+        p[3] != place[3])
+      refuse(fmt::format("row {} is no patch of a dresspack", k + 1));
+    shortest = std::min(shortest, p[1]), end = std::max(end, p[0] + p[1]);
     patches[static_cast<std::size_t>(dresspack[k])].push_back({p[0], p[1], p[2], p[3], obstacle[k], work[k], time[k]});
   }
+  if (!place.empty() && end / shortest * turn / place[3] > most_patches) refuse("its patches are too small to hold");
   return patches;
 }
 

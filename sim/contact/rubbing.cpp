@@ -23,7 +23,7 @@ Rubbing::Rubbing(const Rod& rod) : rod_(rod) {
     Cells& cells = cells_.emplace_back();
     cells.first_segment = span.first_segment;
     for (int k = rod.first_span(d); k < rod.first_span(d + 1); ++k) cells.segments += rod.spans()[k].segments();
-    const double cell = cell_share * span.properties.diameter;
+    const double cell = std::max(least_cell, cell_share * span.properties.diameter);
     cells.per_segment = std::max(1, static_cast<int>(std::lround(span.segment_length / cell)));
     cells.first = cells_in_all_;
     cells_in_all_ += cells.count();

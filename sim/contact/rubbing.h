@@ -5,7 +5,7 @@
 // sliding instead, and by segment.
 //
 // The surface is divided into cells: along the hose a whole number to a segment, about cell_share of the hose's diameter
-// long, around it sectors of equal width. The angle turns with the hose: 0 is the d1 of its segments. The place of a
+// long and not below least_cell, around it sectors of equal width. The angle turns with the hose: 0 is the d1 of its segments. The place of a
 // contact is continuous. With a ring it is that of (S15). Other contacts are found on straight segments, at their ends
 // where they lie on a face: such a contact is spread evenly over one segment's length about it, so that contacts at the
 // ends of neighbours make an even line. Memory: cells and sectors times obstacles that rub.
@@ -30,7 +30,7 @@ struct RubbedPatch {
 class Rubbing {
  public:
   static constexpr int sectors = 72;  ///< 5 degrees: 2.6 mm of a hose of 60 mm, a fifth of what a worn-through wall is wide
-  static constexpr double cell_share = 1.0 / 12;
+  static constexpr double cell_share = 1.0 / 12, least_cell = 1e-3;  ///< [1], [m]
 
   explicit Rubbing(const Rod& rod);
   /// The contacts of one step of h [s]. state: after the step.
