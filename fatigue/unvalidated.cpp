@@ -35,20 +35,23 @@ std::vector<std::vector<RubbedPatch>> patches_of(const FileReader& strain, std::
   constexpr double most = 1e3;          // [m] of a dresspack
   constexpr double most_patches = 5e7;  // 0.4 GB
   const auto refuse = [&](const std::string& what) {
-    throw pipeline::InputError(strain.where(), "/rubbing: " + what, "make the file again with dresslife-strain");
+    throw pipeline::InputError(strain.where(), "/rubbing: " + what,
+                               "make the file again with dresslife-strain");
   };
   const auto is_length = [](double value, double longest) { return value > 0 && value <= longest; };
   double shortest = most, end = 0;
   for (std::size_t k = 0; k < work.size(); ++k) {
     const double* const p = &place[4 * k];
     if (dresspack[k] < 0 || static_cast<std::size_t>(dresspack[k]) >= dresspacks || !(work[k] >= 0) ||
-        !is_length(p[0], most) || !is_length(p[1], most) || !(p[2] >= 0 && p[2] <= turn) || !is_length(p[3], turn) ||
-        p[3] != place[3])
+        !is_length(p[0], most) || !is_length(p[1], most) || !(p[2] >= 0 && p[2] <= turn) ||
+        !is_length(p[3], turn) || p[3] != place[3])
       refuse(fmt::format("row {} is no patch of a dresspack", k + 1));
     shortest = std::min(shortest, p[1]), end = std::max(end, p[0] + p[1]);
-    patches[static_cast<std::size_t>(dresspack[k])].push_back({p[0], p[1], p[2], p[3], obstacle[k], work[k], time[k]});
+    patches[static_cast<std::size_t>(dresspack[k])].push_back(
+        {p[0], p[1], p[2], p[3], obstacle[k], work[k], time[k]});
   }
-  if (!place.empty() && end / shortest * turn / place[3] > most_patches) refuse("its patches are too small to hold");
+  if (!place.empty() && end / shortest * turn / place[3] > most_patches)
+    refuse("its patches are too small to hold");
   return patches;
 }
 
@@ -110,12 +113,14 @@ std::vector<UnvalidatedMode> abrasion_modes(const FileReader& strain, const pipe
     if (std::isfinite(worn.repeats)) {
       own = pipeline::first_failures({response_of(worn, job, mode.dresspack)}, "", lives.size());
       put_place(mode, strain, d, worn.position);
-      const auto sample = static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), worn.time) - time.begin());
+      const auto sample =
+          static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), worn.time) - time.begin());
       if (sample < step.size() && step[sample] >= 0) mode.step = text[static_cast<std::size_t>(step[sample])];
     }
     std::vector<double> together(lives.size());
     std::size_t first = 0;
-    for (std::size_t s = 0; s < lives.size(); ++s) first += own[s] < lives[s], together[s] = std::min(own[s], lives[s]);
+    for (std::size_t s = 0; s < lives.size(); ++s)
+      first += own[s] < lives[s], together[s] = std::min(own[s], lives[s]);
     mode.first_share = static_cast<double>(first) / static_cast<double>(lives.size());
     const auto repeats = pipeline::percentiles_of(std::move(own));
     for (std::size_t i = 0; i < repeats.size(); ++i) mode.hours[i] = hours(repeats[i], repeat);

@@ -52,7 +52,8 @@ struct Grid {
     field.area.resize(cells * sectors), field.volume.resize(cells), field.time.resize(cells);
     const auto sector = static_cast<std::size_t>(patch.angle / width);
     const double from = (patch.position - patch.length / 2) / length, to = from + patch.length / length;
-    for (auto cell = static_cast<std::size_t>(std::max(0.0, from)); cell < cells && static_cast<double>(cell) < to; ++cell) {
+    for (auto cell = static_cast<std::size_t>(std::max(0.0, from));
+         cell < cells && static_cast<double>(cell) < to; ++cell) {
       const auto begin = static_cast<double>(cell);
       const double share = (std::min(to, begin + 1) - std::max(from, begin)) / (to - from);
       const double volume = rate * patch.work * share;
@@ -72,10 +73,12 @@ struct Grid {
   void spread(Field& field, std::size_t wide) const {
     std::vector<double> sum(cells + 1);
     for (std::size_t sector = 0; sector < sectors; ++sector) {
-      for (std::size_t cell = 0; cell < cells; ++cell) sum[cell + 1] = sum[cell] + field.area[at(cell, sector)];
+      for (std::size_t cell = 0; cell < cells; ++cell)
+        sum[cell + 1] = sum[cell] + field.area[at(cell, sector)];
       for (std::size_t cell = 0; cell < cells; ++cell) {
         const std::size_t first = first_of(wide, cell);
-        field.area[at(cell, sector)] = std::max(0.0, sum[first + wide] - sum[first]) / static_cast<double>(wide);
+        field.area[at(cell, sector)] =
+            std::max(0.0, sum[first + wide] - sum[first]) / static_cast<double>(wide);
       }
     }
   }
@@ -86,7 +89,9 @@ struct Grid {
 double WornLayer::area(double depth, double arc) const {
   constexpr double cap = 4.0 / 3;
   if (crest == 0) return depth * (arc + cap * std::sqrt(2 * radius * depth));
-  return depth * (std::numbers::pi * depth * std::sqrt(radius * crest) + cap * arc * std::sqrt(2 * crest * depth)) / pitch;
+  return depth *
+         (std::numbers::pi * depth * std::sqrt(radius * crest) + cap * arc * std::sqrt(2 * crest * depth)) /
+         pitch;
 }
 
 double WornLayer::depth(double area, double arc) const {
@@ -159,9 +164,11 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
   double most = 0;
   for (const auto& [obstacle, field] : fields) {
     const std::size_t wide = footprint(obstacle), first = grid.first_of(wide, worst_cell);
-    const auto begin = field.volume.begin() + static_cast<std::ptrdiff_t>(first), end = begin + static_cast<std::ptrdiff_t>(wide);
+    const auto begin = field.volume.begin() + static_cast<std::ptrdiff_t>(first),
+               end = begin + static_cast<std::ptrdiff_t>(wide);
     double volume = 0, moment = 0;
-    for (auto cell = begin; cell < end; ++cell) volume += *cell, moment += *cell * static_cast<double>(cell - field.volume.begin());
+    for (auto cell = begin; cell < end; ++cell)
+      volume += *cell, moment += *cell * static_cast<double>(cell - field.volume.begin());
     const double area = volume / static_cast<double>(wide);
     if (area <= most) continue;
     most = area;

@@ -11,7 +11,8 @@ namespace {
 
 /// Program lines may hold anything.
 std::string in_a_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](char letter) { return letter == '\t' || letter == '\n'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char letter) { return letter == '\t' || letter == '\n'; }, ' ');
   return text;
 }
 
@@ -27,9 +28,10 @@ double number_of(const std::string& word) {
 std::string unvalidated_text(const std::vector<UnvalidatedMode>& modes) {
   std::string text;
   for (const UnvalidatedMode& m : modes)
-    text += fmt::format("{}\t{}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.6g}\t{}\n", m.mode,
-                        in_a_line(m.dresspack), m.hours[0], m.hours[1], m.hours[2], m.first_share, m.together_p10,
-                        m.segment_from_tool, m.position_from_tool, in_a_line(m.place), m.time, in_a_line(m.step));
+    text +=
+        fmt::format("{}\t{}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.6g}\t{}\n", m.mode,
+                    in_a_line(m.dresspack), m.hours[0], m.hours[1], m.hours[2], m.first_share, m.together_p10,
+                    m.segment_from_tool, m.position_from_tool, in_a_line(m.place), m.time, in_a_line(m.step));
   return text;
 }
 

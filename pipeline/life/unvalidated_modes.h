@@ -18,13 +18,13 @@ struct UnvalidatedMode {
   std::string dresspack;  ///< in which, among several; empty: the only one
   /// By then it has failed in 10, 50, 90 % of such dresspacks [h]; infinite: never. Of the wall only the median.
   std::array<double, 3> hours{unknown, unknown, unknown};
-  double first_share = unknown;    ///< of the samples in which it fails before any validated mode
-  double together_p10 = unknown;   ///< the planner's hours if this mode counted, too [h]
-  int segment_from_tool = 0;       ///< of its worst place, 1 is nearest to the tool; 0: not known
-  double position_from_tool = 0;   ///< [m]
-  std::string place;               ///< what rubs: "link_4"; of the wall the place around it: "hose 5"
-  double time = 0;                 ///< when it is loaded most [s]
-  std::string step;                ///< program line that runs then; empty: none
+  double first_share = unknown;   ///< of the samples in which it fails before any validated mode
+  double together_p10 = unknown;  ///< the planner's hours if this mode counted, too [h]
+  int segment_from_tool = 0;      ///< of its worst place, 1 is nearest to the tool; 0: not known
+  double position_from_tool = 0;  ///< [m]
+  std::string place;              ///< what rubs: "link_4"; of the wall the place around it: "hose 5"
+  double time = 0;                ///< when it is loaded most [s]
+  std::string step;               ///< program line that runs then; empty: none
 
   bool operator==(const UnvalidatedMode&) const = default;
 };

@@ -1,14 +1,15 @@
 // Where on its surface a dresspack is rubbed: what wears a place through (fatigue/wear.h).
 //
-// (S23) W = sum over steps of N |v| h [J], N the normal force and |v| the sliding speed of a contact, by place along the
-// dresspack, by angle around it and by obstacle. Archard's law multiplies W by a wear rate. (S13) is friction times
-// sliding instead, and by segment.
+// (S23) W = sum over steps of N |v| h [J], N the normal force and |v| the sliding speed of a contact, by place
+// along the dresspack, by angle around it and by obstacle. Archard's law multiplies W by a wear rate. (S13) is
+// friction times sliding instead, and by segment.
 //
-// The surface is divided into cells: along the hose a whole number to a segment, about cell_share of the hose's diameter
-// long and not below least_cell, around it sectors of equal width. The angle turns with the hose: 0 is the d1 of its segments. The place of a
-// contact is continuous. With a ring it is that of (S15). Other contacts are found on straight segments, at their ends
-// where they lie on a face: such a contact is spread evenly over one segment's length about it, so that contacts at the
-// ends of neighbours make an even line. Memory: cells and sectors times obstacles that rub.
+// The surface is divided into cells: along the hose a whole number to a segment, about cell_share of the hose's
+// diameter long and not below least_cell, around it sectors of equal width. The angle turns with the hose: 0 is
+// the d1 of its segments. The place of a contact is continuous. With a ring it is that of (S15). Other contacts
+// are found on straight segments, on a face at their ends. Such a contact is spread evenly over one segment's
+// length about it, so that contacts at the ends of neighbours make an even line. Memory: cells and sectors times
+// obstacles that rub.
 #pragma once
 
 #include <map>
@@ -24,12 +25,13 @@ struct RubbedPatch {
   double angle = 0, width = 0;      ///< its middle, from d1 toward d2; its width [rad]
   std::size_t obstacle = 0;         ///< of Touch::obstacles()
   double work = 0;                  ///< W of (S23) [J]
-  double time = 0;                  ///< of the sample until which this cell was rubbed most by this obstacle [s]
+  double time = 0;                  ///< sample until which this obstacle rubbed this cell most [s]
 };
 
 class Rubbing {
  public:
-  static constexpr int sectors = 72;  ///< 5 degrees: 2.6 mm of a hose of 60 mm, a fifth of what a worn-through wall is wide
+  /// 5 degrees: 2.6 mm of a hose of 60 mm, a fifth of the width of a worn-through wall.
+  static constexpr int sectors = 72;
   static constexpr double cell_share = 1.0 / 12, least_cell = 1e-3;  ///< [1], [m]
 
   explicit Rubbing(const Rod& rod);
@@ -46,8 +48,9 @@ class Rubbing {
     int count() const { return segments * per_segment; }
   };
   struct Field {
-    std::vector<double> work;                    ///< (cell, sector) [J]
-    std::vector<double> sample, largest, time;   ///< (cell) since the sample before, the largest of them, and when
+    std::vector<double> work;  ///< (cell, sector) [J]
+    std::vector<double> sample, largest,
+        time;  ///< (cell) since the sample before, the largest of them, and when
   };
   const Cells& cells_of(int segment) const;
   void rub(Field& field, int segment, double place, bool spread, const Vector3& toward, const RodState& state,

@@ -52,7 +52,8 @@ TEST_CASE("a hose dragged over the floor is rubbed evenly along its underside, a
       CHECK(patch.time == 2.5);
       CHECK(patch.angle == Approx(run.patches[0].angle));
       work += patch.work;
-      if (patch.position > 0.1 && patch.position < 0.4) largest = std::max(largest, patch.work / patch.length);
+      if (patch.position > 0.1 && patch.position < 0.4)
+        largest = std::max(largest, patch.work / patch.length);
     }
     CHECK(work == Approx(run.pressed * 0.2).epsilon(below));
     // Without spreading, contacts at the segments' ends would give one cell all of a segment's work.
