@@ -24,9 +24,10 @@ Counterface counterface(const std::string& obstacle) {
 
 /// What one obstacle wears off a dresspack per repeat.
 struct Field {
-  std::vector<double> area;    ///< (cell, sector) per length [m2]
-  std::vector<double> volume;  ///< (cell) where it was rubbed [m3]
-  std::vector<double> time;    ///< (cell) [s]
+  std::vector<double> area;     ///< (cell, sector) per length [m2]
+  std::vector<double> volume;   ///< (cell) where it was rubbed [m3]
+  std::vector<double> largest;  ///< (cell) of it by one patch [m3]
+  std::vector<double> time;     ///< (cell) of that patch [s]
 };
 
 /// Cells of equal length along a dresspack, sectors of equal width around it.
@@ -49,7 +50,8 @@ struct Grid {
 
   /// Cells of different lengths share their work with those that they overlap.
   void add(Field& field, const RubbedPatch& patch, double rate) const {
-    field.area.resize(cells * sectors), field.volume.resize(cells), field.time.resize(cells);
+    field.area.resize(cells * sectors);
+    for (std::vector<double>* of : {&field.volume, &field.largest, &field.time}) of->resize(cells);
     const auto sector = static_cast<std::size_t>(patch.angle / width);
     const double from = (patch.position - patch.length / 2) / length, to = from + patch.length / length;
     for (auto cell = static_cast<std::size_t>(std::max(0.0, from));
@@ -59,7 +61,7 @@ struct Grid {
       const double volume = rate * patch.work * share;
       field.area[at(cell, sector)] += volume / length;
       field.volume[cell] += volume;
-      if (share > 0.5) field.time[cell] = patch.time;
+      if (volume > field.largest[cell]) field.largest[cell] = volume, field.time[cell] = patch.time;
     }
   }
   std::size_t cells_of(double footprint) const {

@@ -9,9 +9,11 @@ namespace {
 
 constexpr double sector_width = 2 * std::numbers::pi / Rubbing::sectors;
 
-/// Of a point beside a segment, in segments of the rod: the segment's base end is at its number.
-double place_beside(const Rod& rod, const RodState& state, int segment, const Vector3& point) {
-  const double along = (point - state.position[segment]).dot(tangent(state.orientation[segment]));
+/// Of a point beside a segment where it was before the step of h [s], in segments of the rod: the base end is at
+/// its number.
+double place_beside(const Rod& rod, const RodState& state, int segment, const Vector3& point, double h) {
+  const Vector3 centre = state.position[segment] - h * state.velocity[segment];
+  const double along = (point - centre).dot(tangent(state.orientation[segment]));
   return segment + 0.5 + std::clamp(along / rod.span_of(segment).segment_length, -0.5, 0.5);
 }
 
@@ -67,13 +69,13 @@ void Rubbing::add(const std::vector<Contact>& contacts, const RodState& state, d
     if (c.obstacle <= first_ring) {
       const bool between = c.share > 0;
       const double place =
-          between ? c.segment + 0.5 + c.share : place_beside(rod_, state, c.segment, c.point);
+          between ? c.segment + 0.5 + c.share : place_beside(rod_, state, c.segment, c.point, h);
       rub(field, between && c.share > 0.5 ? c.other : c.segment, place, false, -c.normal, state, work);
       continue;
     }
-    rub(field, c.segment, place_beside(rod_, state, c.segment, c.point), true, -c.normal, state, work);
+    rub(field, c.segment, place_beside(rod_, state, c.segment, c.point, h), true, -c.normal, state, work);
     if (c.other >= 0)
-      rub(field, c.other, place_beside(rod_, state, c.other, c.point), true, c.normal, state, work);
+      rub(field, c.other, place_beside(rod_, state, c.other, c.point, h), true, c.normal, state, work);
   }
 }
 

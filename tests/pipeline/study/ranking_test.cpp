@@ -253,7 +253,7 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   worn.mode = UnvalidatedMode::abrasion;
   worn.hours = {300, 2400, 51000};
   worn.first_share = 0.43, worn.together_p10 = 280;
-  worn.segment_from_tool = 4, worn.position_from_tool = 0.125;
+  worn.segment_from_tool = 4, worn.position_from_tool = 0.13;
   worn.place = "link_4", worn.time = 2.5, worn.step = "weld\tspot";
   UnvalidatedMode untouched = worn;
   untouched.hours = {infinity, infinity, infinity}, untouched.place = "", untouched.first_share = 0;
