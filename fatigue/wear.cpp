@@ -35,8 +35,9 @@ struct Grid {
   double length = 0, width = 0;
   std::size_t cells = 0, sectors = 0;
 
-  explicit Grid(const std::vector<RubbedPatch>& patches) {
-    double end = 0;
+  /// least: it is at least so long [m].
+  Grid(const std::vector<RubbedPatch>& patches, double least) {
+    double end = least;
     length = std::numeric_limits<double>::infinity();
     for (const RubbedPatch& patch : patches) {
       length = std::min(length, patch.length);
@@ -135,7 +136,7 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
   worst.repeats = std::numeric_limits<double>::infinity();
   if (patches.empty()) return worst;
   const WornLayer& layer = worn.layer;
-  const Grid grid(patches);
+  const Grid grid(patches, 2 * layer.radius);
   const auto footprint = [&](const std::string& obstacle) {
     return grid.cells_of((is_ring(obstacle) ? at_rings : on_links) * 2 * layer.radius);
   };
