@@ -13,6 +13,7 @@
 #include "fatigue/failure_modes.h"
 #include "fatigue/planes.h"
 #include "fatigue/stress_path.h"
+#include "fatigue/unvalidated.h"
 #include "fatigue/verdict.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/threads.h"
@@ -519,9 +520,9 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
       worst.position_from_tool, worst.step.empty() ? "" : ", worst during '" + worst.step + "'");
 }
 
-/// The hose's wall beside the wires. Returns what the terminal is told; nothing without a wall.
-std::string write_hose(const Context& c) {
-  if (c.worst_wall == no_site) return "";
+/// The hose's wall beside the wires; nothing without a wall.
+std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c) {
+  if (c.worst_wall == no_site) return {};
   const auto worst_sites = worst_by_segment(c, false);
   put(c.life, "/hose/worst_site", as_index(worst_sites));
   put(c.life, "/hose/damage", damage_at(c, worst_sites));
@@ -535,8 +536,32 @@ std::string write_hose(const Context& c) {
   c.life.attribute("hose_component", worst.component);
   c.life.attribute("hose_time", worst.time);
   c.life.attribute("hose_step", worst.step);
-  if (worst.damage == 0) return "; the hose's wall is not damaged";
-  return fmt::format("; the hose's wall lasts {} h", pipeline::readable(worst.life_hours));
+  pipeline::UnvalidatedMode mode;
+  mode.mode = pipeline::UnvalidatedMode::wall;
+  mode.dresspack = pipeline::name_among(c.job, c.dresspack_of(c.worst_wall));
+  mode.hours[1] = worst.life_hours;
+  mode.segment_from_tool = static_cast<int>(worst.segment_from_tool);
+  mode.position_from_tool = worst.position_from_tool;
+  mode.place = worst.component;
+  mode.time = worst.time;
+  mode.step = worst.step;
+  return {mode};
+}
+
+/// Modes that are not in the planner's hours. Returns what the terminal is told. lives: (sample) log10 repeats of those
+/// that are.
+std::string write_unvalidated(const Context& c, const std::vector<double>& lives) {
+  std::vector<pipeline::UnvalidatedMode> modes = abrasion_modes(c.strain, c.job, lives);
+  const auto wall = write_hose(c);
+  modes.insert(modes.end(), wall.begin(), wall.end());
+  c.life.attribute("unvalidated_modes", pipeline::unvalidated_text(modes));
+  c.life.attribute("not_evaluated", not_evaluated(c.strain, c.job));
+  std::string summary;
+  for (const pipeline::UnvalidatedMode& mode : modes)
+    summary += fmt::format("; the {} {}", mode.mode == pipeline::UnvalidatedMode::wall ? "hose's wall" : "surface",
+                           std::isinf(mode.hours[1]) ? "is not damaged"
+                                                     : "lasts " + pipeline::readable(mode.hours[1]) + " h");
+  return summary;
 }
 
 /// Whether the job itself lets every level slip this way, but for its cables, which slide in a bound as they
@@ -774,7 +799,7 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_causes(c, cycles, write_worst_strain(c));
   const std::string summary = write_worst(c, cycles, p10_repeats);
   const std::vector<pipeline::Warning> of_forces = write_cable_forces(strain, job, life);
-  return {pipeline::joined(of_forces, warnings_of(c, cycles)), summary + write_hose(c)};
+  return {pipeline::joined(of_forces, warnings_of(c, cycles)), summary + write_unvalidated(c, first.log10_life)};
 }
 
 }  // namespace dresslife::fatigue

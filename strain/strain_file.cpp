@@ -256,6 +256,10 @@ void copy_program(const FileReader& motion, FileWriter& strain) {
   }
   strain.append("/program/step", motion.read<std::int32_t>("/program/step"));
   strain.append("/program/text", motion.read<std::string>("/program/text"));
+  if (motion.has("/rubbing/work"))
+    for (const char* table :
+         {"/rubbing/dresspack", "/rubbing/place", "/rubbing/obstacle", "/rubbing/work", "/rubbing/time"})
+      strain.copy(motion, table);
   const char* const joints = "/robot/joint_position";
   if (!motion.has(joints)) return;
   strain.set_axis("joint", motion.row_size(joints));

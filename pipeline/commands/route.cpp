@@ -260,7 +260,7 @@ std::string words_of(const Trial& trial, const Draft& draft, double off) {
   text += tolerance_words(trial.nudges, off);
   const RankingRow& row = trial.rows[*trial.best];
   for (const std::string& words :
-       {action_words(row), uncertainty_words(row), failure_words(row), hose_words(row)})
+       {action_words(row), uncertainty_words(row), failure_words(row), unvalidated_words(row)})
     text += words + (words.empty() ? "" : "\n");
   return text;
 }

@@ -92,6 +92,23 @@ void add_sites(Format& format, const std::string& group, const std::string& set)
   }, group, set);
 }
 
+/// Where the surface of the dresspacks is rubbed.
+void add_rubbing(Format& format) {
+  add(format, {
+    {"/rubbing/dresspack", i32,  "patch",    "1",    maybe | deflated,
+     "dresspack of each patch of surface that is rubbed, 0 first; absent: the motion has no contact, or an older file"},
+    {"/rubbing/place",     f64,  "patch, 4", "m, m, rad, rad", maybe | deflated,
+     "middle of the patch from the base clamp along the dresspack, its length; its middle around the hose from d1 toward "
+     "d2, its width"},
+    {"/rubbing/obstacle",  text, "patch",    "1",    maybe | deflated,
+     "what rubs: a link of the robot, floor, dresspack (itself or another), cell, ring 1 .."},
+    {"/rubbing/work",      f64,  "patch",    "J",    maybe | deflated,
+     "normal force times sliding distance, of one repeat (S23)"},
+    {"/rubbing/time",      f64,  "patch",    "s",    maybe | deflated,
+     "sample until which this obstacle rubs this place of the dresspack most"},
+  });
+}
+
 Format make_motion_format() {
   Format format{"dresslife-motion", 1, "dresslife-sim", "how the dresspack moves", {}, {}};
   add(format, {
@@ -132,6 +149,7 @@ Format make_motion_format() {
     {"/tension",               f64,  "sample, segment",    "N",    always, "axial force in each segment"},
   });
   add_dresspacks(format);
+  add_rubbing(format);
   add(format, {
     {"/dresspack/bending_stiffness", f64,  "dresspack", "N m2", maybe,
      "E I as it was simulated, given or from the construction"},
@@ -194,6 +212,7 @@ Format make_strain_format() {
     {"/deformation/elongation", f32,  "sample, segment",    "1",    always, "relative change of length"},
   });
   add_dresspacks(format);
+  add_rubbing(format);
   add_sites(format, "", "");
   add_sites(format, "/bound_stick", "stick_");
   add_sites(format, "/bound_free", "free_");
@@ -436,6 +455,12 @@ Format make_life_format() {
     {"hose_position_from_tool", f64, maybe, "its distance from the tool clamp along the dresspack, m"},
     {"hose_time", f64, maybe, "time at which its most damaging cycle closes, s"},
     {"hose_step", text, maybe, "program line being executed then"},
+    {"unvalidated_modes", text, maybe,
+     "failure modes that are not in life_hours_p10 .. _p90, because no test validates their laws: a line each with tabs "
+     "between mode, dresspack among several, hours until it has failed in 10, 50, 90 % of cases (nan: not known), share of "
+     "samples in which it fails before the wires, life_hours_p10 if it counted, segment from the tool, distance from the "
+     "tool m, what rubs or place around the hose, time s, program line"},
+    {"not_evaluated", text, maybe, "parts of the dresspacks and failure modes without a life"},
     {"conductor_life_hours_p10", f64, maybe,
      "by then 10 % of such dresspacks have a conductor with fatigue.failed_wires_percent of its wires broken"},
     {"conductor_life_hours_p50", f64, maybe, "the same for 50 %"},

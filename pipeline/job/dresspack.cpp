@@ -94,6 +94,12 @@ void describe(Fields& f, Corrugation& corrugation) {
   f.number("wall_mm", corrugation.wall, Need::required, above(0), "The thickness of the wall.");
 }
 
+void describe(Fields& f, Sleeve& sleeve) {
+  f.place(sleeve.where);
+  f.number("thickness_mm", sleeve.thickness, Need::required, above(0), "The thickness that may wear through.");
+  f.text("material", sleeve.material, Need::required, "A material with `wear`: a name of config/materials.");
+}
+
 void describe(Fields& f, BendingFriction& friction) {
   f.number("stiffness_Nm2", friction.stiffness, Need::required, above(0), "The moment per curvature while the element holds.");
   f.number("slides_at_1_per_m", friction.slides_at, Need::required, above(0),
@@ -184,6 +190,11 @@ void describe(Fields& f, Dresspack& dresspack) {
       "jacket holds the parts.");
   f.number("core_diameter_mm", dresspack.core_diameter, Need::optional, at_least(0),
            "The diameter of the filling in the middle of a hose that is no component.");
+  f.text("core_parts", dresspack.core_parts, Need::optional,
+         "The parts in this filling, in words. Results name them as not evaluated.");
+  f.maybe_group("sleeve", dresspack.sleeve,
+                "A sleeve over the hose, or the jacket of a cable without a hose, that may wear through. Default: the wall "
+                "of hose_corrugation wears.");
   f.list("components", dresspack.components, Need::optional,
          "The parts in the hose. Without them only the motion is computed. `place: auto` instead of "
          "helix_radius_mm and phase_deg packs parts into the bore.");

@@ -78,6 +78,13 @@ struct Corrugation {
   Where where;
 };
 
+/// What is worn first from outside: a sleeve over the hose, or the jacket of a cable without a hose.
+struct Sleeve {
+  double thickness = 0;  ///< [m]
+  std::string material;  ///< a key of Dresspack::materials
+  Where where;
+};
+
 /// A spring beside the hose's elastic bending whose moment friction limits (S20 of sim/rod/README.md).
 struct BendingFriction {
   double stiffness = 0;  ///< while it holds [N m2]
@@ -118,6 +125,8 @@ struct Dresspack {
   std::optional<Corrugation> hose_corrugation;     ///< gives that factor instead; neither: a smooth hose
   std::optional<double> inner_diameter;  ///< in which parts can move [m]; absent: see inner_radius()
   double core_diameter = 0;              ///< of what fills the middle and is no component [m]
+  std::string core_parts;                ///< what that is, in words; empty: not said
+  std::optional<Sleeve> sleeve;          ///< absent: abrasion wears the wall of hose_corrugation
   std::vector<Component> components;
   std::vector<Material> materials;  ///< those that the wires name, looked up in the catalogue
   std::vector<Rating> ratings;      ///< of a dresspack that is a cable itself
@@ -145,6 +154,7 @@ bool is_hose_wall(const Dresspack& dresspack, std::string_view component);
 
 void describe(Fields& f, Component& component);
 void describe(Fields& f, Corrugation& corrugation);
+void describe(Fields& f, Sleeve& sleeve);
 void describe(Fields& f, BendingFriction& friction);
 void describe(Fields& f, Dresspack& dresspack);
 

@@ -1,8 +1,19 @@
 #include "pipeline/job/material.h"
 
+#include <algorithm>
+
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
+
+void describe(Fields& f, WearRate& rate) {
+  f.choice("against", rate.against, "What rubs. Counterfaces that the list leaves out wear like robot.");
+  f.number("rate_mm3_per_Nm", rate.rate, Need::required, above(0),
+           "The median of the worn volume over normal force times way.");
+  f.number("factor", rate.factor, Need::required, between(1, 100),
+           "The standard deviation of the rate, as a factor.");
+  f.text("source", rate.source, Need::required, "The source of both.");
+}
 
 void describe(Fields& f, StrainLifePoint& point) {
   f.number("strain_amplitude", point.strain_amplitude, Need::required, between(1e-9, 10),
@@ -23,6 +34,10 @@ void describe(Fields& f, Material& material) {
       "strain_life_table", material.strain_life_table, Need::optional,
       "Measured points instead of the constants below, larger strains first. The curve between them is "
       "straight in logarithms. It is meant for polymers.");
+  f.list("wear", material.wear, Need::optional,
+         "Wear rates, of a hose, sleeve or jacket. A material with them and without strain_life_table only wears: it "
+         "has none of the constants below.");
+  if (!material.wear.empty() && material.wear.front().rate > 0) return;
   const bool measured = !material.strain_life_table.empty() && material.strain_life_table.front().cycles > 0;
   if (measured) return;  // the manual's one point is without cycles: there the other keys follow
   f.number("fatigue_strength_MPa", material.fatigue_strength, Need::required, above(0),
@@ -50,6 +65,17 @@ void describe(Fields& f, Material& material) {
 void check_materials(const std::vector<Material>& materials) {
   Problems problems;
   for (const Material& material : materials) {
+    for (std::size_t i = 0; i < material.wear.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (material.wear[k].against == material.wear[i].against)
+          problems.add(material.where,
+                       fmt::format("wear of '{}' lists '{}' twice", material.name, word(material.wear[i].against)),
+                       "keep one of them");
+    if (!material.wear.empty() && std::none_of(material.wear.begin(), material.wear.end(), [](const WearRate& rate) {
+          return rate.against == Counterface::robot;
+        }))
+      problems.add(material.where, fmt::format("wear of '{}' does not list 'robot'", material.name),
+                   "give its rate against robot, which the other counterfaces fall back to");
     const auto& table = material.strain_life_table;
     if (table.size() == 1)
       problems.add(material.where, fmt::format("strain_life_table of '{}' has one point", material.name),

@@ -3,13 +3,29 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 
 class Fields;
+
+/// What rubs on a hose: a link of the robot, a guide ring, meshes of the cell, the floor, a hose.
+enum class Counterface { robot, ring, cell, floor, dresspack };
+constexpr std::string_view word(Counterface value) {
+  return word_at({"robot", "ring", "cell", "floor", "dresspack"}, value);
+}
+
+/// Archard's wear rate of a pair of materials.
+struct WearRate {
+  Counterface against = Counterface::robot;
+  double rate = 0;    ///< worn volume over normal force times way, in the median [m3/(N m)]
+  double factor = 1;  ///< one standard deviation of its logarithm, as a factor
+  std::string source;
+};
 
 /// One measured point of a strain-life curve.
 struct StrainLifePoint {
@@ -33,13 +49,18 @@ struct Material {
   std::optional<double> relaxation_exponent;          ///< at twice the threshold; absent: 0.085
   std::vector<StrainLifePoint>
       strain_life_table;  ///< instead of sigma_f' to n', for polymers; larger strains first
+  std::vector<WearRate> wear;  ///< of a hose, sleeve or jacket; empty: its abrasion is not evaluated
   Where where;
+
+  /// Whether cycles have a life; else it only wears.
+  bool has_strain_life() const { return fatigue_strength > 0 || !strain_life_table.empty(); }
 };
 
+void describe(Fields& f, WearRate& rate);
 void describe(Fields& f, StrainLifePoint& point);
 void describe(Fields& f, Material& material);
 
-/// Errors: InputError where a table of measured lives does not fall.
+/// Errors: InputError where a table of measured lives does not fall, or wear rates are not one each.
 void check_materials(const std::vector<Material>& materials);
 
 }  // namespace dresslife::pipeline

@@ -53,6 +53,9 @@ std::vector<double> first_failures(const FailureModes& modes, const std::string&
 FirstFailures summary_of(const FailureModes& modes, const std::string& job,
                          std::size_t samples = life_samples);
 
+/// Of log10 lives, in any order.
+LifePercentiles percentiles_of(std::vector<double> log10_lives);
+
 /// Share of samples in which `one` lives longer than `other`; equal lives count half. Precondition: as many
 /// of both.
 double share_outliving(const std::vector<double>& one, const std::vector<double>& other);

@@ -81,7 +81,9 @@ std::string headline(const RankingRow& row) {
     lives += fmt::format("With the uncertain parameters at their medians a first wire breaks after {} .. {} h in 10 .. 90 %. ",
                          printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
   lives += fmt::format("The median of the worst wire is {}.", printed_hours(row.life_hours));
-  text += fmt::format("<p>{}</p>\n", lives) + paragraph(hose_words(row));
+  text += fmt::format("<p>{}</p>\n", lives);
+  for (const UnvalidatedMode& mode : row.unvalidated) text += paragraph(unvalidated_words(mode));
+  if (!row.not_evaluated.empty()) text += paragraph(fmt::format("Not evaluated: {}.", row.not_evaluated));
   if (damaged(row)) text += paragraph(failure_words(row));
   return text;
 }

@@ -185,7 +185,9 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
             ? ""
             : fmt::format("{} ({:.0f} %)<br>", escaped(row.failing_mode), 100 * row.failing_mode_share);
     const std::string unvalidated =
-        row.hose ? fmt::format("<br><span class=\"soft\">{}</span>", escaped(hose_words(row))) : "";
+        row.unvalidated.empty()
+            ? ""
+            : fmt::format("<br><span class=\"soft\">{}</span>", escaped(unvalidated_words(row)));
     const bool planned = !std::isnan(row.glued_hours[0]);
     const auto bounds =
         std::pair(planned ? row.glued_hours[0] : row.hours_of(row.life_repeats_all_stick),
@@ -285,7 +287,7 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "cannot be separated share a rank: one lives longer in fewer than 90 of 100 samples. "
       "Parts inside a cable rub on each other. Glued .. free: the same p10 if they could not slip, and if they slipped "
       "without friction. First wire: by then a first single wire has broken, by the scatter of wires alone, in 10 .. 90 % "
-      "of such dresspacks. The hose's wall is not in these hours: its law has not been compared with a test.</p>\n",
+      "of such dresspacks. Abrasion and the hose's wall are not in these hours: their laws have not been compared with a test.</p>\n",
       ranking_rows(rows, detailed, 0, rows_at_once), more_rows(rows, detailed), matrix,
       chart.empty()
           ? ""
@@ -398,16 +400,20 @@ std::string facts(const RankingRow& row) {
   };
   scatter("first broken wire", row.first_wire_hours);
   scatter("share of a conductor broken anywhere in it", row.conductor_hours);
-  if (row.hose) {
-    const HoseLife& hose = *row.hose;
-    fact("hose's wall, unvalidated",
-         std::isinf(hose.hours)
+  for (const UnvalidatedMode& mode : row.unvalidated) {
+    const std::string of = mode.dresspack.empty() ? "" : " of " + escaped(mode.dresspack);
+    const bool wall = mode.mode == UnvalidatedMode::wall;
+    const std::string life =
+        wall ? fmt::format("{} of motion until it cracks, {}", unvalidated_life(mode.hours[1]), escaped(mode.place))
+             : fmt::format("{} of motion until it is worn through (10 .. 90 %), on {}", range_text(mode.hours[0], mode.hours[2]),
+                           escaped(mode.place));
+    fact(mode.mode + of + ", unvalidated",
+         std::isinf(mode.hours[1])
              ? "not damaged"
-             : fmt::format("{} of motion until it cracks, {}, segment {} from the tool ({:.2f} m){}",
-                           hose_life_words(hose.hours), escaped(hose.component), hose.segment_from_tool,
-                           hose.position_from_tool,
-                           hose.step.empty() ? "" : ", worst during '" + escaped(hose.step) + "'"));
+             : fmt::format("{}, segment {} from the tool ({:.2f} m){}", life, mode.segment_from_tool, mode.position_from_tool,
+                           mode.step.empty() ? "" : ", worst during '" + escaped(mode.step) + "'"));
   }
+  if (!row.not_evaluated.empty()) fact("not evaluated", escaped(row.not_evaluated));
   if (damaged(row)) {
     fact("breaks first",
          escaped(row.worst_component) + (row.worst_shear_range >= least_shear_told

@@ -236,6 +236,8 @@ void add_materials(Node& dresspack, const Node& job, const std::string& path, Pr
   std::vector<const Node*> names;
   if (const Node* components = dresspack.find("components")) collect_materials(*components, names);
   if (const Node* hose = dresspack.find("hose_material")) names.push_back(hose);
+  if (const Node* sleeve = dresspack.find("sleeve"))
+    if (const Node* material = sleeve->find("material")) names.push_back(material);
   if (const Node* fatigue = job.find("fatigue"))
     if (const Node* material = fatigue->find("material")) names.push_back(material);
   std::vector<Node> wanted;

@@ -97,6 +97,32 @@ void check_simulated(const Dresspack& dresspack) {
   problems.finish();
 }
 
+/// Wires and the hose's wall need a life of cycles, a sleeve needs wear rates.
+void check_uses(const Component& part, const Dresspack& dresspack) {
+  const auto lives = [&](const std::string& name) {
+    const Material* const material = find_material(dresspack, name);
+    return !material || material->has_strain_life();
+  };
+  if (is_wire(part) && !lives(part.material))
+    throw InputError(part.where, fmt::format("'{}' is of '{}', which only has wear rates", part.name, part.material),
+                     "name a material with a strain-life curve");
+  for (const Component& inner : part.components) check_uses(inner, dresspack);
+}
+
+void check_uses(const Dresspack& dresspack) {
+  for (const Component& part : dresspack.components) check_uses(part, dresspack);
+  const Material* const hose = find_material(dresspack, dresspack.hose_material);
+  if (hose && !hose->has_strain_life())
+    throw InputError(dresspack.where,
+                     fmt::format("hose_material '{}' only has wear rates (the wall's strain needs a life)", hose->name),
+                     "give it a strain_life_table, or name it in sleeve");
+  if (!dresspack.sleeve) return;
+  const Material* const sleeve = find_material(dresspack, dresspack.sleeve->material);
+  if (sleeve && sleeve->wear.empty())
+    throw InputError(dresspack.sleeve->where, fmt::format("sleeve.material '{}' has no wear rates", sleeve->name),
+                     "give the material the list wear, or leave the sleeve out");
+}
+
 /// Of one dresspack. path: of what holds its keys, "" or "dresspacks[2].". Returns how many levels of parts
 /// it has, where that can be told.
 std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted, const std::string& path,
@@ -118,7 +144,10 @@ std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted
     judge(dresspack + ".components", mounted.dresspack.where,
           [&] { depth = check_dresspack(mounted.dresspack, job.strain.slip); });
   judge(dresspack + ".materials", mounted.dresspack.where,
-        [&] { check_materials(mounted.dresspack.materials); });
+        [&] {
+          check_materials(mounted.dresspack.materials);
+          check_uses(mounted.dresspack);
+        });
   judge(dresspack + ".components", mounted.dresspack.where,
         [&] { refuse_gross_overlap(mounted.dresspack); });  // dresslife-strain warns of less
   return depth;
@@ -153,7 +182,7 @@ void check_dresspacks(const Job& job, const Where& strain, Problems& problems) {
 void check_slopes(const Job& job, const Where& where) {
   for (const MountedDresspack& mounted : job.dresspacks)
     for (const Material& material : mounted.dresspack.materials)
-      if (material.strain_life_table.empty() &&
+      if (material.strain_life_table.empty() && material.has_strain_life() &&
           !(material.fatigue_strength_exponent + job.fatigue.slope_change <= -0.02))
         throw InputError(
             where,

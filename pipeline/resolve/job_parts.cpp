@@ -79,7 +79,10 @@ struct FatigueKeys {
 
 void describe(Fields& echo, FatigueKeys& keys) {
   if (!keys.mounted.name.empty()) echo.text("name", keys.mounted.name, Need::required, "");
-  echo.list("materials", keys.mounted.dresspack.materials, Need::optional, "");
+  Dresspack& dresspack = keys.mounted.dresspack;
+  echo.list("materials", dresspack.materials, Need::optional, "");
+  echo.maybe_group("sleeve", dresspack.sleeve, "");
+  if (!dresspack.core_parts.empty()) echo.text("core_parts", dresspack.core_parts, Need::optional, "");
 }
 
 /// As in the job: the only one's keys stand alone, those of several in a list.
@@ -118,6 +121,8 @@ void describe_sim(Fields& echo, Job copy) {
     dresspack.hose_corrugation.reset();
     dresspack.inner_diameter.reset();
     dresspack.core_diameter = 0;
+    dresspack.core_parts.clear();
+    dresspack.sleeve.reset();
   }
   echo.group("motion", copy.motion, Need::required, "");
   echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());

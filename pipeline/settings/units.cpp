@@ -37,6 +37,7 @@ constexpr std::array units{
     Unit{"Nm2", "N m2", 1, 1e7},  // E I of the same bar
     Unit{"MPa", "MPa", 1e6, 1e7},
     Unit{"GPa", "GPa", 1e9, 1e4},  // diamond: 1e3
+    Unit{"mm3_per_Nm", "mm3/(N m)", 1e-9, 1e3},  // abrasive cloth: 0.1
     Unit{"MB", "MB", 1e6, 1e7},
     Unit{"percent", "%", 1, 1e6},
     Unit{"hours_per_week", "h/week", 1, 168},

@@ -105,16 +105,26 @@ int count_attribute(const LifeRoot& file, const std::string& name) {
   return static_cast<int>(value);
 }
 
-void read_hose(const LifeRoot& file, RankingRow& row) {
+/// Files of before unvalidated_modes tell of the hose's wall alone.
+void read_unvalidated(const LifeRoot& file, RankingRow& row) {
+  if (file.has_attribute("unvalidated_modes")) {
+    try {
+      row.unvalidated = unvalidated_from(file.text_attribute("unvalidated_modes"));
+    } catch (const std::logic_error& problem) {
+      throw InputError(file.where(), fmt::format("attribute 'unvalidated_modes' is no list of modes ({})", problem.what()),
+                       "make the file again with dresslife-fatigue");
+    }
+    row.not_evaluated = file.text_attribute("not_evaluated");
+    return;
+  }
   if (!file.has_attribute("hose_life_hours")) return;
-  HoseLife hose;
-  hose.hours = file.number_attribute("hose_life_hours");
-  hose.months = file.number_attribute("hose_life_months");
-  hose.segment_from_tool = count_attribute(file, "hose_segment_from_tool");
-  hose.position_from_tool = file.number_attribute("hose_position_from_tool");
-  hose.component = file.text_attribute("hose_component");
-  hose.step = file.text_attribute("hose_step");
-  row.hose = hose;
+  UnvalidatedMode& wall = row.unvalidated.emplace_back();
+  wall.mode = UnvalidatedMode::wall;
+  wall.hours[1] = file.number_attribute("hose_life_hours");
+  wall.segment_from_tool = count_attribute(file, "hose_segment_from_tool");
+  wall.position_from_tool = file.number_attribute("hose_position_from_tool");
+  wall.place = file.text_attribute("hose_component");
+  wall.step = file.text_attribute("hose_step");
 }
 
 RankingRow read_row(const JobResult& result) {
@@ -136,7 +146,7 @@ RankingRow read_row(const JobResult& result) {
     row.repeat_seconds = file.number_attribute("repeat_seconds");
     row.damage_per_repeat = file.number_attribute("damage_per_repeat");
     read_scatter(file, row);
-    read_hose(file, row);
+    read_unvalidated(file, row);
     if (file.has_attribute("largest_force_share")) {
       if (const double share = file.number_attribute("largest_force_share"); share > 0)
         row.largest_force_share = share;
@@ -258,7 +268,7 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
   if (row.planned() && std::isfinite(row.first_wire_hours[0]))
     all.push_back(fmt::format("With the uncertain parameters at their medians a first wire breaks after {} (10 .. 90 %).",
                               range_text(row.first_wire_hours[0], row.first_wire_hours[2])));
-  all.push_back(hose_words(row));
+  for (const UnvalidatedMode& mode : row.unvalidated) all.push_back(unvalidated_words(mode));
   if (row.done() && row.relative) all.push_back(relative_words(*row.relative));
   if (row.done()) all.push_back(order_words(row));
   std::erase(all, "");
@@ -274,7 +284,14 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-std::string hose_life_words(double hours) {
+const UnvalidatedMode* RankingRow::unvalidated_mode(std::string_view mode) const {
+  const UnvalidatedMode* first = nullptr;
+  for (const UnvalidatedMode& one : unvalidated)
+    if (one.mode == mode && (!first || one.hours[1] < first->hours[1])) first = &one;
+  return first;
+}
+
+std::string unvalidated_life(double hours) {
   constexpr double beyond_all_plans = 1e6;
   if (std::isinf(hours)) return "not damaged";
   return hours > beyond_all_plans ? "more than " + readable(beyond_all_plans, 1) + " h"

@@ -8,10 +8,12 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/base/warnings.h"
 #include "pipeline/cable/believable.h"
+#include "pipeline/life/unvalidated_modes.h"
 #include "pipeline/study/build_graph.h"
 
 namespace dresslife::pipeline {
@@ -25,14 +27,6 @@ struct JobResult {
   std::vector<Told> told{};  ///< attributes from its receipt; empty: read the file
   bool stale = false;  ///< the file is its last result, of other settings; `failure` says how the job stands
   std::string changed{};  ///< since then
-};
-
-/// The hose's wall of a job, whose life is told beside that of the wires.
-struct HoseLife {
-  double hours = 0, months = 0;   ///< of motion until it cracks; infinite without damage
-  int segment_from_tool = 0;      ///< of its worst place, 1 is nearest to the tool
-  double position_from_tool = 0;  ///< [m]
-  std::string component, step;    ///< "hose 5"; the program line that costs most
 };
 
 /// Of a cable with a rating: what the program does beside its rig (relative_life.h).
@@ -94,7 +88,8 @@ struct RankingRow {
   double worst_shear_range = 0;  ///< of the worst wire's surface; 0: unknown
   std::string worst_joint;  ///< whose motion costs most; "carrying": none between the clamps; empty: unknown
   double worst_joint_share = 0;  ///< of the worst wire's damage; above 1 where other joints relieve
-  std::optional<HoseLife> hose;  ///< absent: not evaluated
+  std::vector<UnvalidatedMode> unvalidated;  ///< modes that are not in the hours above
+  std::string not_evaluated;                 ///< parts and modes without a life; empty: an older file
   /// What the strains ask of the cables: largest force over that at which one tears, and moment of all of
   /// them on the hose at a clamp over the largest that it carries there. Absent: no cable slides, or not
   /// known.
@@ -109,6 +104,8 @@ struct RankingRow {
   std::optional<RelativeLife> relative;  ///< of the rating with the shortest life; absent: no cable has one
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+  /// The unvalidated mode of this name that fails first by its median; null: it was not evaluated.
+  const UnvalidatedMode* unvalidated_mode(std::string_view mode) const;
   bool done() const { return failure.empty(); }
   bool has_result() const { return done() || stale; }
   bool waits() const {
@@ -153,7 +150,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows);
 std::string stale_words(const RankingRow& row);
 
 /// "3,400 h", "more than 1,000,000 h" beyond all plans, "not damaged".
-std::string hose_life_words(double hours);
+std::string unvalidated_life(double hours);
 
 /// "one hour does the damage of 1,200 rated cycles of lead; 5,000,000 rated: 4,200 h (torsion: ..)"
 std::string relative_words(const RelativeLife& relative);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "pipeline/settings/units.h"
 
@@ -32,7 +33,14 @@ RankingColumn where(std::string name, std::string unit, std::string meaning, App
 
 bool always(const RankingRow&) { return true; }
 bool evaluated(const RankingRow& row) { return row.worst_segment_from_tool > 0; }
-bool has_hose(const RankingRow& row) { return row.hose.has_value(); }
+/// Its cells are of an unvalidated mode; of rows without it they are empty.
+template <class Value>
+RankingColumn of_mode(std::string name, std::string unit, std::string meaning, const char* mode, Value value) {
+  return {std::move(name), std::move(unit), std::move(meaning), [=](const RankingRow& row) {
+            const UnvalidatedMode* const found = row.unvalidated_mode(mode);
+            return found ? cell(value(*found)) : std::string();
+          }};
+}
 bool has_rating(const RankingRow& row) { return row.relative.has_value(); }
 
 using Lives = std::array<double, 3>;
@@ -66,6 +74,7 @@ class Table {
               "life_hours_{0} if everything inside the cables slipped without friction",
               [](const RankingRow& row) -> const Lives& { return row.free_hours; });
     add_test();
+    add_abrasion();
   }
   std::vector<RankingColumn> columns;
 
@@ -80,6 +89,23 @@ class Table {
       add(where(fmt::format(fmt::runtime(name), ends[i]), "h",
                 fmt::format(fmt::runtime(meaning), of_end ? ends[i] : shares[i]), always,
                 [lives, i](const RankingRow& row) { return lives(row)[i]; }));
+  }
+
+  void add_abrasion() {
+    constexpr const char* abrasion = UnvalidatedMode::abrasion;
+    for (const auto& [end, share, i] : {std::tuple{"p10", "10", 0u}, std::tuple{"p50", "50", 1u}, std::tuple{"p90", "90", 2u}})
+      add(of_mode(fmt::format("abrasion_life_hours_{}", end), "h",
+                  fmt::format("by then {} % of such dresspacks are worn through by abrasion; not validated", share), abrasion,
+                  [i](const UnvalidatedMode& mode) { return mode.hours[i]; }));
+    add(of_mode("abrasion_first_share", "1", "share of the samples in which abrasion comes before the wires", abrasion,
+                [](const UnvalidatedMode& mode) { return mode.first_share; }));
+    add(of_mode("abrasion_together_hours_p10", "h", "life_hours_p10 if abrasion counted", abrasion,
+                [](const UnvalidatedMode& mode) { return mode.together_p10; }));
+    add(of_mode("abrasion_on", "text", "what rubs: a link, ring, floor, dresspack or cell", abrasion,
+                [](const UnvalidatedMode& mode) { return mode.place; }));
+    add(of_mode("abrasion_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", abrasion,
+                [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
+    add(of("not_evaluated", "text", "parts of the dresspack and failure modes without a life", &RankingRow::not_evaluated));
   }
 
   void add_worst_wire() {
@@ -113,12 +139,13 @@ class Table {
   }
 
   void add_hose_and_causes() {
-    add(where("hose_life_hours", "h", "hours of motion until the hose's wall cracks; not validated", has_hose,
-              [](const RankingRow& row) { return row.hose->hours; }));
-    add(where("hose_segment_from_tool", "1", "segment of the wall's worst place, 1 is nearest to the tool",
-              has_hose, [](const RankingRow& row) { return row.hose->segment_from_tool; }));
-    add(where("hose_position_from_tool_m", "m", "the same along the dresspack, from the tool clamp", has_hose,
-              [](const RankingRow& row) { return row.hose->position_from_tool; }));
+    constexpr const char* wall = UnvalidatedMode::wall;
+    add(of_mode("hose_life_hours", "h", "hours of motion until the hose's wall cracks; not validated", wall,
+                [](const UnvalidatedMode& mode) { return mode.hours[1]; }));
+    add(of_mode("hose_segment_from_tool", "1", "segment of the wall's worst place, 1 is nearest to the tool", wall,
+                [](const UnvalidatedMode& mode) { return mode.segment_from_tool; }));
+    add(of_mode("hose_position_from_tool_m", "m", "the same along the dresspack, from the tool clamp", wall,
+                [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
     add(of("worst_joint", "text",
            "joint whose motion damages the worst wire most; carrying: motion of the dresspack as a whole",
            &RankingRow::worst_joint));

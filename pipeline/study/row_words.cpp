@@ -56,6 +56,18 @@ std::string joined_words(const std::vector<std::string>& sentences) {
 
 }  // namespace
 
+namespace {
+
+/// Where abrasion may come before these hours.
+std::string abrasion_action(const RankingRow& row, double hours) {
+  const UnvalidatedMode* const mode = row.unvalidated_mode(UnvalidatedMode::abrasion);
+  if (!mode || !(mode->hours[0] < hours)) return "";
+  return fmt::format("Abrasion on {}, {:.2f} m from the tool, may wear the dresspack through after {} (not validated).", mode->place,
+                     mode->position_from_tool, range_text(mode->hours[0], mode->hours[2]));
+}
+
+}  // namespace
+
 std::string range_text(double low_hours, double high_hours) {
   if (std::isinf(low_hours)) return "no damage";
   if (std::isinf(high_hours)) return hours_text(low_hours) + " .. no damage";
@@ -97,10 +109,11 @@ std::string action_words(const RankingRow& row) {
     return row.planned() ? "No replacement is foreseen: in more than 90 % of the samples no mode fails."
                          : "No replacement is foreseen: no wire is damaged.";
   if (outlives_robot(row, hours))
-    return fmt::format("The evaluated parts last longer than the robot ({} h). What is not evaluated, such as wear, kinks and "
-                       "connectors, ends the dresspack earlier.",
-                       readable(row.robot_life_hours));
-  return fmt::format("Plan a replacement after {} ({}).", hours_text(hours), calendar_text(row.headline_months()));
+    return joined_words({fmt::format("The evaluated parts last longer than the robot ({} h).", readable(row.robot_life_hours)),
+                         abrasion_action(row, row.robot_life_hours),
+                         row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
+  return joined_words({fmt::format("Plan a replacement after {} ({}).", hours_text(hours), calendar_text(row.headline_months())),
+                       abrasion_action(row, hours)});
 }
 
 std::string uncertainty_words(const RankingRow& row) { return joined_words({cause_words(row), test_words(row)}); }
@@ -128,12 +141,26 @@ std::string joint_words(const RankingRow& row) {
                      carried ? "the hose sagging and swinging, not from one axis" : row.worst_joint);
 }
 
-std::string hose_words(const RankingRow& row) {
-  if (!row.hose) return "";
-  return std::isinf(row.hose->hours)
-             ? "The life of the hose's wall is not validated and not in the hours above. By the model it is not damaged."
-             : fmt::format("The life of the hose's wall is not validated and not in the hours above. By the model it is {}.",
-                           hose_life_words(row.hose->hours));
+std::string unvalidated_words(const UnvalidatedMode& mode) {
+  const std::string of = mode.dresspack.empty() ? "" : " of " + mode.dresspack;
+  if (mode.mode == UnvalidatedMode::wall)
+    return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.", of,
+                       unvalidated_life(mode.hours[1]));
+  if (mode.place.empty()) return fmt::format("Abrasion{}: nothing rubs on the dresspack.", of);
+  std::string text = fmt::format("Abrasion{} is not validated and not in the hours above. By the model it wears through after {} "
+                                 "(10 .. 90 %), on {}, {:.2f} m from the tool, most at {:.1f} s{}.",
+                                 of, range_text(mode.hours[0], mode.hours[2]), mode.place, mode.position_from_tool, mode.time,
+                                 mode.step.empty() ? "" : ", during '" + mode.step + "'");
+  if (mode.first_share >= 0.01)
+    text += fmt::format(" It comes before the wires in {:.0f} % of the samples; with it 1 of 10 has failed after {}.",
+                        100 * mode.first_share, hours_text(mode.together_p10));
+  return text;
+}
+
+std::string unvalidated_words(const RankingRow& row) {
+  std::vector<std::string> all;
+  for (const UnvalidatedMode& mode : row.unvalidated) all.push_back(unvalidated_words(mode));
+  return joined_words(all);
 }
 
 std::string repeat_words(const RankingRow& row) {

@@ -32,8 +32,10 @@ std::string failure_words(const RankingRow& row);
 /// "96 % of the damage comes from joint_6", and what that means of "carrying". Empty: not known.
 std::string joint_words(const RankingRow& row);
 
-/// "The life of the hose's wall is not validated .. By the model it is 3,400 h." Empty: it was not evaluated.
-std::string hose_words(const RankingRow& row);
+/// "The life of the hose's wall is not validated .. By the model it is 3,400 h."; of abrasion also what rubs where and when.
+std::string unvalidated_words(const UnvalidatedMode& mode);
+/// Of all modes of a row. Empty: none was evaluated.
+std::string unvalidated_words(const RankingRow& row);
 
 /// "One repeat of the motion takes 13.8 s: 1 of 10 has failed after 108,000 repeats." Empty: none foreseen in the robot's life.
 std::string repeat_words(const RankingRow& row);

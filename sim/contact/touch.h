@@ -24,6 +24,7 @@ class Touch {
   void begin_sample();
 
   const std::vector<std::string>& obstacles() const { return obstacles_; }
+  size_t column(int obstacle) const;  ///< of Contact::obstacle in obstacles()
   // Of the whole motion:
   const std::vector<double>& work() const { return work_; }  ///< (segment, obstacle) [J]
   const std::vector<double>& largest_force() const {
@@ -40,7 +41,6 @@ class Touch {
 
  private:
   void add_segment(int segment, const Contact& contact, double work);
-  size_t column(int obstacle) const;
 
   size_t links_;
   std::vector<std::string> obstacles_;

@@ -11,7 +11,7 @@ pipeline::MemoryNeed memory_of(const Simulation& simulation) {
   constexpr double program =
       24 << 20;  // itself, its libraries, the catalogue, robot and world of a small job
   constexpr double of_a_segment =
-      40'000;  // bodies, shapes and contacts, blocks of the solve, and the same at half the step
+      50'000;  // bodies, shapes and contacts, blocks of the solve, and the same at half the step; the rubbed surface
   const RunDescription& run = simulation.description();
   const pipeline::Simulation& settings = simulation.setup().simulation;
   const double steps = simulation.path().duration() / settings.time_step;

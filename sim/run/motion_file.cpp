@@ -77,6 +77,7 @@ void MotionFile::finish(const RunSummary& summary, const std::function<int(doubl
   add_extremes("/check/tension", summary.tension);
   add_checks(summary.checks, step_at);
   add_touch_of_motion();
+  add_rubbed(summary);
 }
 
 void MotionFile::add_extremes(const std::string& group, const std::vector<Extreme>& extremes) {
@@ -127,6 +128,25 @@ void MotionFile::add_touch_of_motion() {
   file_.append("/contact/work", std::span<const double>(work_));
   file_.append("/contact/largest_force", std::span<const double>(largest_force_));
   file_.dataset_attribute("/contact/work", "obstacles", fmt::format("{}", fmt::join(obstacles_, ",")));
+}
+
+void MotionFile::add_rubbed(const RunSummary& summary) {
+  if (summary.obstacles.empty()) return;  // a prescribed deformation touches nothing
+  std::vector<std::int32_t> dresspack;
+  std::vector<double> place, work, time;
+  std::vector<std::string> obstacle;
+  for (const RubbedPatch& patch : summary.rubbed) {
+    dresspack.push_back(patch.dresspack);
+    place.insert(place.end(), {patch.position, patch.length, patch.angle, patch.width});
+    obstacle.push_back(summary.obstacles[patch.obstacle]);
+    work.push_back(patch.work);
+    time.push_back(patch.time);
+  }
+  file_.append("/rubbing/dresspack", std::span<const std::int32_t>(dresspack));
+  file_.append("/rubbing/place", std::span<const double>(place));
+  file_.append("/rubbing/obstacle", std::span<const std::string>(obstacle));
+  file_.append("/rubbing/work", std::span<const double>(work));
+  file_.append("/rubbing/time", std::span<const double>(time));
 }
 
 void MotionFile::add_robot(const Pose& pose) {

@@ -24,6 +24,7 @@ class MotionFile {
   void add_robot(const Pose& pose);
   void add_touch(const Touch& touch);
   void add_touch_of_motion();
+  void add_rubbed(const RunSummary& summary);
   void add_extremes(const std::string& group, const std::vector<Extreme>& extremes);
   void add_checks(const std::vector<Check>& checks, const std::function<int(double)>& step_at);
 

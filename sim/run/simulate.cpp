@@ -167,6 +167,8 @@ struct Simulation::Repeat {
             step, (s.description_.samples - 1) * s.steps_per_sample(step)) {}
   MotionChecks checks;
   StepError error;
+  std::vector<RubbedPatch> rubbed;
+  std::vector<std::string> obstacles;
 };
 
 // (R8) What a repeat forgets need not be exact: the first one of a motion that returns only leads into the
@@ -229,6 +231,8 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
     summary.twist = repeat.checks.twist();
     summary.tension = repeat.checks.tension();
     summary.checks = repeat.checks.table();
+    summary.rubbed = std::move(repeat.rubbed);
+    summary.obstacles = std::move(repeat.obstacles);
     return summary;
   }
 }
@@ -249,6 +253,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
   std::vector<double> tension(rod_.segments());
   StepReport since;
   Touch touch(rod_.segments(), description_.link_names, static_cast<int>(pose.rings.size()));
+  Rubbing rubbing(rod_);
   const auto hand_over = [&](int sample) {
     const double time = sample / setup_.simulation.sample_rate;
     const RodState& state = world.state();
@@ -262,6 +267,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
                 since.touching, since.max_depth, checks.net_twist(), touch});
     since = {};
     touch.begin_sample();
+    rubbing.end_sample(time);
     if (sinks.progress) sinks.progress((sample + 1.0) / description_.samples);
   };
   const auto ways = [&] {
@@ -280,6 +286,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
       check_step(report, time);
       checks.see(world.state(), world.contacts(), time, ways());
       touch.add(world.contacts(), step);
+      rubbing.add(world.contacts(), world.state(), step);
       repeat.error.see(count, world.state());
       since.touching = std::max(since.touching, report.touching);
       since.max_depth = std::max(since.max_depth, report.max_depth);
@@ -287,6 +294,8 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
     check_taut(world.state(), sample / setup_.simulation.sample_rate);
     hand_over(sample);
   }
+  repeat.rubbed = rubbing.patches(touch);
+  repeat.obstacles = touch.obstacles();
 }
 
 std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary) {

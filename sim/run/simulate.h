@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipeline/job/setup.h"
+#include "sim/contact/rubbing.h"
 #include "sim/contact/touch.h"
 #include "sim/contact/world.h"
 #include "sim/run/checks.h"
@@ -68,6 +69,8 @@ struct RunSummary {
   double curvature_error = 0;
   std::vector<Extreme> curvature, twist, tension;  ///< (link) of the last repeat, as in MotionChecks
   std::vector<Check> checks;                       ///< of the last repeat
+  std::vector<RubbedPatch> rubbed;                 ///< of the last repeat
+  std::vector<std::string> obstacles;              ///< of RubbedPatch::obstacle
 };
 
 /// What of a run a person should look at: skipped lines of its program, repeats that do not become alike, and

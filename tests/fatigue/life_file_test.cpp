@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -15,6 +16,7 @@
 #include "fatigue/verdict.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/life_response.h"
+#include "pipeline/life/unvalidated_modes.h"
 #include "tests/catch.h"
 #include "tests/fatigue/materials.h"
 #include "tests/fatigue/wire_lives.h"
@@ -57,6 +59,10 @@ struct StrainFile {
     std::vector<float> strain, shear;  // (sample)
   };
   std::vector<Fibre> fibres;  // whose planes are judged
+  struct Rubbed {
+    double position, work, time;  // [m], [J], [s]
+  };
+  std::vector<Rubbed> rubbed;  // by link_4, 5 mm long, in one sector of 5 degrees; empty: no table
 };
 
 /// 0, a, -a, 0 at samples 0, 20, 60, 100: one closed cycle of amplitude a.
@@ -128,6 +134,13 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
     file.append("/plane/site", std::span<const std::uint32_t>(&fibre.site, 1));
     file.append("/plane/strain", std::span<const float>(fibre.strain));
     file.append("/plane/shear", std::span<const float>(fibre.shear));
+  }
+  for (const StrainFile::Rubbed& rubbed : f.rubbed) {
+    file.append("/rubbing/dresspack", std::vector<std::int32_t>{0});
+    file.append("/rubbing/place", std::vector<double>{rubbed.position, 5e-3, 1, std::numbers::pi / 36});
+    file.append("/rubbing/obstacle", std::vector<std::string>{"link_4"});
+    file.append("/rubbing/work", std::vector<double>{rubbed.work});
+    file.append("/rubbing/time", std::vector<double>{rubbed.time});
   }
   file.attribute("job", "made by a test");
   file.attribute("history", "");
@@ -816,4 +829,54 @@ TEST_CASE("uncertainty: the response is what the stage tells with the keys that 
   lasting.fatigue.model_factor = 3;
   const FileReader longer(run(folder, example(), lasting, "longer.h5").file, pipeline::life_format());
   CHECK(longer.number_attribute("life_repeats") == Approx(3 * life).epsilon(1e-4));
+}
+
+TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time and the share in which it is first") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;
+  dresspack.diameter = 0.05;
+  StrainFile f = example();
+  const auto modes_of = [](const FileReader& life) {
+    return pipeline::unvalidated_from(life.text_attribute("unvalidated_modes"));
+  };
+  const auto names_in = [](const FileReader& life) { return life.text_attribute("not_evaluated"); };
+  {  // neither a thickness nor contacts
+    const FileReader none(run(folder, f, job, "none.h5").file, pipeline::life_format());
+    CHECK(modes_of(none).empty());
+    CHECK(names_in(none) == "abrasion, jackets of the cables, kinks, clamps, connectors");
+  }
+  pipeline::Material polymer;
+  polymer.name = "polymer";
+  polymer.wear = {{pipeline::Counterface::robot, 1e-14, 5, "test"}};
+  dresspack.materials.push_back(polymer);
+  dresspack.sleeve = pipeline::Sleeve{2e-3, "polymer", {}};
+  dresspack.core_parts = "water hose";
+  f.rubbed = {{0.65, 1e4, 20}, {0.15, 10, 30}};
+  const Result result = run(folder, f, job, "worn.h5");
+  const FileReader life(result.file, pipeline::life_format());
+  const auto modes = modes_of(life);
+  REQUIRE(modes.size() == 1);
+  CHECK(names_in(life) == "water hose, jackets of the cables, kinks, clamps, connectors");
+  CHECK(modes[0].place == "link_4");
+  CHECK(modes[0].position_from_tool == Approx(0.35));
+  CHECK(modes[0].segment_from_tool == 1);  // the last of 0.4 m
+  CHECK(modes[0].time == 20);
+  CHECK(modes[0].step == "weld");
+  // A(t, 0) d / (k N s): the patch is shorter than the footprint of one diameter
+  const double area = 4.0 / 3 * 2e-3 * std::sqrt(2 * 0.025 * 2e-3), repeats = area * 0.05 / (1e-14 * 1e4);
+  constexpr double six_figures = 1e-5, strata = 1e-3;  // of the text; 10,000 samples
+  CHECK(modes[0].hours[1] == Approx(hours(repeats, duration)).epsilon(strata));
+  const double spread = std::hypot(std::log10(5.0), 1.5 * std::log10(1.1));
+  CHECK(std::log10(modes[0].hours[2] / modes[0].hours[0]) == Approx(2 * 1.28155 * spread).epsilon(strata));
+  // It shares nothing with the wires: the share in which it is first, and p10 of both, follow from two normal lives.
+  CHECK(modes[0].first_share >= 0);
+  CHECK(modes[0].first_share <= 1);
+  CHECK(modes[0].together_p10 <= life.number_attribute("life_hours_p10") * (1 + six_figures));
+  CHECK(modes[0].together_p10 <= modes[0].hours[0] * (1 + six_figures));
+  CHECK_THAT(result.notes.summary, Catch::Contains("; the surface lasts "));
+
+  f.rubbed[1] = {-0.15, 10, 30};
+  CHECK_THROWS_WITH(run(folder, f, job, "damaged.h5"),
+                    Catch::Contains("/rubbing: row 2 is no patch of a dresspack; make the file again with dresslife-strain"));
 }

@@ -609,17 +609,17 @@ TEST_CASE("the same cables come out in blocks of any size") {
 }
 
 TEST_CASE(
-    "cables that differ in friction along the hose rest at shared places, and get what they get alone") {
-  const auto hose = [](double friction, double slack) {
+    "cables that differ in pressure along the hose rest at shared places, and get what they get alone") {
+  const auto hose = [](double load, double slack) {
     Dresspack dresspack = thesis_hose();
     dresspack.components[0].laying.slack = slack;
-    dresspack.components[0].friction = friction;
-    dresspack.components[0].radial_line_load = 5;
+    dresspack.components[0].friction = 0.3;
+    dresspack.components[0].radial_line_load = load;
     return dresspack;
   };
-  const Run alone[] = {{hose(0.3, 0.5), Slip::friction, 20, 20},
-                       {hose(0.6, 0.5), Slip::friction, 20, 20},
-                       {hose(0.3, 0.6), Slip::friction, 20, 20}};
+  const Run alone[] = {{hose(5, 0.5), Slip::friction, 20, 20},
+                       {hose(10, 0.5), Slip::friction, 20, 20},
+                       {hose(5, 0.6), Slip::friction, 20, 20}};
   std::list<CablePaths> paths;
   std::vector<CablePaths*> all;
   for (const Run& run : alone) {

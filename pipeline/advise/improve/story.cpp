@@ -103,7 +103,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   if (story.longer_in) text += fmt::format("; it lives longer in {:.0f} of 100 samples", 100 * *story.longer_in);
   text += "\n";
   if (const RankingRow* const row = finals.worst_row(best))
-    for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row), hose_words(*row)})
+    for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row), unvalidated_words(*row)})
       text += words + (words.empty() ? "" : "\n");
   text += change_lines(found.trials[best.trial]) + tolerance_words(story.nudges, off) + other_words(finals);
   if (best.hours <= finals.of.front().hours && was.feasible())

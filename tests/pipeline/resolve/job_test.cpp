@@ -307,6 +307,29 @@ TEST_CASE("job: joints that follow and external axes") {
   refused(edited(following, "ratio: -1", "ratio: -1, lower_deg: 3"), "unknown key");
 }
 
+TEST_CASE("job: a sleeve has a material with wear rates, which wires and the hose's wall cannot be of") {
+  const auto with = [&](const std::string& keys) {
+    return edited(sample_job, "  damping_source: guessed\n", "  damping_source: guessed\n" + keys);
+  };
+  const std::string sleeve = "  sleeve: {thickness_mm: 2, material: polyurethane}\n";
+  const Job job = job_of_text(with(sleeve));
+  const Dresspack& dresspack = job.dresspacks[0].dresspack;
+  REQUIRE(find_material(dresspack, "polyurethane"));
+  CHECK(find_material(dresspack, "polyurethane")->wear[0].rate == Approx(3e-14));  // 3e-5 mm3/(N m)
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
+  const Job other = job_of_text(with("  sleeve: {thickness_mm: 3, material: polyurethane}\n"));
+  CHECK(part_text(job, Part::sim) == part_text(other, Part::sim));
+  CHECK(part_text(job, Part::strain) == part_text(other, Part::strain));
+  CHECK(part_text(job, Part::fatigue) != part_text(other, Part::fatigue));
+  const auto refused = [&](const std::string& keys, const std::string& words, const std::vector<std::string>& sets = {}) {
+    CHECK_THAT(message_of([&] { job_of_text(with(keys), sets); }), Catch::Contains(words));
+  };
+  refused("  sleeve: {thickness_mm: 2, material: copper}\n", "sleeve.material 'copper' has no wear rates; give the material");
+  refused("  hose_material: polyurethane\n  inner_diameter_mm: 53\n",
+          "hose_material 'polyurethane' only has wear rates (the wall's strain needs a life)");
+  refused("  sleeve: {thickness_mm: 0, material: polyurethane}\n", "thickness_mm");
+}
+
 TEST_CASE("job: the hose's wall has a material of its own and a factor or a profile") {
   const auto with = [&](const std::string& keys) {
     return edited(sample_job, "  damping_source: guessed\n",

@@ -1,0 +1,189 @@
+#include "fatigue/wear.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace dresslife::fatigue {
+namespace {
+
+using pipeline::Counterface;
+
+constexpr double on_links = 1, at_rings = 0.25;  // footprint over diameter
+
+bool is_ring(const std::string& obstacle) { return obstacle.starts_with("ring "); }
+
+Counterface counterface(const std::string& obstacle) {
+  if (is_ring(obstacle)) return Counterface::ring;
+  for (const Counterface one : {Counterface::floor, Counterface::dresspack, Counterface::cell})
+    if (obstacle == word(one)) return one;
+  return Counterface::robot;
+}
+
+/// What one obstacle wears off a dresspack per repeat.
+struct Field {
+  std::vector<double> area;     ///< (cell, sector) per length [m2]
+  std::vector<double> volume;   ///< (cell) where it was rubbed [m3]
+  std::vector<double> largest;  ///< (cell) of it by one patch [m3]
+  std::vector<double> time;     ///< (cell) of that patch [s]
+};
+
+/// Cells of equal length along a dresspack, sectors of equal width around it.
+struct Grid {
+  double length = 0, width = 0;
+  std::size_t cells = 0, sectors = 0;
+
+  /// least: it is at least so long [m].
+  Grid(const std::vector<RubbedPatch>& patches, double least) {
+    double end = least;
+    length = std::numeric_limits<double>::infinity();
+    for (const RubbedPatch& patch : patches) {
+      length = std::min(length, patch.length);
+      end = std::max(end, patch.position + patch.length / 2);
+    }
+    width = patches[0].width;
+    cells = static_cast<std::size_t>(end / length) + 1;
+    sectors = static_cast<std::size_t>(std::lround(2 * std::numbers::pi / width));
+  }
+  std::size_t at(std::size_t cell, std::size_t sector) const { return cell * sectors + sector % sectors; }
+
+  /// Cells of different lengths share their work with those that they overlap.
+  void add(Field& field, const RubbedPatch& patch, double rate) const {
+    field.area.resize(cells * sectors);
+    for (std::vector<double>* of : {&field.volume, &field.largest, &field.time}) of->resize(cells);
+    const auto sector = static_cast<std::size_t>(patch.angle / width);
+    const double from = (patch.position - patch.length / 2) / length, to = from + patch.length / length;
+    for (auto cell = static_cast<std::size_t>(std::max(0.0, from));
+         cell < cells && static_cast<double>(cell) < to; ++cell) {
+      const auto begin = static_cast<double>(cell);
+      const double share = (std::min(to, begin + 1) - std::max(from, begin)) / (to - from);
+      const double volume = rate * patch.work * share;
+      field.area[at(cell, sector)] += volume / length;
+      field.volume[cell] += volume;
+      if (volume > field.largest[cell]) field.largest[cell] = volume, field.time[cell] = patch.time;
+    }
+  }
+  std::size_t cells_of(double footprint) const {
+    return std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(footprint / length)), 1, cells);
+  }
+  /// The first of so many cells about one.
+  std::size_t first_of(std::size_t wide, std::size_t cell) const {
+    return std::min(cell - std::min(cell, wide / 2), cells - wide);
+  }
+  /// Means along the hose.
+  void spread(Field& field, std::size_t wide) const {
+    std::vector<double> sum(cells + 1);
+    for (std::size_t sector = 0; sector < sectors; ++sector) {
+      for (std::size_t cell = 0; cell < cells; ++cell)
+        sum[cell + 1] = sum[cell] + field.area[at(cell, sector)];
+      for (std::size_t cell = 0; cell < cells; ++cell) {
+        const std::size_t first = first_of(wide, cell);
+        field.area[at(cell, sector)] =
+            std::max(0.0, sum[first + wide] - sum[first]) / static_cast<double>(wide);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+double WornLayer::area(double depth, double arc) const {
+  constexpr double cap = 4.0 / 3;
+  if (crest == 0) return depth * (arc + cap * std::sqrt(2 * radius * depth));
+  return depth *
+         (std::numbers::pi * depth * std::sqrt(radius * crest) + cap * arc * std::sqrt(2 * crest * depth)) /
+         pitch;
+}
+
+double WornLayer::depth(double area, double arc) const {
+  double low = 0, high = radius;
+  for (int k = 0; k < 60; ++k) {  // down to rounding
+    const double middle = (low + high) / 2;
+    (this->area(middle, arc) < area ? low : high) = middle;
+  }
+  return high;
+}
+
+std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack) {
+  WornMaterial worn{};
+  worn.layer.radius = dresspack.diameter / 2;
+  if (dresspack.sleeve) {
+    worn.layer.thickness = dresspack.sleeve->thickness;
+    worn.material = find_material(dresspack, dresspack.sleeve->material);
+  } else if (dresspack.hose_corrugation) {
+    worn.layer.thickness = dresspack.hose_corrugation->wall;
+    worn.layer.pitch = dresspack.hose_corrugation->pitch;
+    worn.layer.crest = worn.layer.pitch / 4;
+    worn.material = find_material(dresspack, dresspack.hose_material);
+  }
+  if (!worn.material || worn.material->wear.empty()) return {};
+  return worn;
+}
+
+const pipeline::WearRate& wear_rate(const pipeline::Material& material, const std::string& obstacle) {
+  const auto of = [&](Counterface against) {
+    return std::find_if(material.wear.begin(), material.wear.end(),
+                        [&](const pipeline::WearRate& rate) { return rate.against == against; });
+  };
+  const auto found = of(counterface(obstacle));
+  return found != material.wear.end() ? *found : *of(Counterface::robot);
+}
+
+Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patches) {
+  Abrasion worst;
+  worst.repeats = std::numeric_limits<double>::infinity();
+  if (patches.empty()) return worst;
+  const WornLayer& layer = worn.layer;
+  const Grid grid(patches, 2 * layer.radius);
+  const auto footprint = [&](const std::string& obstacle) {
+    return grid.cells_of((is_ring(obstacle) ? at_rings : on_links) * 2 * layer.radius);
+  };
+  std::map<std::string, Field> fields;
+  for (const RubbedPatch& patch : patches)
+    grid.add(fields[patch.obstacle], patch, wear_rate(*worn.material, patch.obstacle).rate);
+  std::vector<double> all(grid.cells * grid.sectors);
+  for (auto& [obstacle, field] : fields) {
+    grid.spread(field, footprint(obstacle));
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] += field.area[k];
+  }
+  std::vector<double> arc, through;  // (sectors of an arc, less one)
+  for (std::size_t count = 0; count < grid.sectors; ++count) {
+    arc.push_back(static_cast<double>(count) * grid.width * layer.radius);
+    through.push_back(layer.area(layer.thickness, arc.back()));
+  }
+  std::size_t worst_cell = 0, worst_arc = 0;
+  for (std::size_t cell = 0; cell < grid.cells; ++cell)
+    for (std::size_t first = 0; first < grid.sectors; ++first) {
+      double area = 0;
+      if (all[grid.at(cell, first)] == 0) continue;  // a narrower arc has as much
+      for (std::size_t count = 0; count < grid.sectors; ++count) {
+        area += all[grid.at(cell, first + count)];
+        if (through[count] < worst.repeats * area)
+          worst.repeats = through[count] / area, worst_cell = cell, worst_arc = count;
+      }
+    }
+  double most = 0;
+  for (const auto& [obstacle, field] : fields) {
+    const std::size_t wide = footprint(obstacle), first = grid.first_of(wide, worst_cell);
+    const auto begin = field.volume.begin() + static_cast<std::ptrdiff_t>(first),
+               end = begin + static_cast<std::ptrdiff_t>(wide);
+    double volume = 0, moment = 0;
+    for (auto cell = begin; cell < end; ++cell)
+      volume += *cell, moment += *cell * static_cast<double>(cell - field.volume.begin());
+    const double area = volume / static_cast<double>(wide);
+    if (area <= most) continue;
+    most = area;
+    worst.obstacle = obstacle;
+    worst.position = (moment / volume + 0.5) * grid.length;
+    worst.time = field.time[static_cast<std::size_t>(std::max_element(begin, end) - field.volume.begin())];
+  }
+  // The area goes with a power of the thickness, which is nearly the same within its spread.
+  const double power = std::log2(layer.area(layer.thickness * 2, arc[worst_arc]) / through[worst_arc]);
+  worst.log10_spread =
+      std::hypot(std::log10(wear_rate(*worn.material, worst.obstacle).factor), power * thickness_spread);
+  return worst;
+}
+
+}  // namespace dresslife::fatigue

@@ -1,0 +1,60 @@
+#include "pipeline/life/unvalidated_modes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+namespace dresslife::pipeline {
+namespace {
+
+/// Program lines may hold anything.
+std::string in_a_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char letter) { return letter == '\t' || letter == '\n'; }, ' ');
+  return text;
+}
+
+double number_of(const std::string& word) {
+  std::size_t used = 0;
+  const double number = std::stod(word, &used);
+  if (used != word.size()) throw std::invalid_argument("not a number");
+  return number;
+}
+
+}  // namespace
+
+std::string unvalidated_text(const std::vector<UnvalidatedMode>& modes) {
+  std::string text;
+  for (const UnvalidatedMode& m : modes)
+    text +=
+        fmt::format("{}\t{}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.6g}\t{}\n", m.mode,
+                    in_a_line(m.dresspack), m.hours[0], m.hours[1], m.hours[2], m.first_share, m.together_p10,
+                    m.segment_from_tool, m.position_from_tool, in_a_line(m.place), m.time, in_a_line(m.step));
+  return text;
+}
+
+std::vector<UnvalidatedMode> unvalidated_from(const std::string& text) {
+  std::vector<UnvalidatedMode> modes;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> words;
+    std::istringstream values(line);
+    for (std::string word; std::getline(values, word, '\t');) words.push_back(word);
+    if (words.size() == 11) words.emplace_back();  // no program line
+    if (words.size() < 12) throw std::invalid_argument("a mode without all of its values");
+    UnvalidatedMode& mode = modes.emplace_back();
+    mode.mode = words[0], mode.dresspack = words[1];
+    for (std::size_t i = 0; i < 3; ++i) mode.hours[i] = number_of(words[2 + i]);
+    mode.first_share = number_of(words[5]), mode.together_p10 = number_of(words[6]);
+    mode.segment_from_tool = static_cast<int>(std::clamp(number_of(words[7]), 0.0, 1e9));
+    mode.position_from_tool = number_of(words[8]);
+    mode.place = words[9];
+    mode.time = number_of(words[10]);
+    mode.step = words[11];
+  }
+  return modes;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,37 @@
+// Failure modes whose law has not been compared with a published test: their lives stand beside those of the
+// wires and are not in the planner's hours.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace dresslife::pipeline {
+
+struct UnvalidatedMode {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  static constexpr const char* wall = "hose's wall";
+  static constexpr const char* abrasion = "abrasion";
+
+  std::string mode;       ///< one of the above
+  std::string dresspack;  ///< in which, among several; empty: the only one
+  /// By then it has failed in 10, 50, 90 % of such dresspacks [h]; infinite: never. Of the wall only the median.
+  std::array<double, 3> hours{unknown, unknown, unknown};
+  double first_share = unknown;   ///< of the samples in which it fails before any validated mode
+  double together_p10 = unknown;  ///< the planner's hours if this mode counted, too [h]
+  int segment_from_tool = 0;      ///< of its worst place, 1 is nearest to the tool; 0: not known
+  double position_from_tool = 0;  ///< [m]
+  std::string place;              ///< what rubs: "link_4"; of the wall the place around it: "hose 5"
+  double time = 0;                ///< when it is loaded most [s]
+  std::string step;               ///< program line that runs then; empty: none
+
+  bool operator==(const UnvalidatedMode&) const = default;
+};
+
+/// For an attribute: a line each, with tabs between the values in the order above.
+std::string unvalidated_text(const std::vector<UnvalidatedMode>& modes);
+/// And back. Errors: std::invalid_argument for a line that is none.
+std::vector<UnvalidatedMode> unvalidated_from(const std::string& text);
+
+}  // namespace dresslife::pipeline
