@@ -146,7 +146,7 @@ bool is_program_file(const fs::path& file) {
   std::string end = file.extension();
   std::transform(end.begin(), end.end(), end.begin(),
                  [](unsigned char letter) { return std::tolower(letter); });
-  static const std::set<std::string> ends{".mod", ".modx", ".prg", ".pgf", ".src", ".ls", ".csv"};
+  static const std::set<std::string> ends{".mod", ".modx", ".prg", ".pgf", ".src", ".ls", ".jbi", ".script", ".urscript", ".csv"};
   return ends.contains(end) && is_file(file);
 }
 

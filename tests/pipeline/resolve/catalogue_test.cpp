@@ -73,6 +73,11 @@ TEST_CASE("catalogue: a robot's program may stand where a motion is named") {
   scratch.write("jobs/nod.csv", "t_s,joint_1_deg,joint_2_deg\n0,0,0\n1,10,5\n");
   const auto job = scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: nod.csv\n"));
   CHECK(read_job(job).motion.program == scratch / "jobs/nod.csv");
+  for (const char* program : {"nod.mod", "nod.modx", "nod.prg", "nod.pgf", "nod.src", "nod.ls", "nod.JBI", "nod.script", "nod.urscript"}) {
+    scratch.write(std::string("jobs/") + program, "");  // a program is read by the simulation, not here
+    scratch.write("jobs/job.yaml", edited(sample_job, motion_block, std::string("motion: ") + program + "\n"));
+    CHECK(read_job(job).motion.program == scratch / "jobs" / program);
+  }
   scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: nid.csv\n"));
   CHECK(message_of([&] { read_job(job); })
             .find("'nid.csv' is not in the catalogue (config/programs), and there is no file '" +
