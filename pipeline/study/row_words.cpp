@@ -75,7 +75,9 @@ std::string range_text(double low_hours, double high_hours) {
 }
 
 std::string shown_life(const RankingRow& row, double hours) {
-  return outlives_robot(row, hours) ? "over " + readable(row.robot_life_hours) : life_text(hours);
+  // Where some of the samples fail, one without damage is one that lasts longer than the robot.
+  const bool longer = std::isfinite(row.headline_hours()) && hours > row.robot_life_hours;
+  return longer || outlives_robot(row, hours) ? "over " + readable(row.robot_life_hours) : life_text(hours);
 }
 
 std::string shown_range(const RankingRow& row, double low_hours, double high_hours) {
@@ -88,10 +90,12 @@ std::string shown_calendar(const RankingRow& row) {
 }
 
 std::string uncapped_words(const RankingRow& row) {
-  if (!row.planned() || !outlives_robot(row, row.planned_hours[2])) return "";
   const auto& [tenth, half, most] = row.planned_hours;
-  std::string text = fmt::format("By the model 1 of 10 such dresspacks has failed after {} ({}), half after {}, 90 % after {}", hours_text(tenth),
-                                 calendar_text(row.planned_months), hours_text(half), hours_text(most));
+  if (!row.planned() || !std::isfinite(tenth) || !(most > row.robot_life_hours)) return "";
+  std::string text = fmt::format("By the model 1 of 10 such dresspacks has failed after {} ({})", hours_text(tenth),
+                                 calendar_text(row.planned_months));
+  if (std::isfinite(half)) text += ", half after " + hours_text(half);
+  if (std::isfinite(most)) text += ", 90 % after " + hours_text(most);
   if (!std::isnan(row.glued_hours[0]))
     text += fmt::format("; with everything in the cables glued .. free, 1 of 10 after {}",
                         range_text(row.glued_hours[0], row.free_hours[0]));

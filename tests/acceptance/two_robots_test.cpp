@@ -65,7 +65,7 @@ constexpr double free_third = 0.68;  // a third of the free length of 2.035 m, f
 
 }  // namespace
 
-TEST_CASE("two robots, shipped study: the hard program fails first, the others share a rank") {
+TEST_CASE("two robots, shipped study: the table of the README, and the hard program fails first") {
   Scratch scratch;
   std::string printed;
   auto rows = run_study(scratch, config + "studies/two_robots.yaml", "two_robots", &printed);
@@ -76,10 +76,8 @@ TEST_CASE("two robots, shipped study: the hard program fails first, the others s
     INFO(line << "\n" << printed);
     CHECK(printed.find(line + "\n") != std::string::npos);
   }
-  for (const char* one : {"easy", "spot_robot_1", "spot_robot_2"})
-    CHECK(std::regex_search(printed, std::regex(std::string("\n ?1 ") + one + " ")));
   for (const char* other : {"spot_robot_1", "spot_robot_2", "easy"})
-    CHECK(rows["hard"].repeats < rows[other].repeats);  // the others share a rank
+    CHECK(rows["hard"].repeats < rows[other].repeats);
   // The thesis' place near the head is that of cables glued to the hose (below). Where cables lie loose the
   // hose's own bending decides, which the arch over the forearm has in its middle.
 

@@ -37,7 +37,7 @@ TEST_CASE("new: the clamps of a shipped job, and a job that is the user's once i
   REQUIRE(make(scratch, options).status == 0);
   const std::string text = content(scratch / "job.yaml");
   CHECK(has(text, "# Clamps: as in config/jobs/irb6640_spot_welding.yaml."));
-  CHECK(has(text, "position_m: [0.15, 0, 0.18]"));
+  CHECK(has(text, "position_m: [0.144, 0, 0.174]"));
   CHECK(std::count(text.begin(), text.end(), '\n') <= 15);
   const Outcome check = run(scratch, "dresslife", "check job.yaml");
   INFO(check.out << check.err);

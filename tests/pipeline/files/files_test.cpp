@@ -573,7 +573,11 @@ TEST_CASE("files: the manual lists every dataset of every format") {
   for (const Format* format : {&motion_format(), &strain_format(), &life_format()})
     for (const Dataset& dataset : format->datasets) {
       INFO(dataset.path);
-      CHECK(manual.find("| `" + dataset.path + "` |") != std::string::npos);
+      // Those of a bound are those of the file once more, in one line.
+      const std::string bound = dataset.path.substr(0, dataset.path.find('/', 1));
+      const std::string path = bound.starts_with("/bound_") ? dataset.path.substr(bound.size()) : dataset.path;
+      if (path != dataset.path) CHECK(manual.find("`" + bound + "/") != std::string::npos);
+      CHECK(manual.find("| `" + path + "` |") != std::string::npos);
       CHECK_FALSE(dataset.meaning.empty());
       CHECK_FALSE(dataset.unit.empty());
     }
