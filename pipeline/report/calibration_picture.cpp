@@ -40,7 +40,7 @@ class Bars {
   }
 
   /// Returns the middle of the row, from the top.
-  double add(const std::string& name, const Foretold& before, const Foretold* after,
+  double add(const std::string& name, const PredictedDeciles& before, const PredictedDeciles* after,
              const std::string& words) {
     const double y = panel_.top + row_height * (static_cast<double>(rows_++) + 0.5);
     picture_.text(left - 8, y + 4, name, "name", Picture::Anchor::end, left - 12);
@@ -56,7 +56,7 @@ class Bars {
   double bottom() const { return panel_.bottom(); }
 
  private:
-  void bar(double y, double height, const Foretold& of, const char* kind) {
+  void bar(double y, double height, const PredictedDeciles& of, const char* kind) {
     picture_.box(across(of[0]), y - height / 2, std::max(2.0, across(of[2]) - across(of[0])), height, kind);
   }
 
@@ -77,7 +77,7 @@ void add_seen(Picture& picture, const Bars& bars, double y, const Observation& o
 }
 
 /// Parameters on an axis of z, so that all priors look alike.
-Foretold in_deviations(const UncertainParameter& parameter, const Foretold& key) {
+PredictedDeciles in_deviations(const UncertainParameter& parameter, const PredictedDeciles& key) {
   return {parameter.z_of(key[0]), parameter.z_of(key[1]), parameter.z_of(key[2])};
 }
 
@@ -89,7 +89,7 @@ std::string calibration_picture(const Learned& learned) {
                     [](const LearnedTest& test) { return test.observation.is_life(); }));
   const double second = top + row_height * static_cast<double>(uncertain_count) + 78;
   Picture picture(left + plot_width + words_width, second + row_height * static_cast<double>(tests) + 48,
-                  "What observations have taught", "Parameters, and lives foretold, before and after");
+                  "What observations have taught", "Parameters, and lives predicted, before and after");
   picture.text(left, 18, "wide bars: 80 % of what was likely before; narrow: after, with its median", "tick");
   Axis deviations;
   deviations.title = "parameter [deviations of what was known before]";
@@ -98,7 +98,7 @@ std::string calibration_picture(const Learned& learned) {
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
     const LearnedAxis& axis = learned.axes[p];
-    const Foretold before = in_deviations(parameter, axis.before),
+    const PredictedDeciles before = in_deviations(parameter, axis.before),
                    after = in_deviations(parameter, axis.after);
     parameters.add(std::string(parameter.name), before, axis.learned ? &after : nullptr,
                    axis.learned ? fmt::format("{} ({} .. {})", readable(axis.after[1]),

@@ -50,7 +50,7 @@ double life_hours(const Scratch& scratch, const std::string& sets) {
 
 }  // namespace
 
-TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job that names them lives") {
+TEST_CASE("calibrate: wires that lived longer than predicted lengthen what a job that names them lives") {
   Scratch scratch;
   scratch.write("job.yaml", wire_job);
   const double before = life_hours(scratch, "");
@@ -83,7 +83,7 @@ TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job 
   const Outcome again = run(scratch, "dresslife", "calibrate o.yaml");
   CHECK(again.out == outcome.out);
   CHECK(again.err.find("stages ran") == std::string::npos);
-  scratch.write("o.yaml", "observations:\n" + row("as_foretold", "    cycles: " + std::to_string(cycles) +
+  scratch.write("o.yaml", "observations:\n" + row("as_predicted", "    cycles: " + std::to_string(cycles) +
                                                                      "\n    outcome: broken\n"));
   REQUIRE(run(scratch, "dresslife", "calibrate o.yaml --quiet").status == 0);
   const double other = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
@@ -91,7 +91,7 @@ TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job 
   CHECK(other < 2 * before);
 }
 
-TEST_CASE("calibrate: run-outs that were foretold teach hardly anything, and none shortens a life") {
+TEST_CASE("calibrate: run-outs that were predicted teach hardly anything, and none shortens a life") {
   Scratch scratch;
   scratch.write("job.yaml", wire_job);
   const double before = life_hours(scratch, ""), cycles = before * 3600 / 2;

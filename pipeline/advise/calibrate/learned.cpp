@@ -31,7 +31,7 @@ double surprise(const LearnedTest& test) {
 std::string parameter_lines(const Learned& learned) {
   std::string text =
       fmt::format("{:<17} {:>24} {:>24}  {}\n", "parameter", "before (80 %)", "after (80 %)", "spread left");
-  const auto range = [](const Foretold& of) {
+  const auto range = [](const PredictedDeciles& of) {
     return fmt::format("{} ({} .. {})", readable(of[1]), readable(of[0]), readable(of[2]));
   };
   for (std::size_t p = 0; p < uncertain_count; ++p) {
@@ -63,8 +63,8 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
   return learned;
 }
 
-std::string words_of(const Foretold& told) {
-  return fmt::format("{} ({}, {})", life_text(told[0], 2), life_text(told[1], 2), life_text(told[2], 2));
+std::string words_of(const PredictedDeciles& deciles) {
+  return fmt::format("{} ({}, {})", life_text(deciles[0], 2), life_text(deciles[1], 2), life_text(deciles[2], 2));
 }
 
 void add_doubts(Learned& learned, const Axes& axes) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/advise/calibrate/foretelling.h"
+#include "pipeline/advise/calibrate/prediction.h"
 #include "pipeline/job/calibration.h"
 
 namespace dresslife::pipeline {
@@ -12,14 +12,14 @@ namespace dresslife::pipeline {
 /// Result of one parameter; empty: no test depends on it.
 struct LearnedAxis {
   bool learned = false;
-  Foretold before{}, after{};  ///< value of its key
+  PredictedDeciles before{}, after{};  ///< value of its key
   double narrowed = 1;         ///< standard deviation of z after over that before
 };
 
 struct LearnedTest {
   Observation observation;
-  Foretold before{}, after{};  ///< over all variants; after: weighted by their likelihood
-  Foretold by_others{};        ///< over all variants, from the posterior of all tests but this one
+  PredictedDeciles before{}, after{};  ///< over all variants; after: weighted by their likelihood
+  PredictedDeciles by_others{};        ///< over all variants, from the posterior of all tests but this one
   double measured = 0;         ///< measured value; 0 for a life
   std::string fails_first{};   ///< EmulatedTest
 };
@@ -40,7 +40,7 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
 void add_doubts(Learned& learned, const Axes& axes);
 
 /// "120 (4,100, 120,000)": 10 %, half, 90 % have failed.
-std::string words_of(const Foretold& told);
+std::string words_of(const PredictedDeciles& deciles);
 
 /// Table for the terminal: parameters before and after; observed and predicted values of each row.
 std::string learned_table(const Learned& learned);

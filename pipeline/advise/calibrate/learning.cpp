@@ -33,7 +33,7 @@ void predict_by_others(const std::vector<EmulatedTest>& emulated_tests, const Ax
     std::vector<LogLikelihood> others = terms;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
     tests[t].by_others = others.empty() ? tests[t].before
-                                        : foretold(emulated_tests[t],
+                                        : predicted_deciles(emulated_tests[t],
                                                    posterior_draws(posterior_of(others, start, short_chains), axes), false);
   }
 }
@@ -63,8 +63,8 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
     centre = there;
     for (std::size_t t = 0; t < tests.size(); ++t) {
       const EmulatedTest& emulated = emulated_tests[t];
-      if (learned.rounds == 1) learned.tests[t].before = foretold(emulated, prior_draws(), false);
-      learned.tests[t].after = foretold(emulated, posterior_draws(learned.posterior, axes), true);
+      if (learned.rounds == 1) learned.tests[t].before = predicted_deciles(emulated, prior_draws(), false);
+      learned.tests[t].after = predicted_deciles(emulated, posterior_draws(learned.posterior, axes), true);
       learned.tests[t].fails_first = emulated.fails_first;
       if (!emulated.life)
         learned.tests[t].measured = emulated.bending[0].numbers[emulated.shown].value / emulated.per_shown;

@@ -1,9 +1,10 @@
 // Calibration of the uncertain parameters (uncertainty.h) with observations. Each observation has one or several jobs.
-// Their lives as functions of the parameters come from few runs: at a centre and one step to either side along every
-// axis that changes them.
+// A life as a function of the parameters comes from one run at a centre (pipeline/life/life_response.h). A bending test is
+// run at the centre and one step to either side along every parameter that changes it.
 //
-// The first centre is the prior's, the next one the most likely place after the round before. It has converged if it
-// moves by less than a quarter of the remaining standard deviation; five rounds at most. Steps are one standard
+// The first centre is the prior's, the next one the most likely place after the round before; five rounds at most. It has
+// converged if no parameter moves by more than 0.7 standard deviations of the prior, within which lives are interpolated;
+// a parameter of a bending test by no more than a quarter of the remaining standard deviation. Steps are one standard
 // deviation of the prior, then two remaining ones.
 #pragma once
 

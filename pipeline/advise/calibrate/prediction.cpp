@@ -1,4 +1,4 @@
-#include "pipeline/advise/calibrate/foretelling.h"
+#include "pipeline/advise/calibrate/prediction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,15 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int told_draws = 2000;  // a decile of them is known to 3 % of the deviation
+constexpr int predicted_draws = 2000;  // a decile of them is known to 3 % of the deviation
 
-Foretold quantiles(const std::vector<double>& numbers) {
+PredictedDeciles quantiles(const std::vector<double>& numbers) {
   return {quantile(numbers, 0.1), quantile(numbers, 0.5), quantile(numbers, 0.9)};
 }
 
 /// A specimen's life in each draw of z: a variant by how likely it makes the observation there (`weighed`) or
 /// any, and its scatter.
-Foretold foretold(const ObservedLife& life, const Eigen::MatrixXd& draws, bool weighed) {
+PredictedDeciles predicted_deciles(const ObservedLife& life, const Eigen::MatrixXd& draws, bool weighed) {
   RandomNumbers numbers(7);
   std::vector<double> lives;
   for (Index k = 0; k < draws.rows(); ++k) {
@@ -39,15 +39,15 @@ Foretold foretold(const ObservedLife& life, const Eigen::MatrixXd& draws, bool w
     const LifeAt at = life.variants[chosen](z);
     lives.push_back(at.log_median + std::hypot(at.spread, life.unshared_spread) * numbers.normal());
   }
-  Foretold told = quantiles(lives);
-  for (double& one : told) one = one >= endless_log_life - 3 ? HUGE_VAL : std::exp(one);
-  return told;
+  PredictedDeciles deciles = quantiles(lives);
+  for (double& one : deciles) one = one >= endless_log_life - 3 ? HUGE_VAL : std::exp(one);
+  return deciles;
 }
 
 }  // namespace
 
-Foretold foretold(const EmulatedTest& test, const Eigen::MatrixXd& draws, bool weighed) {
-  if (test.life) return foretold(*test.life, draws, weighed);
+PredictedDeciles predicted_deciles(const EmulatedTest& test, const Eigen::MatrixXd& draws, bool weighed) {
+  if (test.life) return predicted_deciles(*test.life, draws, weighed);
   std::vector<double> values;
   for (Index k = 0; k < draws.rows(); ++k) {
     const Measurement& variant = test.bending[static_cast<std::size_t>(k) % test.bending.size()];
@@ -59,7 +59,7 @@ Foretold foretold(const EmulatedTest& test, const Eigen::MatrixXd& draws, bool w
 
 Eigen::MatrixXd prior_draws() {
   RandomNumbers numbers(5);
-  Eigen::MatrixXd draws(told_draws, static_cast<Index>(uncertain_count));
+  Eigen::MatrixXd draws(predicted_draws, static_cast<Index>(uncertain_count));
   for (Index k = 0; k < draws.rows(); ++k) draws.row(k) = numbers.normals(VectorXd(draws.cols())).transpose();
   return draws;
 }

@@ -10,7 +10,7 @@
 namespace dresslife::pipeline {
 
 /// Quantiles of a life or a number: 10, 50, 90 %. A life without damage is infinite.
-using Foretold = std::array<double, 3>;
+using PredictedDeciles = std::array<double, 3>;
 
 /// Samples of all parameters, (draw, parameter): of the prior, or of the posterior with the prior of the others.
 Eigen::MatrixXd prior_draws();
@@ -19,6 +19,6 @@ Eigen::MatrixXd posterior_draws(const Posterior& posterior, const Axes& axes);
 /// Over samples and variants: life of one specimen with its scatter, in the observer's unit; of a bending test the
 /// moment at its largest curvature [N m], or the stiffness [N m2]. weighed: variants are weighted by their likelihood
 /// in each sample; else equally.
-Foretold foretold(const EmulatedTest& test, const Eigen::MatrixXd& draws, bool weighed);
+PredictedDeciles predicted_deciles(const EmulatedTest& test, const Eigen::MatrixXd& draws, bool weighed);
 
 }  // namespace dresslife::pipeline
