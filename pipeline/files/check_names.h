@@ -8,6 +8,7 @@
 namespace dresslife::pipeline::check_name {
 
 inline constexpr char bend_radius[] = "smallest bend radius";
+inline constexpr char bend_radius_at_rest[] = "smallest bend radius at rest";  // of `dresslife check`
 inline constexpr char twist[] = "largest twist";
 inline constexpr char net_twist[] = "largest net twist";
 inline constexpr char twist_left[] = "net twist left by a repeat";

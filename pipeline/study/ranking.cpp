@@ -269,6 +269,8 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
     all.push_back(fmt::format("With the uncertain parameters at their medians a first wire breaks after {} (10 .. 90 %).",
                               range_text(row.first_wire_hours[0], row.first_wire_hours[2])));
   for (const UnvalidatedMode& mode : row.unvalidated) all.push_back(unvalidated_words(mode));
+  if (!row.not_evaluated.empty() && action_words(row).find(row.not_evaluated) == std::string::npos)
+    all.push_back(fmt::format("Not evaluated: {}.", row.not_evaluated));
   if (row.done() && row.relative) all.push_back(relative_words(*row.relative));
   if (row.done()) all.push_back(order_words(row));
   std::erase(all, "");

@@ -151,9 +151,12 @@ std::string unvalidated_words(const UnvalidatedMode& mode) {
     return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.", of,
                        unvalidated_life(mode.hours[1]));
   if (mode.place.empty()) return fmt::format("Abrasion{}: nothing rubs on the dresspack.", of);
-  std::string text = fmt::format("Abrasion{} is not validated and not in the hours above. By the model it wears through after {} "
-                                 "(10 .. 90 %), on {}, {:.2f} m from the tool, most at {:.1f} s{}.",
-                                 of, range_text(mode.hours[0], mode.hours[2]), mode.place, mode.position_from_tool, mode.time,
+  const std::string when = std::isinf(mode.hours[0])
+                               ? "in fewer than 1 of 10 dresspacks"
+                               : fmt::format("after {} (10 .. 90 %)", range_text(mode.hours[0], mode.hours[2]));
+  std::string text = fmt::format("Abrasion{} is not validated and not in the hours above. By the model it wears through {}, on {}, "
+                                 "{:.2f} m from the tool, most at {:.1f} s{}.",
+                                 of, when, mode.place, mode.position_from_tool, mode.time,
                                  mode.step.empty() ? "" : ", during '" + mode.step + "'");
   if (mode.first_share >= 0.01)
     text += fmt::format(" It comes before the wires in {:.0f} % of the samples; with it 1 of 10 has failed after {}.",

@@ -152,6 +152,7 @@ class QuickChecks {
     const Rod rod(p);
     EquilibriumSettings settings;
     settings.tolerance = 1e-4;  // of the forces: a picture's worth
+    settings.iterations = 400;  // as the remedies of a run allow (cures.cpp)
     MotionChecks checks(rod, {limits_of(setup_.dresspacks[static_cast<std::size_t>(of.dresspack)].dresspack)});
     const std::vector<double> all = moments();
     const auto rolled_clamps = [&](std::size_t k, double roll) {
@@ -219,7 +220,7 @@ class QuickChecks {
         }
         if (!net) net = net_here;
       }
-      if (bend) bend->name = "smallest bend radius at rest", checks.push_back(*bend);
+      if (bend) bend->name = check_name::bend_radius_at_rest, checks.push_back(*bend);
       if (twist) twist->name = "largest twist at rest", checks.push_back(*twist);
       if (net) checks.push_back(*net);
     }
@@ -229,7 +230,9 @@ class QuickChecks {
     return pipeline::warning_of(
         WarningKind::bend_radius, "",
         fmt::format("{} has no shape at rest that was found, {}", pipeline::dresspack_words(setup_, dresspack), moment(time)),
-        "its clamps turn it so far that it snaps", "`dresslife run`, which follows its motion in time");
+        "its clamps turn it so far that it snaps, or it is too short for its way around the robot",
+        fmt::format("`dresslife run`, which follows its motion in time; or more {}",
+                    setup_.dresspacks.size() > 1 ? "free length" : "routing.free_length_m"));
   }
 
   /// A turn of an axis between the pose in which the dresspack was clamped and the program's first one is in the

@@ -181,6 +181,17 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   if (std::isinf(k_rest))
     return {"its length and its clamps do not suit the motion; no shape at rest was found for the clamps as they are",
             "the clamps or the length that `dresslife improve` finds" + remark};
+  if (k_rest * limit < 1 && broken.name == check_name::bend_radius_at_rest) {
+    const Check* net = find(checks, check_name::net_twist, broken.dresspack);
+    const double centre = net ? net->centre : 0;
+    constexpr double little = 10 * degree;  // a pre-twist below it changes no shape that a user sees
+    return {fmt::format("the shape into which the program leads it: free of twist its smallest bend radius at rest is {}",
+                        radius_words(k_rest)),
+            (std::abs(centre) > little ? fmt::format("{}: {:.0f}, or ", key_of(motion.setup, broken.dresspack, "routing.pre_twist_deg"),
+                                                     (routing.pre_twist - centre) / degree)
+                                       : std::string()) +
+                "the clamps or the length that `dresslife improve` finds" + remark};
+  }
   if (k_rest * limit < 1) {
     const Check* touch = find(checks, check_name::contact_force, broken.dresspack);
     const bool pressed = touch && touch->value > 0 && std::abs(touch->time - broken.time) < 0.2;
