@@ -152,7 +152,6 @@ class QuickChecks {
     const Rod rod(p);
     EquilibriumSettings settings;
     settings.tolerance = 1e-4;  // of the forces: a picture's worth
-    settings.iterations = 400;  // as the remedies of a run allow (cures.cpp)
     MotionChecks checks(rod, {limits_of(setup_.dresspacks[static_cast<std::size_t>(of.dresspack)].dresspack)});
     const std::vector<double> all = moments();
     const auto rolled_clamps = [&](std::size_t k, double roll) {

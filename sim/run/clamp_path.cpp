@@ -7,6 +7,7 @@
 #include "pipeline/job/setup.h"
 #include "pipeline/resolve/plausible_job.h"
 #include "sim/program/import.h"
+#include "sim/program/tokens.h"
 
 namespace dresslife::sim {
 
@@ -52,6 +53,28 @@ std::vector<pipeline::Warning> missing_external_axes(const pipeline::Motion& mot
   return warnings;
 }
 
+/// A program in the language of one maker, and a robot that another one names: zeros and directions of their axes differ.
+std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const pipeline::Robot& robot) {
+  constexpr std::pair<Language, std::string_view> makers[] = {{Language::rapid, "ABB"},      {Language::krl, "KUKA"},
+                                                              {Language::fanuc, "Fanuc"},    {Language::inform, "Yaskawa"},
+                                                              {Language::inform, "Motoman"}, {Language::urscript, "Universal Robots"}};
+  if (motion.program.empty()) return {};
+  const Language language = language_of(motion);
+  std::string_view of_program, of_robot;
+  for (const auto& [spoken, maker] : makers) {
+    if (spoken == language) of_program = maker;
+    if (!lower_case(robot.name).starts_with(lower_case(maker))) continue;
+    if (spoken == language) return {};
+    of_robot = maker;
+  }
+  if (of_program.empty() || of_robot.empty()) return {};
+  return {pipeline::warning_of(pipeline::WarningKind::motion, "",
+                               fmt::format("the program {} is one of {}, and the robot is {}",
+                                           motion.program.filename().string(), of_program, robot.name),
+                               "a job of another robot: the zeros and directions of axes differ between makers",
+                               "robot: the one for which the program was written")};
+}
+
 }  // namespace
 
 std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup) {
@@ -65,7 +88,8 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
     : kinematics_(setup.robot),
       motion_(run.motion, setup.robot),
       doubts_(pipeline::joined(
-          pipeline::joined(run.motion.left_out, missing_external_axes(run.motion, setup.robot)),
+          pipeline::joined(pipeline::joined(run.motion.left_out, missing_external_axes(run.motion, setup.robot)),
+                           other_maker(setup.motion, setup.robot)),
           setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
                                        : pipeline::plausibility_of_steps(run.motion))),
       note_(run.note),

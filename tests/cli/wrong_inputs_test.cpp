@@ -239,12 +239,28 @@ const Doubtful doubtful[] = {
     {"job.yaml", "segments: 24", "segments: 24, sample_rate_Hz: 0.5", "", "simulation.sample_rate_Hz is 0.5 (limit 5 or more)", "simulation.sample_rate_Hz: 25"},
     {"job.yaml", "simulation: {", "strain: {gate: 0.1}\nsimulation: {", "", "strain.gate is 0.1 (limit 0.0005 or less): cycles below it are left out", "strain.gate: 0.001 if"},
     {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack: too long", "routing.free_length_m: 2.857"},
-    {"job.yaml", "direction: [1, 0, -0.35]", "direction: [-1, 0, 0.35]", "", "smallest bend radius at rest: 51.9 mm", "direction"},
+    {"job.yaml", "direction: [1, 0, -0.35]", "direction: [-1, 0, 0.35]", "", "smallest bend radius at rest: 52.2 mm", "direction"},
 };
 
 }  // namespace
 
-TEST_CASE("plausible mistakes that make a job are warned of, with place, limit and remedy; the job as it is is not") {
+TEST_CASE("a program of another maker's robot is warned of, one of its own is not") {
+  for (const auto& [program, text] :
+       {std::pair{"nod.src", "DEF nod()\nPTP {A1 0, A2 0, A3 0, A4 0, A5 30, A6 0}\nPTP {A1 20, A2 0, A3 0, A4 0, A5 60, A6 90}\nEND\n"},
+        {"nod.mod", "MODULE nod\nPROC main()\nMoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;\n"
+                    "MoveAbsJ [[20,0,0,0,60,90],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;\nENDPROC\nENDMODULE\n"}}) {
+    const Scratch scratch;
+    write_inputs(scratch);
+    scratch.write(program, text);
+    const Outcome outcome = run(scratch, "dresslife", std::string("check job.yaml --set motion=") + program);
+    CAPTURE(outcome.out, outcome.err);
+    CHECK(outcome.status == 0);
+    const bool warned = outcome.out.find("the program nod.src is one of KUKA, and the robot is ABB IRB 6640-185/2.80") != std::string::npos;
+    CHECK(warned == (std::string(program) == "nod.src"));
+  }
+}
+
+TEST_CASE("plausible mistakes that make a job are warned of, with place, limit and remedy, the job as it is is not") {
   const auto checked = [](const Doubtful* one) {
     const Scratch scratch;
     write_inputs(scratch);
@@ -265,7 +281,7 @@ TEST_CASE("plausible mistakes that make a job are warned of, with place, limit a
   }
 }
 
-TEST_CASE("a misspelt option is answered with the nearest one; a dry run names jobs that are refused") {
+TEST_CASE("a misspelt option is answered with the nearest one, a dry run names jobs that are refused") {
   const Scratch scratch;
   write_inputs(scratch);
   const auto answer = [&](const std::string& program, const std::string& words) {

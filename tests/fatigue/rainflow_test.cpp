@@ -238,7 +238,7 @@ TEST_CASE("half cycles are refused where rises and falls do not alternate") {
   CHECK(count_half_cycles(std::vector<Reversal>{}).empty());
 }
 
-TEST_CASE("plateaus stand at their first sample; ends are kept") {
+TEST_CASE("plateaus stand at their first sample, ends are kept") {
   const auto reversals =
       find_reversals(Numbers{32, 32, 32.1, 32.9, 33, 33, 33, 33, 33, 32.5, 32, 32, 32.7, 37.2, 40, 35.2, 33});
   const std::vector<Reversal> expected{{32, 0}, {33, 4}, {32, 10}, {40, 14}, {33, 16}};

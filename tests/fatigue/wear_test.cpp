@@ -116,7 +116,7 @@ TEST_CASE("wear: cells of other lengths give the same life, and several obstacle
 }
 
 TEST_CASE(
-    "wear: the spread of a life is that of the rate and the thickness; nothing that rubs wears nothing") {
+    "wear: the spread of a life is that of the rate and the thickness, nothing that rubs wears nothing") {
   const pipeline::Material material = polymer();
   const Abrasion one = abrasion({smooth(), &material}, rubbed(10, 0.5, 0.505, 0.005, 3, 1));
   // A line contact's area grows with the depth's power 3/2.

@@ -53,7 +53,7 @@ TEST_CASE("other configurations of the arm: the same pose of the flange, and all
     }
 }
 
-TEST_CASE("turns of wrist and arm keep the pose; a robot without such a wrist has none") {
+TEST_CASE("turns of wrist and arm keep the pose, a robot without such a wrist has none") {
   Job job = shipped();
   Robot& robot = job.robot;
   const std::vector<double> joints{0.1, -0.2, 0.3, 0.5, 0.6, -0.7};

@@ -19,7 +19,7 @@ std::string all_of(CsvReader reader) {
 
 }  // namespace
 
-TEST_CASE("CSV: cells without blanks; comments, blank lines and rows of empty cells do not count") {
+TEST_CASE("CSV: cells without blanks, comments, blank lines and rows of empty cells do not count") {
   CHECK(all_of({"\xEF\xBB\xBF a , b\r\n# c\n\n ,,\n 1,\t2 \n  # d\n,3", "f"}) ==
         "1:[a][b] 5:[1][2] 7:[][3] ");
   CHECK(all_of({"", "f"}) == "");

@@ -37,7 +37,7 @@ TEST_CASE("ownership: a marked text is ours, as a text and as a file") {
   CHECK(with_mark(texts.at(Mark::xml), Mark::xml).starts_with("<?xml version=\"1.0\" ?>\n<!-- "));
 }
 
-TEST_CASE("ownership: each byte that a user changes makes a text that people edit theirs; a page stays ours, damaged") {
+TEST_CASE("ownership: each byte that a user changes makes a text that people edit theirs, a page stays ours, damaged") {
   const Scratch scratch;
   for (const auto& [mark, text] : texts) {
     if (mark == Mark::png) continue;

@@ -85,7 +85,7 @@ TEST_CASE("prior: standard normal, narrower or wider by the spread that a job gi
 }
 
 TEST_CASE(
-    "changed material: as it was at the defaults; strains by the first factor, lives by the last, slopes "
+    "changed material: as it was at the defaults, strains by the first factor, lives by the last, slopes "
     "about a life") {
   Fatigue fatigue;
   CHECK(changed(copper(), fatigue).fatigue_strength == copper().fatigue_strength);

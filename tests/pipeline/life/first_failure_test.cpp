@@ -253,7 +253,7 @@ TEST_CASE("few samples and many agree, and the same names give the same samples"
   CHECK(std::log10(summary_of(modes, "a", 2000).percentiles[0]) == Approx(many).margin(0.05));
 }
 
-TEST_CASE("modes and their text lead to each other, also from a response alone; no other text is one") {
+TEST_CASE("modes and their text lead to each other, also from a response alone, no other text is one") {
   LifeResponse one = straight(0.6, 0.2, 0.4), other = straight(0.1, 0.2, 0.4);
   one.mode = "wires of signal cable", other.mode = "wires of power cable", other.scatter_shared = 0.5;
   other.inside[4] = Inside::glued;

@@ -80,7 +80,7 @@ TEST_CASE("what is never damaged lives without end, whatever the model's factor 
   CHECK(std::isinf(response.log10_life(at(model, -2), -2)));
 }
 
-TEST_CASE("a response and its text lead to each other; no other text is one") {
+TEST_CASE("a response and its text lead to each other, no other text is one") {
   const LifeResponse response = straight(0.6, 0.2, 0.4);
   const LifeResponse again = LifeResponse::from_text(response.text());
   CHECK(again.text() == response.text());

@@ -483,7 +483,7 @@ TEST_CASE("ranking: jobs that cannot be separated share a rank, those that can d
   CHECK(*rows[1].outlives_next > 0.99);
 }
 
-TEST_CASE("ranking: of one job the first words say what to do; forces that cannot be stop a plan") {
+TEST_CASE("ranking: of one job the first words say what to do, forces that cannot be stop a plan") {
   const Scratch scratch;
   SampleLife life = living(20000);
   life.planned_hours = 1300, life.life_response = response_of(4);

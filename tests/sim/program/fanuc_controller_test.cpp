@@ -113,7 +113,7 @@ std::vector<std::string> warnings(const Reading& reading) {
 
 }  // namespace
 
-TEST_CASE("fanuc lines: one without ';' ends where the next number begins") {
+TEST_CASE("fanuc lines: one without a semicolon ends where the next number begins") {
   // A controller would not load it; its meaning is plain, and no line may vanish into another.
   const Reading moves =
       run("   1:J P[1] 100% FINE\n   2:J P[2] 100% FINE ;\n   3:\n   4:J P[1] 100% FINE ;\n");

@@ -43,7 +43,7 @@ Reading run(const std::string& lines, const ImportOptions& options = {}, const s
 
 }  // namespace
 
-TEST_CASE("fanuc: moves, speeds, terminations; the third axis is given against the horizontal") {
+TEST_CASE("fanuc: moves, speeds, terminations, the third axis is given against the horizontal") {
   const Reading r =
       run("   1:J P[1] 50% CNT100 ACC80   ;\n   2:  !comment; with a semicolon ;\n   3:L P[2:weld] 500mm/sec "
           "FINE SPOT[SD=1]   ;\n"

@@ -85,7 +85,7 @@ TEST_CASE("inform: pulses become angles by the controller's counts, which are as
 }
 
 TEST_CASE(
-    "inform: Cartesian positions turn about the fixed axes x, y, z; tools and frames come from the backup") {
+    "inform: Cartesian positions turn about the fixed axes x, y, z, tools and frames come from the backup") {
   const std::string taught =
       base + "C00000=100.000,200.000,300.000,90.0000,0.0000,90.0000\n///USER 2\n///POSTYPE USER\n" +
       "C00001=1.000,2.000,3.000,0.0000,0.0000,0.0000\n";
@@ -253,7 +253,7 @@ TEST_CASE("inform: positions are computed with, moved on from and shifted") {
   CHECK(joints.problem(1).find("shifts a position that is given in pulses (SFTON)") != std::string::npos);
 }
 
-TEST_CASE("inform: jobs call jobs with arguments; a job that is not there leaves variables unknown") {
+TEST_CASE("inform: jobs call jobs with arguments, a job that is not there leaves variables unknown") {
   const std::string called =
       job("B-1", three, "GETARG LB000 IARG#(1)\nRET IF LB000=2\nMOVJ C00001 VJ=9\nINC B007\n");
   const std::string calls =
@@ -303,7 +303,7 @@ TEST_CASE("inform: another robot's moves, stations and two robots at once are to
               "PSTART JOB:second: runs beside this job", true));
 }
 
-TEST_CASE("inform: RCONF says which arm; what its first number means is told and can be given") {
+TEST_CASE("inform: RCONF says which arm, what its first number means is told and can be given") {
   const std::string old =
       "///TOOL 1\n///POSTYPE BASE\n///RECTAN\n///RCONF 1,0,1,0,1,0,0,0\nC00000=1.0,2.0,3.0,0.0,0.0,0.0\n";
   const Reading r = run(old, "MOVJ C00000 VJ=9\n");

@@ -450,7 +450,7 @@ TEST_CASE("rapid controller: production is meant where a program asks for the op
   CHECK(first_axes(run(choice, "", giving("opmode", "2"))) == Angles{1});
 }
 
-TEST_CASE("rapid controller: SpeedRefresh slows down; 0 lets the robot stand until a trap lets it go on") {
+TEST_CASE("rapid controller: SpeedRefresh slows down, 0 lets the robot stand until a trap lets it go on") {
   const Reading r = run("SpeedRefresh 50;\n" + go(1) + "SpeedRefresh 0;\n" + go(2));
   REQUIRE(r.problem() == "no such problem");
   CHECK(r.move(0).speed.tool.value() == Approx(0.5).epsilon(rounding));

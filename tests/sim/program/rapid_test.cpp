@@ -157,7 +157,7 @@ TEST_CASE("rapid: a branch on an input is asked for, with its line, and all of t
   CHECK(answered.move(1).target.joints.empty());
 }
 
-TEST_CASE("rapid: an endless main loop is one pass; a known condition ends a loop") {
+TEST_CASE("rapid: an endless main loop is one pass, a known condition ends a loop") {
   const Reading r =
       run("VAR num n:=0;\nWHILE n<3 DO\n MoveJ p1,v5,fine,tool0;\n n:=n+1;\nENDWHILE\nWHILE TRUE DO\n "
           "MoveAbsJ home,v5,fine,tool0;\nENDWHILE\n"

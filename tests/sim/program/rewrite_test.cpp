@@ -100,7 +100,7 @@ const std::string fanuc =
 
 }  // namespace
 
-TEST_CASE("rewrite: RAPID, each change read back; all else stays byte by byte") {
+TEST_CASE("rewrite: RAPID, each change read back, all else stays byte by byte") {
   const Changed slow = changed(Language::rapid, "m.mod", rapid, 1, {.speed = 0.7});
   CHECK(slow.after.move(1).speed.tool.value() == Approx(0.35));
   CHECK(slow.after.move(1).speed.orientation.value() == Approx(350 * degree));

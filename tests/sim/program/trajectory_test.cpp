@@ -33,7 +33,7 @@ std::string point(const std::string& positions, int second) {
 }  // namespace
 
 TEST_CASE(
-    "columns: the unit comes from the names; where neither they nor the angles tell it, it is asked for") {
+    "columns: the unit comes from the names, where neither they nor the angles tell it, it is asked for") {
   // 1.57 is a right angle in rad and next to nothing in degrees: the wrong unit gives a plausible motion.
   const std::string small = "timestamp,joint_1,joint_2\n0,0.0,-1.57\n1,0.5,-1.57\n";
   const Reading asked = columns(small);

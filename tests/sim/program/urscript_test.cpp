@@ -180,7 +180,7 @@ TEST_CASE("urscript: arguments may be left out or named, and a line may hold sev
   }
 }
 
-TEST_CASE("urscript: inputs are asked for by their calls; threads are named") {
+TEST_CASE("urscript: inputs are asked for by their calls, threads are named") {
   const std::string text =
       "if get_standard_digital_in(2) == True:\nmovej([1,0,0,0,0,0])\nelse:\nmovej([2,0,0,0,0,0])\nend\n";
   const Reading asked = run(text);
@@ -249,7 +249,7 @@ TEST_CASE("urscript: the case of names counts, that of the language's own words 
 }
 
 TEST_CASE(
-    "urscript: functions in a function, as PolyScope writes them, share its variables; the outer one is the program") {
+    "urscript: functions in a function, as PolyScope writes them, share its variables, the outer one is the program") {
   const std::string text =
       "def cell():\n  started = False\n  count = 0\n  thread watch():\n    started = True\n  end\n  def unused():\n    return 1\n"
       "  end\n  def next():\n    count = count + 1\n    i = 9\n    return count\n  end\n  run watch()\n  while not started:\n"

@@ -180,7 +180,7 @@ TEST_CASE("legs: a long line is driven at the tool's speed, on the line, within 
 }
 
 TEST_CASE(
-    "legs: a zone cuts the corner inside its radius, without a stop; without a zone the robot stops there") {
+    "legs: a zone cuts the corner inside its radius, without a stop, without a zone the robot stops there") {
   const pipeline::Robot robot = arm();
   const InverseKinematics kinematics(robot);
   const Vector3 from(1.2, -0.4, 1.2), target(1.2, 0, 1.6);
@@ -218,7 +218,7 @@ TEST_CASE("legs: a circle keeps its radius") {
   CHECK(run.duration() > pi * 0.15 / 0.3);
 }
 
-TEST_CASE("legs: a joint move never takes its tool faster than told; a duration is kept") {
+TEST_CASE("legs: a joint move never takes its tool faster than told, a duration is kept") {
   const pipeline::Robot robot = arm(10, 100);
   const InverseKinematics kinematics(robot);
   pipeline::MotionStep start, turn;
