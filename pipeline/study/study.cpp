@@ -134,7 +134,10 @@ StudyJob make_job(const Node& base, const Variant& variant, const std::string& f
                        fmt::format("a job's name has {} letters (at most {} fit a folder)", made.name.size(), longest_name),
                        "name it under 'jobs', or shorten the values that make its name");
     Node document = base;
-    for (const Change& change : variant.changes) set_value(document, change.path, change.value, change.where);
+    // A whole before its parts: `vary: {motion: ..}` would take away a job's motion.ramp_percent.
+    std::vector<Change> changes = variant.changes;
+    std::ranges::stable_sort(changes, {}, [](const Change& change) { return std::ranges::count(change.path, '.'); });
+    for (const Change& change : changes) set_value(document, change.path, change.value, change.where);
     made.job = std::make_shared<const Job>(job_from(std::move(document), sets));
   } catch (const InputError& problem) {
     made.failure = problem.what();

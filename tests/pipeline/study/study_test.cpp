@@ -53,6 +53,19 @@ TEST_CASE("study: named changes are varied, too") {
   CHECK(study.jobs[2].job->dresspacks[0].dresspack.bending_stiffness == 5);
 }
 
+TEST_CASE("study: a varied section keeps the keys that a named change sets in it") {
+  const Scratch scratch;
+  const Study study = study_of(scratch,
+                               "base: job.yaml\njobs:\n  fine: {simulation.segments: 40}\n  plain:\n"
+                               "vary: {simulation: [{segments: 20, time_step_ms: 2}, {segments: 20, time_step_ms: 4}]}\n");
+  REQUIRE(study.jobs.size() == 4);
+  for (const StudyJob& job : study.jobs) REQUIRE(job.failure.empty());
+  CHECK(study.jobs[0].job->simulation.segments == 40);
+  CHECK(study.jobs[0].job->simulation.time_step == 0.002);
+  CHECK(study.jobs[1].job->simulation.time_step == 0.004);
+  CHECK(study.jobs[2].job->simulation.segments == 20);
+}
+
 TEST_CASE("study: a base alone is one job with the study's name") {
   const Scratch scratch;
   const Study study = study_of(scratch, "base: job.yaml\n");
