@@ -548,7 +548,7 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c) {
   return {mode};
 }
 
-/// Modes that are not in the planner's hours. Returns what the terminal is told. lives: (sample) log10 repeats of those
+/// Modes that are not in the planner's hours. Returns notes for the terminal. lives: (sample) log10 repeats of those
 /// that are.
 std::string write_unvalidated(const Context& c, const std::vector<double>& lives) {
   std::vector<pipeline::UnvalidatedMode> modes = abrasion_modes(c.strain, c.job, lives);

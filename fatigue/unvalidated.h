@@ -13,7 +13,7 @@ struct Job;
 
 namespace dresslife::fatigue {
 
-/// Abrasion of each dresspack whose contacts the strain file tells, and whose thickness and wear rates are known.
+/// Abrasion of each dresspack whose contacts are in the strain file, and whose thickness and wear rates are known.
 /// lives: (sample) log10 repeats by the validated modes. The wear rate and the thickness are sampled beside them;
 /// what is uncertain of the model and the motion is shared with them.
 /// Errors: InputError for a patch that lies nowhere.

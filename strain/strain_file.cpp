@@ -35,7 +35,7 @@ constexpr double first_pass_share = 0.05;   // of the work, for the progress dis
 // to.
 constexpr double believable_mesh_error = 0.02;
 constexpr double loose_pass_share = 0.5;  // the same where cables lie loose
-// Of the end of the motion [s], before the repeat that counts: loose cables forget how they were laid in (W36). After 60 s
+// Of the end of the motion [s], before the repeat that counts: loose cables forget their first places (W36). After 60 s
 // hard, easy and robot 1 go through a cycle that closes.
 constexpr double rehearsed = 180;
 

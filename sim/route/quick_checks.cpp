@@ -22,7 +22,7 @@ using pipeline::WarningKind;
 
 constexpr double degree = EIGEN_PI / 180;
 constexpr int most_moments = 100'000;  // of the program; a run looks at every step
-constexpr int rest_moments = 1000;     // of the program, of which those are taken in which a span has moved enough
+constexpr int rest_moments = 1000;     // of the program; a span rests in those between which it has moved enough
 constexpr int mounting_moments = 100;  // of the way from the mounting pose to the program
 constexpr int most_segments = 32;      // of a span at rest: a bend radius within a few percent
 // Between two rests: far below the half turn at which the shorter way around is the other one.

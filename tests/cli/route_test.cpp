@@ -10,28 +10,6 @@ using dresslife::pipeline::screening_format;
 
 namespace {
 
-/// A thin hose that bends easily, and wires enough to have a life.
-const char* const small_dresspack = R"(name: thin hose
-source: made for the tests
-diameter_mm: 12
-inner_diameter_mm: 10.2
-mass_kg_per_m: 0.2
-bending_stiffness_Nm2: 0.5
-torsional_stiffness_Nm2: 0.5
-axial_stiffness_N: 50000
-damping_time_ms: 20
-damping_source: made for the tests
-least_bend_radius_mm: 60
-components:
-  - name: cable
-    count: 2
-    radius_mm: 2
-    helix_radius_mm: 3
-    slack_percent: 1
-    components:
-      - {name: wire, count: 6, radius_mm: 0.1, helix_radius_mm: 1, lay_angle_deg: 15, material: copper}
-)";
-
 /// Receipts of stages below a folder: nothing was run where there are none.
 std::size_t results_in(const fs::path& folder) {
   if (!fs::exists(folder)) return 0;
@@ -44,7 +22,7 @@ std::size_t results_in(const fs::path& folder) {
 
 TEST_CASE("route writes a job that runs, from a robot and a hose") {
   Scratch scratch;
-  scratch.write("hose.yaml", small_dresspack);
+  scratch.write("hose.yaml", thin_hose);
   const std::string line =
       "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 150 --rehearsals 40 --off 0 --quiet "
       "--set simulation.segments=16 --job found.yaml";
@@ -105,7 +83,7 @@ TEST_CASE("route refuses what it cannot route") {
 
 TEST_CASE("route and improve refuse a cable that no routing can give room, before any search") {
   Scratch scratch;
-  std::string hose = small_dresspack;
+  std::string hose = thin_hose;
   scratch.write("sound.yaml", hose);
   hose.replace(hose.find("slack_percent: 1"), 16, "slack_percent: 6");
   scratch.write("hose.yaml", hose);
@@ -162,7 +140,7 @@ simulation: {segments: 12}
 
 TEST_CASE("a search that ends without a routing names the limit that decides, and a remedy that works") {
   Scratch scratch;
-  scratch.write("hose.yaml", small_dresspack);
+  scratch.write("hose.yaml", thin_hose);
   const auto routed = [&](const std::string& radius) {
     return run(
         scratch, "dresslife",

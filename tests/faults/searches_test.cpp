@@ -36,26 +36,7 @@ jobs:
 free: {routing.free_length_m: 0.85 .. 0.95}
 limits: {tension_N: 400}
 )");
-  scratch.write("hose.yaml", R"(name: thin hose
-source: made for the tests
-diameter_mm: 12
-inner_diameter_mm: 10.2
-mass_kg_per_m: 0.2
-bending_stiffness_Nm2: 0.5
-torsional_stiffness_Nm2: 0.5
-axial_stiffness_N: 50000
-damping_time_ms: 20
-damping_source: made for the tests
-least_bend_radius_mm: 60
-components:
-  - name: cable
-    count: 2
-    radius_mm: 2
-    helix_radius_mm: 3
-    slack_percent: 1
-    components:
-      - {name: wire, count: 6, radius_mm: 0.1, helix_radius_mm: 1, lay_angle_deg: 15, material: copper}
-)");
+  scratch.write("hose.yaml", thin_hose);
   scratch.write("lives.yaml", R"(observations:
   - name: wire
     job:

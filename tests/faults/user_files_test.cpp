@@ -222,7 +222,7 @@ TEST_CASE("force: it replaces a file of the user, and never one that the command
   CHECK(run(scratch, "dresslife", "run study.yaml --force").status == 0);
 }
 
-TEST_CASE("a file of ours that a user edits is theirs, what nobody edits is made again when it is damaged") {
+TEST_CASE("a file of ours that a user edits is theirs, one without edits is made again when it is damaged") {
   Scratch scratch;
   write_inputs(scratch);
   REQUIRE(run(scratch, "dresslife", "run study.yaml -j 2 --quiet").status == 0);

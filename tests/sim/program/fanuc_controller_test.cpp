@@ -240,7 +240,7 @@ TEST_CASE("fanuc positions: an offset adds up in the form of the position, or is
       run("   1:L P[3] 100mm/sec FINE Offset,PR[1] ;\n", {.values = {{"PR[1]", turn}}},
           {{"system.va", "[*SYSTEM*]$OFFSET_CART  Storage: CMOS  Access: RW  : BOOLEAN = TRUE\n"}});
   CHECK((backup.move(0).target.pose.position - moved(turn, frames).position).norm() < rounding);
-  // RX ... of a remote tool: 110 mm instead of 100 mm, of which the pose is the inverse.
+  // RX ... of a remote tool: 110 mm instead of 100 mm; the pose is the inverse of that.
   CHECK((moved("X 10 Y 0 Z 0 W 0 P 0 R 0", {}, "P[4]").position - Vector3(0, 0.11, -0.3)).norm() < rounding);
   CHECK(run("   1:L P[4] 100mm/sec FINE Offset,PR[1] ;\n",
             {.values = {{"PR[1]", turn}, {"$OFFSET_CART", "TRUE"}}})

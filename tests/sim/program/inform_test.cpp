@@ -303,7 +303,7 @@ TEST_CASE("inform: another robot's moves, stations and two robots at once are to
               "PSTART JOB:second: runs beside this job", true));
 }
 
-TEST_CASE("inform: RCONF says which arm, what its first number means is told and can be given") {
+TEST_CASE("inform: RCONF says which arm, the meaning of its first number is reported and can be given") {
   const std::string old =
       "///TOOL 1\n///POSTYPE BASE\n///RECTAN\n///RCONF 1,0,1,0,1,0,0,0\nC00000=1.0,2.0,3.0,0.0,0.0,0.0\n";
   const Reading r = run(old, "MOVJ C00000 VJ=9\n");

@@ -218,7 +218,7 @@ TEST_CASE("legs: a circle keeps its radius") {
   CHECK(run.duration() > pi * 0.15 / 0.3);
 }
 
-TEST_CASE("legs: a joint move never takes its tool faster than told, a duration is kept") {
+TEST_CASE("legs: a joint move never takes its tool faster than the program says, a duration is kept") {
   const pipeline::Robot robot = arm(10, 100);
   const InverseKinematics kinematics(robot);
   pipeline::MotionStep start, turn;

@@ -245,7 +245,7 @@ TEST_CASE("a ring that snaps over comes to rest within the sample") {
   CHECK(loose.restless() == 0);
 }
 
-TEST_CASE("a ring forgets how it was laid in, and the mesh does not decide where it comes to rest") {
+TEST_CASE("a ring forgets its first place, and the mesh does not decide where it comes to rest") {
   constexpr int cycle = 100;
   std::vector<double> peak;  // of the last cycle [1/m]
   for (const std::size_t elements : {64, 128}) {
