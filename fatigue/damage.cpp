@@ -19,8 +19,6 @@ using pipeline::Counting;
 using pipeline::MeanStress;
 using pipeline::Stress;
 
-constexpr double weeks_per_month = 365.2425 / 12 / 7;  // mean Gregorian month
-
 /// Replaces samples by positions, so that cycles counted from the result lead back to `path`.
 std::vector<Reversal> numbered(std::span<const Reversal> path) {
   std::vector<Reversal> result(path.begin(), path.end());
@@ -608,9 +606,5 @@ double life_in_repeats(double damage) {
 }
 
 double hours(double repeats, double motion_duration) { return repeats * motion_duration / 3600; }
-
-double months(double hours, double operating_hours_per_week) {
-  return hours / operating_hours_per_week / weeks_per_month;
-}
 
 }  // namespace dresslife::fatigue

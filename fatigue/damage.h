@@ -107,6 +107,5 @@ class DamageCounter {
 /// Repeats to failure; infinity where the damage is 0.
 double life_in_repeats(double damage);
 double hours(double repeats, double motion_duration);  ///< duration of one repeat [s]
-double months(double hours, double operating_hours_per_week);
 
 }  // namespace dresslife::fatigue

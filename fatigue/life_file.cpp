@@ -20,6 +20,7 @@
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
+#include "pipeline/life/planning.h"
 
 namespace dresslife::fatigue {
 namespace {
@@ -325,7 +326,7 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
 void write_first_place(const Context& c, const Conductors& conductors, const FirstPlace& first,
                        double p10_repeats) {
   const double p10 = hours(p10_repeats, c.repeat_seconds());
-  c.life.attribute("life_months_p10", months(p10, c.job.fatigue.operating_hours_per_week));
+  c.life.attribute("life_months_p10", pipeline::months(p10, c.job.fatigue.operating_hours_per_week));
   if (!c.job.robot.joints.empty()) c.life.attribute("robot_life_hours", c.job.fatigue.robot_life_hours);
   const bool known = first.conductor < conductors.path.size();
   c.life.attribute("failing_conductor", known ? conductors.path[first.conductor] : "");
@@ -442,7 +443,7 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   worst.damage = c.damage.damage[site];
   worst.repeats = life_in_repeats(worst.damage);
   worst.life_hours = hours(worst.repeats, c.repeat_seconds());
-  worst.life_months = months(worst.life_hours, c.job.fatigue.operating_hours_per_week);
+  worst.life_months = pipeline::months(worst.life_hours, c.job.fatigue.operating_hours_per_week);
   const std::size_t segment = c.sites.segment(site);
   worst.segment_from_tool = double(c.segments_of(c.dresspack[segment]).end - segment);
   worst.position_from_tool = c.from_tool(segment);
@@ -512,7 +513,7 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
       "{} ({} months) until 10 % of such dresspacks have a conductor {} at one place; worst wire: {} h ({} "
       "repeats) until {} breaks, {:.2f} m from the tool{}",
       std::isinf(p10) ? "for ever" : pipeline::readable(p10) + " h",
-      pipeline::readable(months(p10, c.job.fatigue.operating_hours_per_week)),
+      pipeline::readable(pipeline::months(p10, c.job.fatigue.operating_hours_per_week)),
       c.job.fatigue.failed_wires_percent > 0
           ? fmt::format("without {:g} % of its wires", c.job.fatigue.failed_wires_percent)
           : "with a broken wire",

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "fatigue/life_distribution.h"
+#include "pipeline/life/planning.h"
 
 namespace dresslife::fatigue {
 namespace {
@@ -28,7 +29,7 @@ std::vector<Place> places_of(std::span<const PlacesOfConductor> places, std::spa
   std::vector<Place> all;
   std::vector<double> damage;
   for (std::size_t conductor = 0; conductor < places.size(); ++conductor) {
-    const std::size_t wires = bundles[conductor].damage.size(), count = wires_of_share(failed_percent, wires);
+    const std::size_t wires = bundles[conductor].damage.size(), count = pipeline::wires_of_share(failed_percent, wires);
     assert(places[conductor].damage.size() == wires * segments);
     for (std::size_t segment = 0; wires > 0 && segment < segments; ++segment) {
       const auto first = places[conductor].damage.begin() + static_cast<std::ptrdiff_t>(segment * wires);
@@ -65,7 +66,7 @@ class Places {
     const auto judged = [&](const Place& place) {
       const std::size_t wires = bundles[place.conductor].damage.size();
       return JudgedPlace{Wires(damage_at(places[place.conductor], place.segment, wires)), place.conductor,
-                         place.segment, wires_of_share(failed_percent, wires), place.log_life};
+                         place.segment, pipeline::wires_of_share(failed_percent, wires), place.log_life};
     };
     least_ = neglected / double(all.size());
     constexpr std::size_t soonest =
@@ -174,7 +175,7 @@ FirstPlace first_place_lives(std::span<const PlacesOfConductor> places, std::spa
   double haste = 0;
   for (const Bundle& bundle : bundles)
     for (std::size_t k = 0;
-         k < bundle.rate.size() && k < wires_of_share(failed_percent, bundle.damage.size()); ++k)
+         k < bundle.rate.size() && k < pipeline::wires_of_share(failed_percent, bundle.damage.size()); ++k)
       haste = std::max(haste, std::log(bundle.rate[k]));
   const double own = scatter.own() * std::numbers::ln10;
   if (scatter.log10 == 0 && !sharing) {

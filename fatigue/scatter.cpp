@@ -10,6 +10,7 @@
 
 #include "fatigue/life_distribution.h"
 #include "pipeline/base/random.h"
+#include "pipeline/life/planning.h"
 
 namespace dresslife::fatigue {
 namespace {
@@ -31,7 +32,7 @@ Percentiles quantiles(std::vector<double>& lives) {
 }
 
 std::array<std::size_t, failures> counts_of(const Bundle& bundle, double failed_percent) {
-  return {1, wires_of_share(failed_percent, bundle.damage.size()), bundle.damage.size()};
+  return {1, pipeline::wires_of_share(failed_percent, bundle.damage.size()), bundle.damage.size()};
 }
 
 /// log10 of the factor that all wires of a dresspack have in common in a draw; their streams count from 0 up.
@@ -71,11 +72,6 @@ void order_breaks(std::span<const double> damage, std::span<const double> factor
 
 }  // namespace
 
-std::size_t wires_of_share(double percent, std::size_t wires) {
-  const double count = std::ceil(percent / 100 * double(wires) * (1 - 1e-12));  // 10 % of 70 are 7, not 8
-  return std::clamp<std::size_t>(static_cast<std::size_t>(count), 1, std::max<std::size_t>(wires, 1));
-}
-
 Percentiles first_wire_lives(std::span<const std::vector<double>> damage, Scatter scatter) {
   std::vector<LifeDistribution> each;
   double shortest = infinity;
@@ -111,7 +107,7 @@ Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed
   std::map<std::size_t, std::vector<Conductor>> dresspacks;
   double shortest = infinity;
   for (const Bundle& bundle : bundles) {
-    Conductor conductor{Wires(bundle.damage), wires_of_share(failed_percent, bundle.damage.size())};
+    Conductor conductor{Wires(bundle.damage), pipeline::wires_of_share(failed_percent, bundle.damage.size())};
     if (conductor.wires.damaged() < conductor.count) continue;
     shortest = std::min(shortest, conductor.wires.life(conductor.count - 1));
     dresspacks[bundle.dresspack].push_back(std::move(conductor));
@@ -180,7 +176,7 @@ Percentiles shared_place_lives(std::span<const Bundle> bundles, std::span<const 
       if (drawn != conductor) draw_factors(bundle, stream[conductor], draw, scatter, factors);
       drawn = conductor;
       order_breaks(damage_at(conductor, segment), factors, bundle.rate,
-                   wires_of_share(failed_percent, bundle.damage.size()), breaks);
+                   pipeline::wires_of_share(failed_percent, bundle.damage.size()), breaks);
       soonest = std::min(soonest, breaks.back());
     }
     first.push_back(soonest);

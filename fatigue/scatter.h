@@ -32,9 +32,6 @@ namespace dresslife::fatigue {
 constexpr std::size_t failures = 3;
 using FailureLives = std::array<Percentiles, failures>;
 
-/// Wires that must break before a share of `wires` has: at least one.
-std::size_t wires_of_share(double percent, std::size_t wires);
-
 /// Lives by which at least one wire has broken, of wires that lie in several dresspacks: (dresspack) (wire)
 /// damage.
 Percentiles first_wire_lives(std::span<const std::vector<double>> damage, Scatter scatter);

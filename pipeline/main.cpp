@@ -32,6 +32,7 @@ std::vector<Command> commands(const Command& program, bool& force) {
       status_command(),
       report_command(),
       clean_command(),
+      duty_command(),
       improve_command(),
       reprogram_command(),
       new_command(),

@@ -43,6 +43,7 @@ constexpr std::array beginnings{
     Beginning{"job,life_repeats,life_hours,worst_segment_from_tool,"},  // ranking.csv
     Beginning{"trial,feasible,life_hours_p10,"},                       // improve.csv
     Beginning{"cable,job,rig,status,cycles_p10,"},                     // rate.csv
+    Beginning{"duty,job,repeats_per_hour,share_of_time,"},             // of duty
     Beginning{"lines,way,life_hours_p10,times_as_long,"},              // of reprogram
     // Older versions:
     Beginning{"trial,feasible,scatter_life_hours_p10,"},

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 
+#include "pipeline/advise/plan/duty.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/files/files.h"
@@ -37,7 +38,7 @@ std::string path_of(const KeyRow& row) { return row.map == "job" ? row.key : row
 
 std::vector<KeyRow> every_key() {
   std::vector<KeyRow> rows;
-  for (const std::vector<KeyRow>& some : {study_keys(), job_keys(), key_rows<Cluster>("cluster")})
+  for (const std::vector<KeyRow>& some : {study_keys(), job_keys(), duty_keys(), key_rows<Cluster>("cluster")})
     rows.insert(rows.end(), some.begin(), some.end());
   return rows;
 }

@@ -39,15 +39,6 @@ std::uint64_t seed_of(const std::string& name) {
   return seed;
 }
 
-/// (sample) standard normal, every stratum once, in an order that the name decides.
-std::vector<double> normals_of(const std::string& name, std::size_t samples) {
-  std::vector<double> values = normal_strata(samples);
-  std::uint64_t state = seed_of(name);
-  for (std::size_t k = samples; k > 1; --k, state += mix_step)
-    std::swap(values[k - 1], values[mixed(state) % k]);
-  return values;
-}
-
 /// What a dresspack of a job has for itself.
 std::string own_name(const LifeResponse& response, const std::string& job) {
   return "job " + job + (response.dresspack.empty() ? "" : "/" + response.dresspack);
@@ -103,7 +94,7 @@ struct Samples {
 
 /// again: another, independent set of samples.
 Samples samples_of(const LifeResponse& response, const std::string& job, std::size_t count, bool again = false) {
-  const auto normals = [&](const std::string& name) { return normals_of(again ? name + " again" : name, count); };
+  const auto normals = [&](const std::string& name) { return standard_normals(again ? name + " again" : name, count); };
   std::vector<std::size_t> order(uncertain_count);
   std::iota(order.begin(), order.end(), 0);
   std::stable_partition(order.begin(), order.end(), [](std::size_t p) {
@@ -347,6 +338,20 @@ LifePercentiles percentiles_of(std::vector<double> lives) {
 std::vector<double> first_failures(const FailureModes& modes, const std::string& job, std::size_t samples,
                                    Inside inside) {
   return lives_of(surfaces_of(modes), samples_of(modes, job, samples), inside);
+}
+
+std::vector<std::vector<double>> mode_lives(const FailureModes& modes, const std::string& job, std::size_t samples) {
+  std::vector<std::vector<double>> lives;
+  for (const LifeResponse& mode : modes) lives.push_back(first_failures({mode}, job, samples));
+  return lives;
+}
+
+std::vector<double> standard_normals(const std::string& name, std::size_t samples) {
+  std::vector<double> values = normal_strata(samples);
+  std::uint64_t state = seed_of(name);
+  for (std::size_t k = samples; k > 1; --k, state += mix_step)
+    std::swap(values[k - 1], values[mixed(state) % k]);
+  return values;
 }
 
 FirstFailures summary_of(const FailureModes& modes, const std::string& job, std::size_t count) {

@@ -53,6 +53,12 @@ std::vector<double> first_failures(const FailureModes& modes, const std::string&
 FirstFailures summary_of(const FailureModes& modes, const std::string& job,
                          std::size_t samples = life_samples);
 
+/// (mode, sample) the same of each mode by itself.
+std::vector<std::vector<double>> mode_lives(const FailureModes& modes, const std::string& job,
+                                            std::size_t samples = life_samples);
+/// (sample) standard normal numbers: every stratum once, in an order that the name decides.
+std::vector<double> standard_normals(const std::string& name, std::size_t samples);
+
 /// Of log10 lives, in any order.
 LifePercentiles percentiles_of(std::vector<double> log10_lives);
 

@@ -19,12 +19,6 @@ const UncertainParameter* parameter_of(const std::string& name) {
   return nullptr;
 }
 
-/// Warnings that say that the strains themselves are wrong.
-bool is_believable(const RankingRow& row) {
-  const std::vector<Warning> warnings = warnings_of(row);
-  return std::none_of(warnings.begin(), warnings.end(), [](const Warning& warning) { return spoils_plan(warning.kind); });
-}
-
 bool outlives_robot(const RankingRow& row, double hours) {
   return std::isfinite(hours) && hours > row.robot_life_hours;
 }
@@ -67,6 +61,11 @@ std::string abrasion_action(const RankingRow& row, double hours) {
 }
 
 }  // namespace
+
+bool is_believable(const RankingRow& row) {
+  const std::vector<Warning> warnings = warnings_of(row);
+  return std::none_of(warnings.begin(), warnings.end(), [](const Warning& warning) { return spoils_plan(warning.kind); });
+}
 
 std::string range_text(double low_hours, double high_hours) {
   if (std::isinf(low_hours)) return "no damage";

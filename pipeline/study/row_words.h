@@ -9,6 +9,9 @@
 
 namespace dresslife::pipeline {
 
+/// Whether no warning says that the strains themselves are wrong.
+bool is_believable(const RankingRow& row);
+
 /// "Plan a replacement after 1,300 h (3.72 months).", or why not to plan with these hours. Empty: no result.
 std::string action_words(const RankingRow& row);
 

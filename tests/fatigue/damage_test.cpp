@@ -399,7 +399,6 @@ TEST_CASE("damage sums, life, hours and months") {
   CHECK(life_in_repeats(0.036) == Approx(27.7777777777778));
   CHECK(life_in_repeats(0) == std::numeric_limits<double>::infinity());
   CHECK(hours(27.0, 180.0) == Approx(1.35));
-  CHECK(months(80 * 52.1775, 80) == Approx(12));  // one Gregorian year of 80-hour weeks
 }
 
 TEST_CASE("an absurd strain breaks the wire at once, and no more than at once") {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "fatigue/conductors.h"
+#include "pipeline/life/planning.h"
 #include "tests/catch.h"
 
 using namespace dresslife;
@@ -111,7 +112,7 @@ TEST_CASE("places: told lives are on the safe side of drawn ones, and near") {
     for (const double shared : {0.0, 0.5}) {
       const Pack pack = pack_of(5, 15, 30, turning);
       const Scatter scatter{0.2, shared};
-      const std::size_t count = wires_of_share(percent, 30);
+      const std::size_t count = pipeline::wires_of_share(percent, 30);
       std::vector<double> lives, breaks;
       std::normal_distribution<double> normal;
       for (int draw = 0; draw < draws; ++draw) {

@@ -66,13 +66,6 @@ TEST_CASE("scatter: at least k of n against every outcome") {
   CHECK(at_least(std::vector<double>(3, 0.5), 2) == 0.5);
 }
 
-TEST_CASE("scatter: wires that make up a share") {
-  CHECK(wires_of_share(0, 92) == 1);
-  CHECK(wires_of_share(10, 92) == 10);  // 9 are not yet 10 %
-  CHECK(wires_of_share(10, 70) == 7);   // not 8 by rounding
-  CHECK(wires_of_share(100, 92) == 92);
-}
-
 TEST_CASE("scatter: percentiles of one wire, of the first and of the last of equal wires") {
   constexpr double z90 = 1.2815515655446004;
   const double s = 0.25;

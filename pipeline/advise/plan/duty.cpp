@@ -1,0 +1,131 @@
+#include "pipeline/advise/plan/duty.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "pipeline/settings/fields.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double most_repeats = 1e6;  // in an hour: a motion takes more than 3 ms
+
+std::vector<std::string> names_of(const DutyFile& file) {
+  std::vector<std::string> names;
+  for (const Duty& duty : file.duties) names.push_back(duty.name);
+  return names;
+}
+
+void check(const Duty& duty, Problems& problems) {
+  if (duty.programs.empty())
+    problems.add(duty.where, fmt::format("duty '{}' has no programs", duty.name), "add 'programs:' and a list");
+  std::set<std::string> jobs;
+  double percent_of_repeats = 0;
+  for (const DutyProgram& program : duty.programs) {
+    const int given = program.repeats_per_hour.has_value() + program.repeats_per_shift.has_value() +
+                      program.percent_of_time.has_value() + program.percent_of_repeats.has_value();
+    if (given != 1)
+      problems.add(program.where,
+                   fmt::format("'{}' has {} numbers that say how often it runs (must be one)", program.job, given),
+                   "give repeats_per_hour, repeats_per_shift, percent_of_time or percent_of_repeats");
+    if (!jobs.insert(program.job).second)
+      problems.add(program.where, fmt::format("'{}' occurs twice in duty '{}'", program.job, duty.name),
+                   "add both numbers in one entry");
+    percent_of_repeats += program.percent_of_repeats.value_or(0);
+    if (program.percent_of_repeats && !duty.repeats_per_hour)
+      problems.add(program.where, fmt::format("percent_of_repeats of '{}' has no number to refer to", program.job),
+                   "give repeats_per_hour of the duty: all programs together");
+  }
+  constexpr double rounding = 1e-9;
+  if (percent_of_repeats > 100 + rounding)
+    problems.add(duty.where, fmt::format("percent_of_repeats adds up to {:g} %", percent_of_repeats), "at most 100");
+}
+
+}  // namespace
+
+void describe(Fields& f, DutyProgram& program) {
+  f.place(program.where);
+  f.text("job", program.job, Need::required, "The name of a job of the study: a program on the dresspack.");
+  f.maybe_number("repeats_per_hour", program.repeats_per_hour, between(0, most_repeats),
+                 "The repeats of the program in an hour of operation.");
+  f.maybe_number("repeats_per_shift", program.repeats_per_shift, between(0, 24 * most_repeats),
+                 "The repeats of the program in a shift of `shift_hours`.");
+  f.maybe_number("percent_of_time", program.percent_of_time, between(0, 100),
+                 "The share of the hours of operation in which the robot runs the program.");
+  f.maybe_number("percent_of_repeats", program.percent_of_repeats, between(0, 100),
+                 "The share of the duty's `repeats_per_hour`.");
+  f.number("deviation_percent", program.deviation_percent, Need::optional, between(0, 100),
+           "The standard deviation of the number of repeats, from one dresspack to the next.");
+}
+
+void describe(Fields& f, PastDuty& past) {
+  f.place(past.where);
+  f.text("duty", past.duty, Need::required, "The name of a duty in this file.");
+  f.number("hours", past.hours, Need::required, at_least(0), "The hours of operation under it.");
+}
+
+void describe(Fields& f, Duty& duty) {
+  f.place(duty.where);
+  f.text("name", duty.name, Need::required, "The name of the duty.");
+  f.number("hours_per_week", duty.hours_per_week, Need::optional, between(0.1, 168),
+           "The hours of operation in a week: motion, pauses and waits.");
+  f.number("shift_hours", duty.shift_hours, Need::optional, between(0.1, 168), "The hours of a shift.");
+  f.maybe_number("repeats_per_hour", duty.repeats_per_hour, between(0, most_repeats),
+                 "The repeats of all programs together in an hour of operation, for `percent_of_repeats`.");
+  f.list("programs", duty.programs, Need::required, "The programs, and how often each of them runs.");
+  f.list("history", duty.history, Need::optional,
+         "What the dresspack has done so far. With it the remaining life is predicted.");
+}
+
+namespace {
+
+void describe(Fields& f, DutyFile& file) {
+  f.place(file.where);
+  f.text("study", file.study, Need::required, "The study with the jobs: a name of config/studies, or a file.");
+  f.list("duties", file.duties, Need::required, "The duties.");
+}
+
+}  // namespace
+
+double DutyProgram::rate(double repeat_seconds, double shift_hours, std::optional<double> all_repeats) const {
+  if (repeats_per_hour) return *repeats_per_hour;
+  if (repeats_per_shift) return *repeats_per_shift / shift_hours;
+  if (percent_of_repeats) return *percent_of_repeats / 100 * all_repeats.value_or(0);
+  return percent_of_time.value_or(0) / 100 * 3600 / repeat_seconds;
+}
+
+DutyFile read_duties(const std::filesystem::path& name) {
+  const Node document = read_yaml(name);
+  DutyFile file;
+  Problems problems;
+  read_fields(document, Describe([&](Fields& f) { describe(f, file); }), problems);
+  if (file.duties.empty() && !problems.touch("duties"))
+    problems.add(file.where, "duties has no entry", "write '- name: ...' with programs");
+  std::set<std::string> unique;
+  for (const Duty& duty : file.duties) {
+    check(duty, problems);
+    if (!unique.insert(duty.name).second)
+      problems.add(duty.where, fmt::format("two duties are named '{}'", duty.name), "give each another name");
+    for (const PastDuty& past : duty.history)
+      problems.attempt("", past.where, [&] { duty_named(file, past.duty, past.where); });
+  }
+  problems.finish(name.string());
+  return file;
+}
+
+const Duty& duty_named(const DutyFile& file, const std::string& name, const Where& named_at) {
+  for (const Duty& duty : file.duties)
+    if (duty.name == name) return duty;
+  const std::string near = nearest_word(name, names_of(file));
+  throw InputError(named_at, fmt::format("there is no duty '{}'", name),
+                   near.empty() ? "name one of the file's duties" : fmt::format("did you mean '{}'?", near));
+}
+
+std::vector<KeyRow> duty_keys() {
+  DutyFile file;
+  return key_rows("duties", Describe([&](Fields& f) { describe(f, file); }));
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,70 @@
+// What robots do in their hours of operation: the programs of one dresspack, and how often each of them runs.
+//
+//   study: two_robots                    the jobs: a study by name, or its file
+//   duties:
+//     - name: day
+//       hours_per_week: 80
+//       programs:
+//         - {job: spot_robot_1, repeats_per_hour: 12}
+//         - {job: hard, percent_of_time: 5, deviation_percent: 10}
+//       history:
+//         - {duty: night, hours: 2000}   what the dresspack has done before
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/base/errors.h"
+
+namespace dresslife::pipeline {
+
+class Fields;
+struct KeyRow;
+
+/// How often one program runs; exactly one of the optional numbers is given.
+struct DutyProgram {
+  Where where;
+  std::string job;
+  std::optional<double> repeats_per_hour, repeats_per_shift, percent_of_time, percent_of_repeats;
+  double deviation_percent = 0;  ///< standard deviation of its number of repeats, of this dresspack for ever
+
+  /// Repeats in an hour of operation. repeat_seconds: of its motion.
+  double rate(double repeat_seconds, double shift_hours, std::optional<double> all_repeats_per_hour) const;
+};
+
+/// Hours under a duty in the past.
+struct PastDuty {
+  Where where;
+  std::string duty;
+  double hours = 0;
+};
+
+struct Duty {
+  Where where;
+  std::string name;
+  double hours_per_week = 80;              ///< of operation: motion, pauses, waits
+  double shift_hours = 8;                  ///< of repeats_per_shift
+  std::optional<double> repeats_per_hour;  ///< of all programs together, of percent_of_repeats
+  std::vector<DutyProgram> programs;
+  std::vector<PastDuty> history;
+};
+
+struct DutyFile {
+  Where where;
+  std::string study;
+  std::vector<Duty> duties;
+};
+
+/// Errors: InputError with all problems: unknown keys, a program without a number or with several, two duties of one
+/// name, a history that names no duty.
+DutyFile read_duties(const std::filesystem::path& file);
+
+/// The duty of this name. Errors: InputError at `named_at`.
+const Duty& duty_named(const DutyFile& file, const std::string& name, const Where& named_at);
+
+/// The keys of a file of duties.
+std::vector<KeyRow> duty_keys();
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,97 @@
+#include "pipeline/advise/plan/duty_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/base/csv_rows.h"
+#include "pipeline/base/readable.h"
+#include "pipeline/life/planning.h"
+#include "pipeline/settings/units.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// As the tables of a study show it: beyond the robot's own life only that.
+std::string shown_hours(double robot_life, double hours) {
+  return hours > robot_life ? "over " + readable(robot_life) : life_text(hours);
+}
+
+/// The robot lived through the history, too.
+double robot_life_left(const DutyResult& duty) { return std::max(0.0, duty.robot_life_hours - duty.past_hours); }
+
+std::string action(const DutyResult& duty) {
+  const bool remains = duty.past_hours > 0;
+  const double hours = remains ? duty.lives.remaining[0] : duty.lives.percentiles[0];
+  const std::string when = remains ? fmt::format("in {} of operation from now on", hours_text(hours)) : "after " + hours_text(hours) + " of operation";
+  if (duty.doubtful.empty() && std::isinf(hours))
+    return "No replacement is foreseen: in more than 90 % of the samples no mode fails.";
+  if (!duty.doubtful.empty())
+    return fmt::format("Do not plan with {}: {} (see the warnings).", std::isinf(hours) ? "this result" : hours_text(hours),
+                       fmt::join(duty.doubtful, ", "));
+  if (hours > robot_life_left(duty))
+    return fmt::format("The evaluated parts last longer than the robot ({}).", hours_text(duty.robot_life_hours));
+  return fmt::format("Plan a replacement {} ({} at {:g} h per week).", when, calendar_text(months(hours, duty.hours_per_week)),
+                     duty.hours_per_week);
+}
+
+std::string percentile_words(const DutyResult& duty) {
+  const auto& [tenth, half, most] = duty.past_hours > 0 ? duty.lives.remaining : duty.lives.percentiles;
+  if (std::isinf(tenth)) return "";
+  const double robot_life = robot_life_left(duty);
+  std::string words = fmt::format("Hours until 1 of 10, half and 90 % have failed: {}, {}, {}.", shown_hours(robot_life, tenth),
+                                  shown_hours(robot_life, half), shown_hours(robot_life, most));
+  if (duty.past_hours > 0)
+    words += fmt::format(" These hours begin now, after {} of operation. {:.0f} % of the samples survive until now; only they count.",
+                         hours_text(duty.past_hours), 100 * duty.lives.survived);
+  return words;
+}
+
+}  // namespace
+
+std::string duty_words(const std::vector<DutyResult>& results) {
+  std::string text;
+  for (const DutyResult& duty : results) {
+    double time = 0;
+    std::size_t wide = 7;
+    for (const DutyPart& part : duty.parts) time += part.share_of_time, wide = std::max(wide, columns_of(part.job));
+    text += fmt::format("{}{}\n", text.empty() ? "" : "\n", duty.name);
+    text += wrapped(action(duty), 118, "  ") + wrapped(percentile_words(duty), 118, "  ");
+    text += fmt::format("  {:<{}}  {:>14}  {:>8}  {:>8}  {:>17}  {:>21}\n", "program", wide, "repeats per h", "time", "damage",
+                        "p10 without it [h]", "p10 if twice as often");
+    for (std::size_t k = 0; k < duty.parts.size(); ++k)
+      text += fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>18}  {:>21}\n", duty.parts[k].job, wide,
+                          readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time, 100 * duty.lives.share[k],
+                          shown_hours(duty.robot_life_hours, duty.lives.without[k][0]), shown_hours(duty.robot_life_hours, duty.lives.as_twice[k][0]));
+    text += fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
+    for (std::size_t m = 0; m < duty.modes.size(); ++m)
+      if (duty.damage.same_place[m] < 0.99)
+        text += wrapped(fmt::format("The programs wear different places: the damage of '{}' is {:.2f} of the sum of their worst places.",
+                                    duty.modes[m], duty.damage.same_place[m]),
+                        118, "  ");
+  }
+  return text;
+}
+
+std::string duty_csv(const std::vector<DutyResult>& results) {
+  std::string text =
+      "duty,job,repeats_per_hour,share_of_time,share_of_damage,life_hours_p10,life_hours_p50,life_hours_p90,past_hours,"
+      "survived,remaining_hours_p10,remaining_hours_p50,remaining_hours_p90,life_hours_p10_without,life_hours_p10_twice\n";
+  for (const DutyResult& duty : results)
+    for (std::size_t k = 0; k < duty.parts.size(); ++k) {
+      const DutyLives& lives = duty.lives;
+      const bool remains = duty.past_hours > 0;
+      std::vector<std::string> cells{csv_cell(duty.name), csv_cell(duty.parts[k].job)};
+      for (const double value : {duty.parts[k].repeats_per_hour, duty.parts[k].share_of_time, lives.share[k], lives.percentiles[0],
+                                 lives.percentiles[1], lives.percentiles[2], duty.past_hours, lives.survived})
+        cells.push_back(shortest_text(value));
+      for (const double value : lives.remaining) cells.push_back(remains ? shortest_text(value) : "");
+      for (const double value : {lives.without[k][0], lives.as_twice[k][0]}) cells.push_back(shortest_text(value));
+      text += fmt::format("{}\n", fmt::join(cells, ","));
+    }
+  return text;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,17 @@
+// Duties as text for the terminal, and as a table for other programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/advise/plan/evaluated_duties.h"
+
+namespace dresslife::pipeline {
+
+/// Of each duty: when to replace, then a line for each program. Ends with a line feed.
+std::string duty_words(const std::vector<DutyResult>& results);
+
+/// One row per duty and program; lives are of the whole duty. Numbers read back exactly, "inf" without damage.
+std::string duty_csv(const std::vector<DutyResult>& results);
+
+}  // namespace dresslife::pipeline

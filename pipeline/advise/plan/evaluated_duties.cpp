@@ -1,0 +1,181 @@
+#include "pipeline/advise/plan/evaluated_duties.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "pipeline/base/readable.h"
+#include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/settings/fields.h"
+#include "pipeline/study/row_warnings.h"
+#include "pipeline/study/row_words.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double fewest_survivors = 1e-3;  // of the samples: percentiles of fewer than ten are chance
+
+const StudyJob& job_named(const Study& study, const DutyProgram& program) {
+  std::vector<std::string> names;
+  for (const StudyJob& job : study.jobs) {
+    if (job.name == program.job) return job;
+    names.push_back(job.name);
+  }
+  const std::string near = nearest_word(program.job, names);
+  throw InputError(program.where, fmt::format("study '{}' has no job '{}'", study.name, program.job),
+                   near.empty() ? "dresslife status STUDY lists its jobs" : fmt::format("did you mean '{}'?", near));
+}
+
+/// All of a job but its motion. The texts of two jobs agree if their damage can be added.
+std::map<std::string, std::string> beside_motion(const Job& job) {
+  const Node text = parse_yaml(job_text(job), "job");
+  std::map<std::string, std::string> sections;
+  for (const Entry& section : text.entries)
+    if (section.key != "motion" && section.key != "name") sections[section.key] = to_yaml(section.value);
+  return sections;
+}
+
+void check_same_dresspack(const Duty& duty, const Study& study) {
+  const StudyJob& first = job_named(study, duty.programs.front());
+  if (!first.job) return;
+  const auto expected = beside_motion(*first.job);
+  for (const DutyProgram& program : duty.programs) {
+    const StudyJob& job = job_named(study, program);
+    if (!job.job) continue;
+    for (const auto& [key, text] : beside_motion(*job.job)) {
+      const auto found = expected.find(key);
+      if (found == expected.end() || found->second != text)
+        throw InputError(program.where,
+                         fmt::format("jobs '{}' and '{}' differ in {}, so their damage does not add up", first.name, job.name, key),
+                         "a duty takes jobs that differ only in motion");
+    }
+  }
+}
+
+/// Programs of all duties, each read once.
+class Programs {
+ public:
+  Programs(const Study& study, const std::vector<RankingRow>& rows) : study_(study), rows_(rows) {}
+
+  const EvaluatedProgram& of(const DutyProgram& program) {
+    const auto [found, is_new] = programs_.try_emplace(program.job);
+    if (is_new) found->second = read(program);
+    return found->second;
+  }
+  const RankingRow& row(const DutyProgram& program) const {
+    const auto row = std::find_if(rows_.begin(), rows_.end(), [&](const RankingRow& r) { return r.job == program.job; });
+    if (row == rows_.end() || !row->done())
+      throw InputError(program.where,
+                       fmt::format("job '{}' has no result{}", program.job, row == rows_.end() ? "" : ": " + row->failure),
+                       "mend the job and run again");
+    return *row;
+  }
+
+ private:
+  EvaluatedProgram read(const DutyProgram& program) const {
+    const RankingRow& of = row(program);
+    if (of.life_response.empty())
+      throw InputError(program.where, fmt::format("job '{}' has no samples of uncertain parameters", program.job),
+                       "set uncertainty.enabled: true in the study");
+    const Job& job = *job_named(study_, program).job;
+    EvaluatedProgram read{of.job, of.repeat_seconds, modes_from_text(of.life_response), {}};
+    read.wires = wire_damage(of.life_file, read.modes, job.fatigue.failed_wires_percent);
+    return read;
+  }
+
+  const Study& study_;
+  const std::vector<RankingRow>& rows_;
+  std::map<std::string, EvaluatedProgram> programs_;
+};
+
+std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<DutyPart>& parts) {
+  std::vector<Rate> rates;
+  double time = 0;
+  std::string words;
+  for (const DutyProgram& program : duty.programs) {
+    const double seconds = programs.row(program).repeat_seconds;
+    const double rate = program.rate(seconds, duty.shift_hours, duty.repeats_per_hour);
+    rates.push_back({rate, program.deviation_percent});
+    parts.push_back({program.job, rate, rate * seconds / 3600});
+    time += parts.back().share_of_time;
+    words += fmt::format("{}{} x {:.1f} s of '{}'", words.empty() ? "" : ", ", readable(rate), seconds, program.job);
+  }
+  constexpr double rounding = 1e-9;
+  if (time > 1 + rounding)
+    throw InputError(duty.where,
+                     fmt::format("the programs of duty '{}' take {:.1f} minutes of each hour ({})", duty.name, 60 * time, words),
+                     "give fewer repeats");
+  return rates;
+}
+
+}  // namespace
+
+void check_programs(const DutyFile& file, const Study& study) {
+  Problems problems;
+  for (const Duty& duty : file.duties)
+    problems.attempt("", duty.where, [&] {
+      for (const DutyProgram& program : duty.programs) job_named(study, program);
+      check_same_dresspack(duty, study);
+    });
+  problems.finish(file.where.file);
+}
+
+std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingRow>& rows) {
+  std::set<std::string> named;
+  for (const Duty& duty : file.duties)
+    for (const DutyProgram& program : duty.programs) named.insert(program.job);
+  std::vector<RankingRow> some;
+  for (const RankingRow& row : rows)
+    if (named.contains(row.job)) some.push_back(row);
+  return some;
+}
+
+std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows) {
+  Programs programs(study, rows);
+  // One name for all duties, and that of a job's own summary: a dresspack that changes its duty stays the same one.
+  const std::string dresspack;
+  std::vector<DutyResult> results;
+  for (const Duty& duty : file.duties) {
+    DutyResult& result = results.emplace_back();
+    result.name = duty.name;
+    result.hours_per_week = duty.hours_per_week;
+    const std::vector<Rate> rates = rates_of(duty, programs, result.parts);
+    for (const DutyProgram& program : duty.programs)
+      if (const RankingRow& row = programs.row(program); !is_believable(row))
+        result.doubtful.push_back(fmt::format("{} ({})", row.job, warning_kinds(row)));
+    std::vector<EvaluatedProgram> evaluated;
+    for (const DutyProgram& program : duty.programs) evaluated.push_back(programs.of(program));
+    for (const EvaluatedProgram& program : evaluated)
+      if (program.wires.layout != evaluated.front().wires.layout)
+        throw InputError(duty.where, fmt::format("the results of '{}' and '{}' have different wires", evaluated.front().job, program.job),
+                         "make the results again with dresslife run");
+    result.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
+    for (const LifeResponse& mode : evaluated.front().modes) result.modes.push_back(mode.mode);
+    result.damage = damage_under(evaluated, rates, dresspack);
+  }
+  for (std::size_t d = 0; d < file.duties.size(); ++d) {
+    std::vector<PastDamage> history;
+    for (const PastDuty& past : file.duties[d].history) {
+      const auto& named = duty_named(file, past.duty, past.where);
+      const DutyResult& before = results[static_cast<std::size_t>(&named - file.duties.data())];
+      if (before.modes != results[d].modes)
+        throw InputError(past.where, fmt::format("duties '{}' and '{}' are of different dresspacks", past.duty, file.duties[d].name),
+                         "give a duty with the same dresspack");
+      history.push_back({&before.damage, past.hours});
+      results[d].past_hours += past.hours;
+    }
+    results[d].lives = lives_under(results[d].damage, history);
+    if (results[d].past_hours > 0 && results[d].lives.survived < fewest_survivors)
+      throw InputError(file.duties[d].where,
+                       fmt::format("duty '{}': {:.2g} % of the samples survive its history of {}, so the model contradicts "
+                                   "this dresspack",
+                                   file.duties[d].name, 100 * results[d].lives.survived, hours_text(results[d].past_hours)),
+                       "learn from it first: dresslife calibrate");
+  }
+  return results;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,43 @@
+// The duties of a file, evaluated from the results of the study that it names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/advise/plan/duty.h"
+#include "pipeline/advise/plan/mixture.h"
+#include "pipeline/study/ranking.h"
+#include "pipeline/study/study.h"
+
+namespace dresslife::pipeline {
+
+/// One program of a duty.
+struct DutyPart {
+  std::string job;
+  double repeats_per_hour = 0;
+  double share_of_time = 0;
+};
+
+struct DutyResult {
+  std::string name;
+  double hours_per_week = 0, robot_life_hours = 0;
+  std::vector<DutyPart> parts;
+  std::vector<std::string> modes;
+  DutyDamage damage;
+  DutyLives lives;
+  double past_hours = 0;  ///< 0: no history
+  std::vector<std::string> doubtful;  ///< "hard (bend radius)": programs with warnings that spoil a plan
+};
+
+/// Called before the study runs. Errors: InputError for a program that is no job of the study, and for programs on
+/// different dresspacks, routings or settings: their damage does not add up.
+void check_programs(const DutyFile& file, const Study& study);
+
+/// The rows of the programs that duties name.
+std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingRow>& rows);
+
+/// Errors: InputError for a program without a result or without uncertain parameters, for programs that take more than
+/// the whole time, and for a history that less than 1 in 1,000 samples survives.
+std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,216 @@
+#include "pipeline/advise/plan/mixture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string_view>
+#include <tuple>
+#include <unordered_map>
+
+#include "pipeline/base/digest.h"
+#include "pipeline/files/files.h"
+#include "pipeline/life/planning.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t nothing = 0xffffffff;
+
+/// "signal cable" of "signal cable 3".
+std::string_view without_number(std::string_view name) {
+  const std::size_t digits = name.find_last_not_of("0123456789");
+  return digits != std::string_view::npos && digits + 1 < name.size() && name[digits] == ' ' ? name.substr(0, digits) : name;
+}
+
+/// Whether the wires of a conductor with this path belong to a mode ("wires of signal cable", fatigue/failure_modes.h).
+bool is_in_mode(std::string_view conductor, const LifeResponse& mode) {
+  std::string name = mode.dresspack;
+  if (!name.empty()) {
+    if (!conductor.starts_with(name)) return false;
+    conductor.remove_prefix(std::min(conductor.size(), name.size() + 1));
+  }
+  const std::string_view cable = without_number(conductor.substr(0, conductor.find('/')));
+  if (!cable.empty()) name += (name.empty() ? "" : "/") + std::string(cable);
+  return mode.mode == (name.empty() ? "wires" : "wires of " + name);
+}
+
+/// The conductor that holds a wire: of those with a path that the wire's begins with, the longest.
+std::uint32_t conductor_of(const std::string& wire, const std::unordered_map<std::string, std::uint32_t>& conductors) {
+  for (std::size_t end = wire.rfind('/'); end != std::string::npos; end = end == 0 ? std::string::npos : wire.rfind('/', end - 1))
+    if (const auto found = conductors.find(wire.substr(0, end)); found != conductors.end()) return found->second;
+  const auto whole = conductors.find("");
+  return whole == conductors.end() ? nothing : whole->second;
+}
+
+/// (mode) damage of the place that fails first, of these damages (site).
+std::vector<double> worst_places(const WireDamage& wires, const std::vector<double>& damage, std::size_t modes) {
+  std::vector<double> of_wire(wires.place.size(), 0.0);
+  for (std::size_t site = 0; site < damage.size(); ++site)
+    if (wires.wire[site] != nothing) of_wire[wires.wire[site]] = std::max(of_wire[wires.wire[site]], damage[site]);
+  std::vector<std::vector<double>> at_place(wires.mode.size());
+  for (std::size_t wire = 0; wire < of_wire.size(); ++wire) at_place[wires.place[wire]].push_back(of_wire[wire]);
+  std::vector<double> worst(modes, 0.0);
+  for (std::size_t place = 0; place < at_place.size(); ++place) {
+    std::vector<double>& all = at_place[place];
+    const auto failing = all.begin() + static_cast<std::ptrdiff_t>(wires.failing[place] - 1);
+    std::nth_element(all.begin(), failing, all.end(), std::greater<>());
+    double& of_mode = worst[wires.mode[place]];
+    of_mode = std::max(of_mode, *failing);
+  }
+  return worst;
+}
+
+/// (D2)
+std::vector<double> same_place(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates) {
+  const std::size_t modes = programs.front().modes.size();
+  std::vector<double> all(programs.front().wires.damage.size(), 0.0), apart(modes, 0.0);
+  for (std::size_t k = 0; k < programs.size(); ++k) {
+    const double rate = rates[k].repeats_per_hour;
+    for (std::size_t site = 0; site < all.size(); ++site) all[site] += rate * programs[k].wires.damage[site];
+    const std::vector<double> alone = worst_places(programs[k].wires, programs[k].wires.damage, modes);
+    for (std::size_t m = 0; m < modes; ++m) apart[m] += rate * alone[m];
+  }
+  std::vector<double> share = worst_places(programs.front().wires, all, modes);
+  for (std::size_t m = 0; m < modes; ++m) share[m] = apart[m] > 0 ? share[m] / apart[m] : 1;
+  return share;
+}
+
+/// Standard deviation of ln of a number with this relative deviation.
+double log_deviation(double percent) { return std::sqrt(std::log1p(percent * percent / 1e4)); }
+
+/// Damage in an hour of the mode that fails first, (sample).
+std::vector<double> of_first_mode(const DutyDamage& duty, std::size_t without = DutyDamage::none) {
+  std::vector<double> damage(duty.samples(), 0.0);
+  for (std::size_t s = 0; s < damage.size(); ++s)
+    for (std::size_t m = 0; m < duty.modes(); ++m) damage[s] = std::max(damage[s], duty.in_mode(m, s, without));
+  return damage;
+}
+
+double log10_life(double damage) { return damage > 0 ? -std::log10(damage) : infinity; }
+
+LifePercentiles percentiles_under(const std::vector<double>& damage) {
+  std::vector<double> lives;
+  for (const double of_sample : damage) lives.push_back(log10_life(of_sample));
+  return percentiles_of(std::move(lives));
+}
+
+}  // namespace
+
+WireDamage wire_damage(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent) {
+  const FileReader file(life_file, life_format());
+  WireDamage wires;
+  wires.damage = file.read<double>("/damage");
+  const auto segment = file.read<std::int32_t>("/site/segment");
+  const auto component = file.read<std::string>("/site/component");
+  std::unordered_map<std::string, std::uint32_t> conductors;
+  for (const std::string& path : file.read<std::string>("/conductor/component"))
+    conductors.emplace(path, static_cast<std::uint32_t>(conductors.size()));
+  std::vector<std::uint32_t> mode_of(conductors.size(), nothing);
+  for (const auto& [path, index] : conductors)
+    for (std::size_t m = 0; m < modes.size(); ++m)
+      if (is_in_mode(path, modes[m])) mode_of[index] = static_cast<std::uint32_t>(m);
+
+  struct Wire {
+    std::uint32_t conductor = nothing, index = 0;
+  };
+  std::unordered_map<std::string, Wire> known;
+  std::map<std::pair<std::uint32_t, std::int32_t>, std::uint32_t> places;  // (conductor, segment)
+  std::unordered_map<std::uint64_t, std::uint32_t> wire_at;                // (wire, segment)
+  std::vector<std::uint32_t> wires_of_place;
+  wires.wire.assign(wires.damage.size(), nothing);
+  for (std::size_t site = 0; site < wires.damage.size(); ++site) {
+    const auto [found, is_new] = known.try_emplace(component[site]);
+    if (is_new) found->second = {conductor_of(component[site], conductors), static_cast<std::uint32_t>(known.size() - 1)};
+    const Wire& wire = found->second;
+    if (wire.conductor == nothing || mode_of[wire.conductor] == nothing) continue;  // the hose's wall
+    const std::uint64_t key = std::uint64_t{wire.index} << 32 | static_cast<std::uint32_t>(segment[site]);
+    const auto [at, first_site] = wire_at.try_emplace(key, static_cast<std::uint32_t>(wires.place.size()));
+    wires.wire[site] = at->second;
+    if (!first_site) continue;
+    const auto [place, first_wire] =
+        places.try_emplace({wire.conductor, segment[site]}, static_cast<std::uint32_t>(wires.mode.size()));
+    if (first_wire) wires.mode.push_back(mode_of[wire.conductor]), wires_of_place.push_back(0);
+    wires.place.push_back(place->second);
+    ++wires_of_place[place->second];
+  }
+  for (const std::uint32_t count : wires_of_place)
+    wires.failing.push_back(static_cast<std::uint32_t>(wires_of_share(failed_percent, count)));
+  std::string layout;
+  for (const auto& [path, wire] : std::map<std::string, std::uint32_t>(conductors.begin(), conductors.end()))
+    layout += path + '\n';
+  for (std::size_t site = 0; site < wires.damage.size(); ++site)
+    layout += fmt::format("{} {}\n", wires.wire[site], wires.wire[site] == nothing ? nothing : wires.place[wires.wire[site]]);
+  wires.layout = sha256(layout);
+  return wires;
+}
+
+double DutyDamage::in_mode(std::size_t mode, std::size_t sample, std::size_t without) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < of_program.size(); ++k)
+    if (k != without) sum += of_program[k][mode][sample];
+  return sum;
+}
+
+DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                        const std::string& dresspack, std::size_t samples) {
+  DutyDamage duty;
+  duty.same_place = same_place(programs, rates);
+  for (std::size_t k = 0; k < programs.size(); ++k) {
+    std::vector<std::vector<double>> lives = mode_lives(programs[k].modes, dresspack, samples);
+    const double deviation = log_deviation(rates[k].deviation_percent);
+    const std::vector<double> z = standard_normals("repeats of " + programs[k].job + "/job " + dresspack, samples);
+    for (std::size_t m = 0; m < lives.size(); ++m)
+      for (std::size_t s = 0; s < samples; ++s)
+        lives[m][s] = duty.same_place[m] * rates[k].repeats_per_hour * std::exp(deviation * z[s]) * std::pow(10.0, -lives[m][s]);
+    duty.of_program.push_back(std::move(lives));
+  }
+  return duty;
+}
+
+DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& history) {
+  DutyLives lives;
+  const std::size_t programs = duty.of_program.size(), samples = duty.samples();
+  const std::vector<double> damage = of_first_mode(duty);
+  for (const double of_sample : damage) lives.log10_hours.push_back(log10_life(of_sample));
+  lives.percentiles = percentiles_of(lives.log10_hours);
+  lives.share.assign(programs, 0.0);
+  double damaged = 0;
+  for (std::size_t s = 0; s < samples; ++s) {
+    if (!(damage[s] > 0)) continue;
+    ++damaged;
+    std::size_t first = 0;
+    for (std::size_t m = 1; m < duty.modes(); ++m)
+      if (duty.in_mode(m, s) > duty.in_mode(first, s)) first = m;
+    for (std::size_t k = 0; k < programs; ++k) lives.share[k] += duty.of_program[k][first][s] / damage[s];
+  }
+  for (double& share : lives.share) share = damaged > 0 ? share / damaged : 0;
+  for (std::size_t k = 0; k < programs; ++k) {
+    lives.without.push_back(percentiles_under(of_first_mode(duty, k)));
+    std::vector<double> twice(samples, 0.0);
+    for (std::size_t s = 0; s < samples; ++s)
+      for (std::size_t m = 0; m < duty.modes(); ++m)
+        twice[s] = std::max(twice[s], duty.in_mode(m, s) + duty.of_program[k][m][s]);
+    lives.as_twice.push_back(percentiles_under(twice));
+  }
+  if (history.empty()) return lives;
+  std::vector<double> remaining;
+  for (std::size_t s = 0; s < samples; ++s) {
+    double left = infinity;
+    for (std::size_t m = 0; m < duty.modes(); ++m) {
+      double used = 0;
+      for (const PastDamage& past : history) used += past.hours * past.duty->in_mode(m, s);
+      const double rate = duty.in_mode(m, s);
+      left = std::min(left, used >= 1 ? 0 : rate > 0 ? (1 - used) / rate : infinity);
+    }
+    if (left > 0) remaining.push_back(std::log10(left));
+  }
+  lives.survived = static_cast<double>(remaining.size()) / static_cast<double>(samples);
+  if (!remaining.empty()) lives.remaining = percentiles_of(std::move(remaining));
+  return lives;
+}
+
+}  // namespace dresslife::pipeline

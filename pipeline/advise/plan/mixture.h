@@ -1,0 +1,87 @@
+// The life of a dresspack under several programs.
+//
+// Damage adds up over programs, wire by wire (Miner). With D_k the damage per repeat of program k, r_k its repeats per
+// hour of operation, the damage of a failure mode m in an hour is, in each sample s of everything that is uncertain,
+//     R(m, s) = c(m) sum over k of r_k(s) / L_k(m, s)                                                        (D1)
+// L_k(m, s): repeats until the mode fails under program k alone (life_response.h), over common samples. The programs may
+// wear different places. The sum assumes one place, and c(m) <= 1 corrects it for that by the medians:
+//     c(m) = max over places p of sum_k r_k D_k(p) / sum_k r_k max over p of D_k(p)                          (D2)
+// A place is a conductor at a segment. Its damage is that of the wire whose break is its failure: with n wires of which a
+// share q may be lost, of the n q-th wire. The dresspack fails with its first mode, after 1 / max over m of R(m, s) hours.
+// Cycles that open in one program and close in another are not counted. They need a strain in one program that the other
+// does not reach, and occur once per change of the program.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/life/first_failure.h"
+
+namespace dresslife::pipeline {
+
+/// Damage of all wires under one program.
+struct WireDamage {
+  std::vector<double> damage;          ///< (site) per repeat
+  std::vector<std::uint32_t> wire;     ///< (site) index; a wire at a segment has several sites around its surface
+  std::vector<std::uint32_t> place;    ///< (wire) index
+  std::vector<std::uint32_t> mode;     ///< (place) index into the modes
+  std::vector<std::uint32_t> failing;  ///< (place) the number of broken wires that is its failure, at least 1
+  std::string layout;                  ///< digest of sites and places: equal in all programs of one dresspack
+};
+/// From a life.h5. modes: of its life response. failed_percent: share of wires that a conductor may lose. Errors:
+/// InputError.
+WireDamage wire_damage(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent);
+
+/// A program as it was evaluated.
+struct EvaluatedProgram {
+  std::string job;
+  double repeat_seconds = 0;
+  FailureModes modes;
+  WireDamage wires;
+};
+
+/// How often it runs in an hour of operation.
+struct Rate {
+  double repeats_per_hour = 0;
+  double deviation_percent = 0;  ///< the factor is lognormal, its median 1
+};
+
+/// Damage per hour of operation under one duty, of common samples.
+struct DutyDamage {
+  /// (program) (mode, sample) c(m) r_k(s) / L_k(m, s) [1/h]
+  std::vector<std::vector<std::vector<double>>> of_program;
+  std::vector<double> same_place;  ///< (mode) c(m), 1: all programs wear the same place most
+
+  std::size_t samples() const { return of_program.front().front().size(); }
+  std::size_t modes() const { return of_program.front().size(); }
+  /// (D1). without: a program that is left out; none: all count.
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  double in_mode(std::size_t mode, std::size_t sample, std::size_t without = none) const;
+};
+
+/// Of one duty. dresspack: names what only this dresspack has (first_failures()). Precondition: as many rates as programs,
+/// at least one; the programs have the same modes and the same layout.
+DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                        const std::string& dresspack, std::size_t samples = life_samples);
+
+/// What a dresspack has done before: hours under a duty.
+struct PastDamage {
+  const DutyDamage* duty;
+  double hours;
+};
+
+struct DutyLives {
+  std::vector<double> log10_hours;  ///< (sample) of operation until failure, from a new dresspack on
+  LifePercentiles percentiles{};    ///< [h]
+  std::vector<double> share;        ///< (program) of the damage of the mode that fails first, mean over the samples
+  std::vector<LifePercentiles> without;   ///< (program) [h] the duty without it
+  std::vector<LifePercentiles> as_twice;  ///< (program) [h] if it ran twice as often
+  /// With a history: the share of samples that have survived it, and the hours until failure from now on, of those.
+  double survived = 1;
+  LifePercentiles remaining{};
+};
+DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& history = {});
+
+}  // namespace dresslife::pipeline

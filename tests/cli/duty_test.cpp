@@ -1,0 +1,86 @@
+// Duties through the whole chain: the life of a duty beside that of its programs.
+#include "tests/catch.h"
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+/// A cell of the first row of a table of ours with this text in its first or second column.
+std::string cell(const std::string& csv, const std::string& row, const std::string& column) {
+  std::istringstream lines(csv);
+  std::string title, line;
+  std::getline(lines, title);
+  const auto cells = [](const std::string& text) {
+    std::vector<std::string> all;
+    std::istringstream stream(text);
+    for (std::string one; std::getline(stream, one, ',');) all.push_back(one);
+    return all;
+  };
+  const auto titles = cells(title);
+  const auto at = static_cast<std::size_t>(std::find(titles.begin(), titles.end(), column) - titles.begin());
+  while (std::getline(lines, line))
+    if (line.starts_with(row)) return cells(line).at(at);
+  return "";
+}
+
+double number(const std::string& text) { return std::stod(text); }
+
+void write_study(const Scratch& scratch) {
+  write_small_job(scratch);
+  std::string job = content(scratch / "job.yaml");
+  job.replace(job.find("strain: {slip: stick}"), 21, "strain: {slip: stick}\nfatigue: {robot_life_hours: 1.0e+7}");
+  scratch.write("job.yaml", job);
+  std::string swing = content(scratch / "poses.csv");
+  scratch.write("study.yaml", "base: job.yaml\njobs:\n  one: {}\n  other: {motion.clamp_poses: twin.csv}\n"
+                              "  stiff: {dresspack.bending_stiffness_Nm2: 3}\n");
+  scratch.write("twin.csv", swing);
+}
+
+}  // namespace
+
+TEST_CASE("a duty of one program in all of the time has the life of its job, and so have two equal programs") {
+  const Scratch scratch;
+  write_study(scratch);
+  scratch.write("duties.yaml", R"(study: study.yaml
+duties:
+  - {name: alone, programs: [{job: one, percent_of_time: 100}]}
+  - name: halves
+    programs: [{job: one, percent_of_time: 50}, {job: other, percent_of_time: 50}]
+    history: [{duty: alone, hours: 0.0001}]
+)");
+  const Outcome outcome = run(scratch, "dresslife", "duty duties.yaml --quiet");
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.status == 0);
+  REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+  const std::string ranking = content(scratch / "runs/study/ranking.csv"), duty = content(scratch / "runs/study/duty_duties.csv");
+  constexpr double kept_digits = 2e-5;  // a life response has six digits of log10 of a life: 5e-6 ln 10
+  for (const char* p : {"p10", "p50", "p90"}) {
+    const double life = number(cell(ranking, "one,", std::string("life_hours_") + p));
+    REQUIRE(std::isfinite(life));
+    CHECK(number(cell(duty, "alone,one", std::string("life_hours_") + p)) == Approx(life).epsilon(kept_digits));
+    CHECK(number(cell(duty, "halves,other", std::string("life_hours_") + p)) == Approx(life).epsilon(kept_digits));
+  }
+  CHECK(number(cell(duty, "halves,one", "share_of_damage")) == Approx(0.5).epsilon(1e-9));
+  CHECK(outcome.out.find("These hours begin now") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "duty duties.yaml --json --quiet").out.find("\"duty\":\"alone\"") != std::string::npos);
+}
+
+TEST_CASE("duties that cannot be added up are refused before anything runs") {
+  const Scratch scratch;
+  write_study(scratch);
+  const auto refusal = [&](const std::string& programs, const std::string& more = "") {
+    scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - name: d\n    programs: " + programs + "\n" + more);
+    const Outcome outcome = run(scratch, "dresslife", "duty duties.yaml --quiet");
+    CHECK(outcome.status == 1);
+    CHECK(outcome.out.empty());
+    return outcome.err;
+  };
+  CHECK(refusal("[{job: one, percent_of_time: 5}, {job: stiff, percent_of_time: 5}]").find("differ in dresspack") != std::string::npos);
+  CHECK(refusal("[{job: onee, percent_of_time: 5}]").find("did you mean 'one'?") != std::string::npos);
+  CHECK_FALSE(fs::exists(scratch / "runs"));
+  const std::string too_often = refusal("[{job: one, repeats_per_hour: 3000}, {job: other, percent_of_time: 50}]");
+  CHECK(too_often.find("minutes of each hour") != std::string::npos);
+  const std::string outlived = refusal("[{job: one, percent_of_time: 5}]", "    history: [{duty: d, hours: 1.0e+7}]\n");
+  CHECK(outlived.find("the model contradicts this dresspack") != std::string::npos);
+}

@@ -1,0 +1,125 @@
+// A duty against closed forms: programs at one place and at two, equal programs, histories.
+#include "pipeline/advise/plan/mixture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/catch.h"
+
+using namespace dresslife::pipeline;
+
+namespace {
+
+constexpr double rounding = 1e-12;
+constexpr std::size_t many = 10000;
+
+/// Lives of 10^median repeats, with a scatter of a tenth of a decade between median and 10 %.
+LifeResponse mode_of(double median, const std::string& name = "wires of cable") {
+  LifeResponse response;
+  response.mode = name;
+  response.construction = "hose", response.material = "copper";
+  response.knowledge = prior_of({});
+  response.knowledge.mean.setZero(), response.knowledge.covariance.setZero();
+  response.planned = {{median - 0.1, median, median + 0.1}};
+  response.worst_life = {median};
+  return response;
+}
+
+/// Two places with three wires each, a conductor fails with its second wire. damage: (place) (wire).
+WireDamage wires_of(const std::vector<std::vector<double>>& damage) {
+  WireDamage wires;
+  for (std::size_t place = 0; place < damage.size(); ++place) {
+    for (const double of_wire : damage[place]) {
+      wires.damage.push_back(of_wire);
+      wires.wire.push_back(static_cast<std::uint32_t>(wires.place.size()));
+      wires.place.push_back(static_cast<std::uint32_t>(place));
+    }
+    wires.mode.push_back(0), wires.failing.push_back(2);
+  }
+  return wires;
+}
+
+EvaluatedProgram program(const std::string& name, double median, const std::vector<std::vector<double>>& damage) {
+  return {name, 60, {mode_of(median)}, wires_of(damage)};
+}
+
+const std::vector<std::vector<double>> first_place{{3, 2, 1}, {0, 0, 0}}, second_place{{0, 0, 0}, {3, 2, 1}};
+
+}  // namespace
+
+TEST_CASE("a program mixed with itself is itself, in any order and parts") {
+  const EvaluatedProgram one = program("a", 5, first_place), same = program("b", 5, first_place);
+  const DutyLives whole = lives_under(damage_under({one}, {{30, 0}}, "", many));
+  const DutyLives parts = lives_under(damage_under({one, same}, {{10, 0}, {20, 0}}, "", many));
+  const DutyLives nothing_more = lives_under(damage_under({one, same}, {{30, 0}, {0, 0}}, "", many));
+  for (std::size_t p = 0; p < 3; ++p) {
+    CHECK(parts.percentiles[p] == Approx(whole.percentiles[p]).epsilon(rounding));
+    CHECK(nothing_more.percentiles[p] == Approx(whole.percentiles[p]).epsilon(rounding));
+    CHECK(parts.without[0][p] == Approx(1.5 * whole.percentiles[p]).epsilon(rounding));
+    CHECK(parts.as_twice[0][p] == Approx(0.75 * whole.percentiles[p]).epsilon(rounding));
+  }
+  CHECK(parts.share[0] == Approx(1.0 / 3).epsilon(rounding));
+  CHECK(parts.share[1] == Approx(2.0 / 3).epsilon(rounding));
+  CHECK(whole.percentiles[1] == Approx(1e5 / 30).epsilon(1e-4));  // 10,000 samples
+}
+
+TEST_CASE("damage of programs adds up at one place, and not at two") {
+  const EvaluatedProgram mild = program("mild", 6, {{0.3, 0.2, 0.1}, {0, 0, 0}});
+  const EvaluatedProgram hard = program("hard", 5, first_place), elsewhere = program("elsewhere", 5, second_place);
+  const std::vector<Rate> rates{{10, 0}, {10, 0}};
+  const DutyDamage same = damage_under({mild, hard}, rates, "", many), apart = damage_under({hard, elsewhere}, rates, "", many);
+  CHECK(same.same_place[0] == Approx(1).epsilon(rounding));
+  CHECK(apart.same_place[0] == Approx(0.5).epsilon(rounding));
+  CHECK(lives_under(same).percentiles[1] == Approx(1 / (10 / 1e5 + 10 / 1e6)).epsilon(1e-4));
+  // Neither wears the other's place.
+  CHECK(lives_under(apart).percentiles[1] == Approx(1e5 / 10).epsilon(1e-4));
+  // The second wire of three decides: equal damage of one wire of each place is not the same place's damage.
+  const EvaluatedProgram another_wire = program("another wire", 5, {{1, 2, 3}, {0, 0, 0}});
+  CHECK(damage_under({hard, another_wire}, rates, "", many).same_place[0] == Approx(1).epsilon(rounding));  // 4, 4, 4
+  const EvaluatedProgram other_wires = program("other wires", 5, {{0, 2, 2}, {0, 0, 0}});
+  CHECK(damage_under({hard, other_wires}, rates, "", many).same_place[0] == Approx(3.0 / 4).epsilon(rounding));  // 3, 4, 3
+}
+
+TEST_CASE("the first of two modes decides in each sample, and programs may wear different modes") {
+  const auto with_modes = [](const std::string& name, double one, double other) {
+    EvaluatedProgram of{name, 60, {mode_of(one, "wires of one"), mode_of(other, "wires of other")}, wires_of({{1}, {1}})};
+    of.wires.mode = {0, 1}, of.wires.failing = {1, 1};
+    return of;
+  };
+  const EvaluatedProgram first = with_modes("first", 5, 12), second = with_modes("second", 12, 4);
+  const DutyDamage duty = damage_under({first, second}, {{1, 0}, {1, 0}}, "", many);
+  const DutyLives lives = lives_under(duty);
+  CHECK(lives.percentiles[1] == Approx(1e4).epsilon(1e-4));
+  CHECK(lives.share[1] == Approx(1).epsilon(1e-6));  // a life of 1e12 has some damage
+  CHECK(lives.without[1][1] == Approx(1e5).epsilon(1e-4));
+}
+
+TEST_CASE("the remaining life is the life without the past, of the dresspacks that have survived it") {
+  const DutyDamage duty = damage_under({program("a", 5, first_place)}, {{10, 0}}, "", many);
+  const DutyDamage idle = damage_under({program("a", 5, first_place)}, {{0, 0}}, "", many);
+  const DutyLives fresh = lives_under(duty), same = lives_under(duty, {{&idle, 5000}});
+  CHECK(same.survived == 1);
+  CHECK(same.remaining == fresh.percentiles);
+  const double past = 10000;  // the median life
+  const DutyLives old = lives_under(duty, {{&duty, past}});
+  CHECK(old.survived == Approx(0.5).margin(1e-4));
+  // Half of the survivors fail before the life that three quarters of all reach; a tenth before that of 55 %.
+  std::vector<double> lives = fresh.log10_hours;
+  std::sort(lives.begin(), lives.end());
+  constexpr double between_samples = 1e-3;
+  CHECK(old.remaining[1] == Approx(std::pow(10, lives[3 * many / 4]) - past).epsilon(between_samples));
+  CHECK(old.remaining[0] == Approx(std::pow(10, lives[55 * many / 100]) - past).epsilon(20 * between_samples));
+  // Two halves of a history are the whole.
+  CHECK(lives_under(duty, {{&duty, past / 2}, {&duty, past / 2}}).remaining[1] == Approx(old.remaining[1]).epsilon(rounding));
+}
+
+TEST_CASE("uncertain numbers of repeats widen the lives and leave the median") {
+  const EvaluatedProgram one = program("a", 5, first_place);
+  const DutyLives known = lives_under(damage_under({one}, {{10, 0}}, "", many));
+  const DutyLives uncertain = lives_under(damage_under({one}, {{10, 50}}, "", many));
+  CHECK(uncertain.percentiles[1] == Approx(known.percentiles[1]).epsilon(0.02));  // of 10,000 samples
+  // Standard deviations of ln life add up as squares: 0.1 decades at 10 % are 0.18; 50 % are sqrt(ln 1.25) = 0.47.
+  const double decile = 1.2815515655446004, of_wires = 0.1 * std::log(10.0) / decile, of_repeats = std::sqrt(std::log(1.25));
+  CHECK(std::log(uncertain.percentiles[1] / uncertain.percentiles[0]) ==
+        Approx(decile * std::hypot(of_wires, of_repeats)).epsilon(0.02));
+}
