@@ -7,6 +7,7 @@
 #include <regex>
 #include <set>
 
+#include "pipeline/advise/plan/duty.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
@@ -52,6 +53,8 @@ const std::map<std::string, std::string> instead{
      "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 100 --rehearsals 40" + quick},
     {"dresslife run JOB.yaml", "dresslife run irb6640_spot_welding" + quick},
     {"dresslife improve JOB_OR_STUDY", "dresslife improve side_panel --trials 2 --rehearsals 0 --off 0" + quick},
+    {"dresslife duty FILE", "dresslife duty two_robots" + quick},
+    {"dresslife duty DUTIES.yaml", "dresslife duty two_robots" + quick},
     {"dresslife reprogram JOB_OR_STUDY", "dresslife reprogram irb6640_spot_welding --lines 1" + quick},
     {"dresslife-sim JOB.yaml -o motion.h5",
      "dresslife-sim CONFIG/jobs/irb6640_spot_welding.yaml -o motion.h5" + quick},
@@ -127,10 +130,14 @@ std::vector<Piece> pieces_of(const fs::path& page) {
   return pieces;
 }
 
-/// A job, a study, or keys of one: those go into a small job.
+/// A job, a study, duties, or keys of a job: those go into a small job.
 void read_example(const std::string& text, const fs::path& file) {
   std::ofstream(file) << text;
   pipeline::Node document = pipeline::read_yaml(file);
+  if (document.find("duties")) {
+    CHECK_FALSE(pipeline::read_duties(file).duties.empty());
+    return;
+  }
   if (document.find("base")) {
     for (const pipeline::StudyJob& job : pipeline::read_study(file).jobs) {
       INFO(job.name << ": " << job.failure);

@@ -18,6 +18,7 @@ const std::vector<Command> commands{
     {"rate hose.yaml --quiet", "rate_hose"},
     {"validate lives.yaml --quiet", "validate_lives"},
     {"calibrate lives.yaml --quiet", "calibrate_lives"},
+    {"duty duties.yaml --quiet", "job"},
     {"improve better.yaml --trials 2 --rehearsals 2 --off 0 --quiet", "better_improve"},
     {"reprogram robot.yaml --lines 1 --quiet", "robot_reprogram"},
     {"route abb_irb2600_12_165 --dresspack ./hose.yaml --tried 20 --rehearsals 2 --off 0 --quiet "
@@ -36,6 +37,7 @@ jobs:
 free: {routing.free_length_m: 0.85 .. 0.95}
 limits: {tension_N: 400}
 )");
+  scratch.write("duties.yaml", "study: job.yaml\nduties: [{name: d, programs: [{job: job, percent_of_time: 50}]}]\n");
   scratch.write("hose.yaml", thin_hose);
   scratch.write("lives.yaml", R"(observations:
   - name: wire

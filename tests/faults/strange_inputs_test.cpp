@@ -27,6 +27,7 @@ const std::vector<Reader> readers{
     {"dresslife", "clean INPUT", ".yaml"},
     {"dresslife", "submit INPUT --only-write", ".yaml"},
     {"dresslife", "submit study.yaml --only-write --cluster INPUT", ".yaml"},
+    {"dresslife", "duty INPUT", ".yaml"},
     {"dresslife", "improve INPUT", ".yaml"},
     {"dresslife", "reprogram INPUT", ".yaml"},
     {"dresslife", "check INPUT", ".yaml"},
