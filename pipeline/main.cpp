@@ -33,6 +33,7 @@ std::vector<Command> commands(const Command& program, bool& force) {
       report_command(),
       clean_command(),
       duty_command(),
+      plan_command(),
       improve_command(),
       reprogram_command(),
       new_command(),

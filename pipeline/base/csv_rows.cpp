@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <set>
 
 #include "pipeline/base/limits.h"
 
@@ -88,6 +89,21 @@ void CsvReader::read_quoted(CsvCell& cell) {
   if (!at_end_of_line() && text_[at_] != separator_)
     throw InputError({file_, line_, static_cast<int>(at_ - line_begin_) + 1}, "text follows a closing quote",
                      "write a quote within quotes twice");
+}
+
+void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer_list<std::string_view> needed) {
+  std::set<std::string_view> seen;
+  for (const CsvCell& title : titles) {
+    if (title.text.empty())
+      throw InputError(table.where(title), "a column has no title",
+                       "name the key that it sets, as in 'routing.free_length_m'");
+    if (!seen.insert(title.text).second)
+      throw InputError(table.where(title), fmt::format("two columns are titled '{}'", title.text),
+                       "keep one of the two");
+  }
+  for (const std::string_view name : needed)
+    if (!seen.contains(name))
+      throw InputError(table.where(titles.front()), fmt::format("the table has no column '{}'", name), "add it");
 }
 
 std::string harmless(const std::string& text) {

@@ -2,6 +2,7 @@
 // rows of empty cells and lines that begin with # do not count.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,6 +46,9 @@ class CsvReader {
   std::size_t at_ = 0, line_begin_ = 0;
   int line_ = 0;
 };
+
+/// Errors: InputError for a title that is empty or occurs twice, and where one of `needed` is missing.
+void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer_list<std::string_view> needed);
 
 /// Text for a spreadsheet or a terminal: what would be a formula there begins with an apostrophe, and no letter acts
 /// or hides (shown()).

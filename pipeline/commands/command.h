@@ -12,6 +12,7 @@ Command status_command();
 Command report_command();
 Command clean_command();
 Command duty_command();
+Command plan_command();
 Command improve_command();
 Command reprogram_command();
 // Cables and the tests that they are put to

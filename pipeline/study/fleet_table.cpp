@@ -13,21 +13,6 @@ namespace {
 
 constexpr const char* name_column = "name";
 
-void check_columns(const CsvReader& table, const CsvRow& titles) {
-  std::map<std::string, int> seen;
-  for (const CsvCell& title : titles) {
-    if (title.text.empty())
-      throw InputError(table.where(title), "a column has no title",
-                       "name the key that it sets, as in 'routing.free_length_m'");
-    if (++seen[title.text] > 1)
-      throw InputError(table.where(title), fmt::format("two columns are titled '{}'", title.text),
-                       "keep one of the two");
-  }
-  if (!seen.contains(name_column))
-    throw InputError(table.where(titles.front()), "the table has no column 'name'",
-                     "give each row a name of its own");
-}
-
 /// Where `program` stands for it.
 std::string path_of(const std::string& title, const std::string& value) {
   if (title != "program") return title;
@@ -74,7 +59,7 @@ std::vector<Variant> table_variants(const std::filesystem::path& file) {
   if (titles.empty())
     throw InputError({file.string(), 1, 1}, "holds no table",
                      "write a line of column titles, then a row per job");
-  check_columns(reader, titles);
+  check_titles(reader, titles, {name_column});
   std::vector<Variant> variants;
   std::map<std::string, int> lines;
   for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {

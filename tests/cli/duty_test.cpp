@@ -84,3 +84,24 @@ TEST_CASE("duties that cannot be added up are refused before anything runs") {
   const std::string outlived = refusal("[{job: one, percent_of_time: 5}]", "    history: [{duty: d, hours: 1.0e+7}]\n");
   CHECK(outlived.find("the model contradicts this dresspack") != std::string::npos);
 }
+
+TEST_CASE("a plan names what to replace in a window, writes a table and a calendar, and refuses what it does not know") {
+  const Scratch scratch;
+  write_study(scratch);
+  scratch.write("duties.yaml", "study: study.yaml\nduties: [{name: d, programs: [{job: one, percent_of_time: 0.1}]}]\n");
+  scratch.write("fleet.csv", "name,duty,installed\nnew one,d,\nold one,d,2026-11-22\n");
+  const std::string plan = "plan fleet.csv --duties duties.yaml --today 2026-11-23 --quiet --windows ";
+  const Outcome outcome = run(scratch, "dresslife", plan + "2026-12-21..2026-12-23,2027-03-01");
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.out.find("2026-12-21 .. 2026-12-23: replace 2\n  new one, old one\n") != std::string::npos);
+  const std::string table = content(scratch / "runs/study/plan_fleet.csv");
+  CHECK(cell(table, "old one", "replace_in") == "2026-12-21");
+  CHECK(number(cell(table, "new one", "fails_before_first_window")) > 0);
+  CHECK(content(scratch / "runs/study/plan_fleet.ics").find("DTSTART;VALUE=DATE:20261221") != std::string::npos);
+  CHECK(run(scratch, "dresslife", plan + "2026-11-22").status == 1);
+  scratch.write("fleet.csv", "name,duty,installed\none,dd,\n");
+  const Outcome unknown = run(scratch, "dresslife", plan + "2026-11-25");
+  CHECK(unknown.status == 1);
+  CHECK(unknown.err.find("fleet.csv:2:1: error: there is no duty 'dd'; did you mean 'd'?") != std::string::npos);
+}

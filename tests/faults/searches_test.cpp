@@ -19,6 +19,7 @@ const std::vector<Command> commands{
     {"validate lives.yaml --quiet", "validate_lives"},
     {"calibrate lives.yaml --quiet", "calibrate_lives"},
     {"duty duties.yaml --quiet", "job"},
+    {"plan fleet.csv --duties duties.yaml --today 2026-11-23 --windows 2027-01-05 --quiet", "job"},
     {"improve better.yaml --trials 2 --rehearsals 2 --off 0 --quiet", "better_improve"},
     {"reprogram robot.yaml --lines 1 --quiet", "robot_reprogram"},
     {"route abb_irb2600_12_165 --dresspack ./hose.yaml --tried 20 --rehearsals 2 --off 0 --quiet "
@@ -37,7 +38,8 @@ jobs:
 free: {routing.free_length_m: 0.85 .. 0.95}
 limits: {tension_N: 400}
 )");
-  scratch.write("duties.yaml", "study: job.yaml\nduties: [{name: d, programs: [{job: job, percent_of_time: 50}]}]\n");
+  scratch.write("duties.yaml", "study: job.yaml\nduties: [{name: d, programs: [{job: job, percent_of_time: 0.1}]}]\n");
+  scratch.write("fleet.csv", "name,duty,installed\nr,d,\n");
   scratch.write("hose.yaml", thin_hose);
   scratch.write("lives.yaml", R"(observations:
   - name: wire

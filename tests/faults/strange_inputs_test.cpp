@@ -28,6 +28,8 @@ const std::vector<Reader> readers{
     {"dresslife", "submit INPUT --only-write", ".yaml"},
     {"dresslife", "submit study.yaml --only-write --cluster INPUT", ".yaml"},
     {"dresslife", "duty INPUT", ".yaml"},
+    {"dresslife", "plan INPUT --duties duties.yaml --today 2026-11-23 --windows 2027-01-05", ".csv"},
+    {"dresslife", "plan fleet.csv --duties INPUT --today 2026-11-23 --windows 2027-01-05", ".yaml"},
     {"dresslife", "improve INPUT", ".yaml"},
     {"dresslife", "reprogram INPUT", ".yaml"},
     {"dresslife", "check INPUT", ".yaml"},
@@ -94,6 +96,7 @@ TEST_CASE("a pipe, a device, a socket and a terabyte of nothing are refused as a
     Scratch scratch;
     write_small_job(scratch);
     scratch.write("study.yaml", "base: job.yaml\n");
+    scratch.write("fleet.csv", "name,duty,installed\nr,d,\n");
     scratch.write("swing.mod", "MODULE swing\n  PROC main()\n    MoveJ p, v100, fine, tool0;\n  ENDPROC\nENDMODULE\n");
     const auto replaced = [](std::string text, const std::string& by) {
       return text.replace(text.find("INPUT"), 5, by);

@@ -21,6 +21,7 @@ const std::vector<Command> commands{{"dresslife", "run study.yaml -j 2 --quiet"}
                                     {"dresslife", "run study.yaml -j 2 --quiet --set strain.gate=0.0007", true},
                                     {"dresslife", "report study.yaml", true},
                                     {"dresslife", "duty duties.yaml --quiet", true},
+                                    {"dresslife", "plan fleet.csv --duties duties.yaml --today 2026-11-23 --windows 2027-01-05 --quiet", true},
                                     {"dresslife", "submit study.yaml --only-write"},
                                     {"dresslife", "page runs/study/a", true},
                                     {"dresslife", "plot runs/study/a --what cycles -o cycles.svg", true},
@@ -39,7 +40,8 @@ const std::vector<Command> long_commands{{"dresslife", "rate hose.yaml"}, {"dres
 void write_inputs(const Scratch& scratch) {
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}, b: {}}\n");
-  scratch.write("duties.yaml", "study: study.yaml\nduties: [{name: d, programs: [{job: a, percent_of_time: 50}]}]\n");
+  scratch.write("duties.yaml", "study: study.yaml\nduties: [{name: d, programs: [{job: a, percent_of_time: 0.1}]}]\n");
+  scratch.write("fleet.csv", "name,duty,installed\nr,d,\n");
   const std::string job = content(scratch / "job.yaml");
   const std::size_t begin = job.find("dresspack:\n") + 11, end = job.find("routing:\n");
   std::string hose;

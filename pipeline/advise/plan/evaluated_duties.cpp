@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -64,6 +65,16 @@ class Programs {
     const auto [found, is_new] = programs_.try_emplace(program.job);
     if (is_new) found->second = read(program);
     return found->second;
+  }
+  /// All of a duty, on one dresspack.
+  std::vector<EvaluatedProgram> of(const Duty& duty) {
+    std::vector<EvaluatedProgram> all;
+    for (const DutyProgram& program : duty.programs) all.push_back(of(program));
+    for (const EvaluatedProgram& program : all)
+      if (program.wires.layout != all.front().wires.layout)
+        throw InputError(duty.where, fmt::format("the results of '{}' and '{}' have different wires", all.front().job, program.job),
+                         "make the results again with dresslife run");
+    return all;
   }
   const RankingRow& row(const DutyProgram& program) const {
     const auto row = std::find_if(rows_.begin(), rows_.end(), [&](const RankingRow& r) { return r.job == program.job; });
@@ -146,12 +157,7 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
     for (const DutyProgram& program : duty.programs)
       if (const RankingRow& row = programs.row(program); !is_believable(row))
         result.doubtful.push_back(fmt::format("{} ({})", row.job, warning_kinds(row)));
-    std::vector<EvaluatedProgram> evaluated;
-    for (const DutyProgram& program : duty.programs) evaluated.push_back(programs.of(program));
-    for (const EvaluatedProgram& program : evaluated)
-      if (program.wires.layout != evaluated.front().wires.layout)
-        throw InputError(duty.where, fmt::format("the results of '{}' and '{}' have different wires", evaluated.front().job, program.job),
-                         "make the results again with dresslife run");
+    const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
     result.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
     for (const LifeResponse& mode : evaluated.front().modes) result.modes.push_back(mode.mode);
     result.damage = damage_under(evaluated, rates, dresspack);
@@ -176,6 +182,35 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
                        "learn from it first: dresslife calibrate");
   }
   return results;
+}
+
+std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
+                                             const std::set<std::string>& needed) {
+  // 500 worlds: a probability of 10 % is known to 1.3 %. 64 dresspacks in each: to 3.8 % in one world.
+  constexpr std::size_t worlds = 500, draws = 64;
+  Programs programs(study, rows);
+  std::map<std::string, LifeTable> tables;
+  for (const Duty& duty : file.duties) {
+    if (!needed.contains(duty.name)) continue;
+    std::vector<DutyPart> parts;
+    const std::vector<Rate> rates = rates_of(duty, programs, parts);
+    const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
+    const std::vector<double> share = same_place(evaluated, rates);
+    LifeTable& table = tables[duty.name];
+    table.worlds = worlds, table.draws = draws, table.hours.resize(worlds * draws);
+    table.hours_per_week = duty.hours_per_week;
+    table.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
+    for (std::size_t d = 0; d < draws; ++d) {
+      const std::vector<double> damage =
+          damage_under(evaluated, rates, share, fmt::format("dresspack {}", d), worlds).of_first_mode();
+      for (std::size_t w = 0; w < worlds; ++w)
+        table.hours[w * draws + d] = damage[w] > 0 ? static_cast<float>(1 / damage[w]) : std::numeric_limits<float>::infinity();
+    }
+    for (std::size_t w = 0; w < worlds; ++w)
+      std::sort(table.hours.begin() + static_cast<std::ptrdiff_t>(w * draws),
+                table.hours.begin() + static_cast<std::ptrdiff_t>((w + 1) * draws));
+  }
+  return tables;
 }
 
 }  // namespace dresslife::pipeline

@@ -1,11 +1,14 @@
 // The duties of a file, evaluated from the results of the study that it names.
 #pragma once
 
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "pipeline/advise/plan/duty.h"
 #include "pipeline/advise/plan/mixture.h"
+#include "pipeline/advise/plan/plan.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/study.h"
 
@@ -39,5 +42,9 @@ std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingR
 /// Errors: InputError for a program without a result or without uncertain parameters, for programs that take more than
 /// the whole time, and for a history that less than 1 in 1,000 samples survives.
 std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows);
+
+/// Lives of the dresspacks of a plant under each of the `needed` duties (plan.h). Errors: as evaluated(), without histories.
+std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
+                                             const std::set<std::string>& needed);
 
 }  // namespace dresslife::pipeline

@@ -64,31 +64,8 @@ std::vector<double> worst_places(const WireDamage& wires, const std::vector<doub
   return worst;
 }
 
-/// (D2)
-std::vector<double> same_place(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates) {
-  const std::size_t modes = programs.front().modes.size();
-  std::vector<double> all(programs.front().wires.damage.size(), 0.0), apart(modes, 0.0);
-  for (std::size_t k = 0; k < programs.size(); ++k) {
-    const double rate = rates[k].repeats_per_hour;
-    for (std::size_t site = 0; site < all.size(); ++site) all[site] += rate * programs[k].wires.damage[site];
-    const std::vector<double> alone = worst_places(programs[k].wires, programs[k].wires.damage, modes);
-    for (std::size_t m = 0; m < modes; ++m) apart[m] += rate * alone[m];
-  }
-  std::vector<double> share = worst_places(programs.front().wires, all, modes);
-  for (std::size_t m = 0; m < modes; ++m) share[m] = apart[m] > 0 ? share[m] / apart[m] : 1;
-  return share;
-}
-
 /// Standard deviation of ln of a number with this relative deviation.
 double log_deviation(double percent) { return std::sqrt(std::log1p(percent * percent / 1e4)); }
-
-/// Damage in an hour of the mode that fails first, (sample).
-std::vector<double> of_first_mode(const DutyDamage& duty, std::size_t without = DutyDamage::none) {
-  std::vector<double> damage(duty.samples(), 0.0);
-  for (std::size_t s = 0; s < damage.size(); ++s)
-    for (std::size_t m = 0; m < duty.modes(); ++m) damage[s] = std::max(damage[s], duty.in_mode(m, s, without));
-  return damage;
-}
 
 double log10_life(double damage) { return damage > 0 ? -std::log10(damage) : infinity; }
 
@@ -155,10 +132,29 @@ double DutyDamage::in_mode(std::size_t mode, std::size_t sample, std::size_t wit
   return sum;
 }
 
+std::vector<double> same_place(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates) {
+  const std::size_t modes = programs.front().modes.size();
+  std::vector<double> all(programs.front().wires.damage.size(), 0.0), apart(modes, 0.0);
+  for (std::size_t k = 0; k < programs.size(); ++k) {
+    const double rate = rates[k].repeats_per_hour;
+    for (std::size_t site = 0; site < all.size(); ++site) all[site] += rate * programs[k].wires.damage[site];
+    const std::vector<double> alone = worst_places(programs[k].wires, programs[k].wires.damage, modes);
+    for (std::size_t m = 0; m < modes; ++m) apart[m] += rate * alone[m];
+  }
+  std::vector<double> share = worst_places(programs.front().wires, all, modes);
+  for (std::size_t m = 0; m < modes; ++m) share[m] = apart[m] > 0 ? share[m] / apart[m] : 1;
+  return share;
+}
+
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                         const std::string& dresspack, std::size_t samples) {
+  return damage_under(programs, rates, same_place(programs, rates), dresspack, samples);
+}
+
+DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                        const std::vector<double>& share, const std::string& dresspack, std::size_t samples) {
   DutyDamage duty;
-  duty.same_place = same_place(programs, rates);
+  duty.same_place = share;
   for (std::size_t k = 0; k < programs.size(); ++k) {
     std::vector<std::vector<double>> lives = mode_lives(programs[k].modes, dresspack, samples);
     const double deviation = log_deviation(rates[k].deviation_percent);
@@ -171,10 +167,17 @@ DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std
   return duty;
 }
 
+std::vector<double> DutyDamage::of_first_mode(std::size_t without) const {
+  std::vector<double> damage(samples(), 0.0);
+  for (std::size_t s = 0; s < damage.size(); ++s)
+    for (std::size_t m = 0; m < modes(); ++m) damage[s] = std::max(damage[s], in_mode(m, s, without));
+  return damage;
+}
+
 DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& history) {
   DutyLives lives;
   const std::size_t programs = duty.of_program.size(), samples = duty.samples();
-  const std::vector<double> damage = of_first_mode(duty);
+  const std::vector<double> damage = duty.of_first_mode();
   for (const double of_sample : damage) lives.log10_hours.push_back(log10_life(of_sample));
   lives.percentiles = percentiles_of(lives.log10_hours);
   lives.share.assign(programs, 0.0);
@@ -189,7 +192,7 @@ DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& his
   }
   for (double& share : lives.share) share = damaged > 0 ? share / damaged : 0;
   for (std::size_t k = 0; k < programs; ++k) {
-    lives.without.push_back(percentiles_under(of_first_mode(duty, k)));
+    lives.without.push_back(percentiles_under(duty.of_first_mode(k)));
     std::vector<double> twice(samples, 0.0);
     for (std::size_t s = 0; s < samples; ++s)
       for (std::size_t m = 0; m < duty.modes(); ++m)

@@ -59,10 +59,16 @@ struct DutyDamage {
   /// (D1). without: a program that is left out; none: all count.
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   double in_mode(std::size_t mode, std::size_t sample, std::size_t without = none) const;
+  /// (sample) of the mode that fails first.
+  std::vector<double> of_first_mode(std::size_t without = none) const;
 };
 
-/// Of one duty. dresspack: names what only this dresspack has (first_failures()). Precondition: as many rates as programs,
-/// at least one; the programs have the same modes and the same layout.
+/// (mode) c(m), (D2). Precondition: as many rates as programs, at least one; the programs have the same modes and layout.
+std::vector<double> same_place(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates);
+
+/// Of one duty. share: same_place(). dresspack: names what only this dresspack has (first_failures()).
+DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                        const std::vector<double>& share, const std::string& dresspack, std::size_t samples = life_samples);
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                         const std::string& dresspack, std::size_t samples = life_samples);
 

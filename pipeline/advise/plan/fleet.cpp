@@ -1,0 +1,155 @@
+#include "pipeline/advise/plan/fleet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+
+#include "pipeline/base/csv_rows.h"
+#include "pipeline/base/plain_file.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+using std::chrono::year_month_day;
+
+constexpr const char* date_remedy = "write YYYY-MM-DD, as in 2027-07-12";
+
+constexpr std::chrono::days longest_plan{3653};  // duties and robots change sooner
+
+/// The number that is all of a text.
+std::optional<int> whole(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// A row by the titles of its columns.
+class Row {
+ public:
+  Row(const CsvReader& table, const CsvRow& titles, const CsvRow& row) : table_(table) {
+    if (row.size() != titles.size())
+      throw InputError(table.where(row.back()),
+                       fmt::format("a row of {} cells (the table has {} columns)", row.size(), titles.size()),
+                       "fill or quote its cells");
+    for (std::size_t k = 0; k < row.size(); ++k) cells_[titles[k].text] = &row[k];
+  }
+  Where where(const std::string& title) const { return table_.where(*cells_.at(title)); }
+  /// Empty: no such column, or an empty cell.
+  std::string text(const std::string& title) const {
+    const auto found = cells_.find(title);
+    return found == cells_.end() ? "" : found->second->text;
+  }
+  std::string needed(const std::string& title) const {
+    if (text(title).empty()) throw InputError(where(title), fmt::format("{} is empty", title), "fill the cell");
+    return text(title);
+  }
+  std::optional<double> number(const std::string& title, double low, double high) const {
+    if (text(title).empty()) return std::nullopt;
+    const std::optional<double> value = number_in(text(title));
+    if (!value || !(*value >= low && *value <= high))
+      throw InputError(where(title), fmt::format("{} is '{}' (must be {:g} .. {:g})", title, text(title), low, high),
+                       "write a number with a decimal point");
+    return value;
+  }
+
+ private:
+  const CsvReader& table_;
+  std::map<std::string, const CsvCell*> cells_;
+};
+
+Installed installed_from(const Row& row, Day today, bool has_costs) {
+  Installed one{row.where("name"), row.needed("name"), row.needed("duty"), today, row.number("hours_per_week", 0.1, 168), 0, 0};
+  if (const std::string date = row.text("installed"); !date.empty()) {
+    const std::optional<Day> day = day_from(date);
+    if (!day) throw InputError(row.where("installed"), fmt::format("'{}' is no date", date), date_remedy);
+    if (*day > today)
+      throw InputError(row.where("installed"), fmt::format("'{}' was installed after today, {}", one.name, day_text(today)),
+                       "correct the date, or give --today");
+    one.since = *day;
+  }
+  if (!has_costs) return one;
+  row.needed("planned_cost"), row.needed("unplanned_cost");
+  one.planned_cost = *row.number("planned_cost", 0, 1e12), one.unplanned_cost = *row.number("unplanned_cost", 0, 1e12);
+  if (!(one.unplanned_cost > one.planned_cost))
+    throw InputError(row.where("unplanned_cost"),
+                     fmt::format("an unplanned replacement costs {:g}, a planned one {:g}", one.unplanned_cost, one.planned_cost),
+                     "unplanned_cost must be larger; else no plan saves anything");
+  return one;
+}
+
+Day needed_day(const std::string& text) {
+  if (const std::optional<Day> day = day_from(text)) return *day;
+  throw InputError({"--windows"}, fmt::format("'{}' is no date", text), date_remedy);
+}
+
+}  // namespace
+
+std::optional<Day> day_from(std::string_view text) {
+  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return std::nullopt;
+  const auto year = whole(text.substr(0, 4)), month = whole(text.substr(5, 2)), day = whole(text.substr(8, 2));
+  if (!year || !month || !day || *month < 1 || *day < 1) return std::nullopt;
+  const year_month_day date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
+                            std::chrono::day(static_cast<unsigned>(*day))};
+  if (!date.ok()) return std::nullopt;
+  return Day(date);
+}
+
+std::string day_text(Day day) {
+  const year_month_day date(day);
+  return fmt::format("{:04}-{:02}-{:02}", int(date.year()), unsigned(date.month()), unsigned(date.day()));
+}
+
+Day today() { return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()); }
+
+Fleet read_fleet(const std::filesystem::path& file, Day today) {
+  CsvReader reader(read_text(file), file.string());
+  const CsvRow titles = reader.next();
+  if (titles.empty())
+    throw InputError({file.string(), 1, 1}, "holds no table", "write the line 'name,duty,installed', then a row per dresspack");
+  check_titles(reader, titles, {"name", "duty", "installed"});
+  const std::vector<std::string> known{"name", "duty", "installed", "hours_per_week", "planned_cost", "unplanned_cost"};
+  const auto has = [&](const std::string& title) {
+    return std::any_of(titles.begin(), titles.end(), [&](const CsvCell& cell) { return cell.text == title; });
+  };
+  for (const CsvCell& title : titles)
+    if (std::find(known.begin(), known.end(), title.text) == known.end())
+      throw InputError(reader.where(title), fmt::format("unknown column '{}'", title.text),
+                       "columns: name, duty, installed, hours_per_week, planned_cost, unplanned_cost");
+  Fleet fleet;
+  fleet.has_costs = has("planned_cost") || has("unplanned_cost");
+  if (fleet.has_costs) check_titles(reader, titles, {"planned_cost", "unplanned_cost"});
+  std::map<std::string, int> lines;
+  for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {
+    fleet.rows.push_back(installed_from(Row(reader, titles, row), today, fleet.has_costs));
+    const auto [same, is_new] = lines.try_emplace(fleet.rows.back().name, reader.line());
+    if (!is_new)
+      throw InputError(reader.where(row.front()), fmt::format("'{}' is the name of line {}, too", same->first, same->second),
+                       "give each dresspack a name of its own");
+  }
+  if (fleet.rows.empty()) throw InputError({file.string(), 1, 1}, "has titles and no row", "write a row per dresspack");
+  return fleet;
+}
+
+std::vector<Window> windows_from(const std::string& text, Day today) {
+  std::vector<Window> windows;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string one = text.substr(begin, end - begin);
+    const std::size_t dots = one.find("..");
+    const Day first = needed_day(one.substr(0, dots));
+    windows.push_back({first, dots == std::string::npos ? first : needed_day(one.substr(dots + 2))});
+    const Day before = windows.size() > 1 ? windows[windows.size() - 2].last : today;
+    if (windows.back().last < first || first <= before)
+      throw InputError({"--windows"}, fmt::format("'{}' ends before it begins, or begins before {}", one, day_text(before)),
+                       "give windows after today, in order");
+    if (windows.back().last > today + longest_plan)
+      throw InputError({"--windows"}, fmt::format("'{}' is more than ten years ahead", one), "give nearer windows");
+    begin = end + 1;
+  }
+  return windows;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,292 @@
+#include "pipeline/advise/plan/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "pipeline/base/random.h"
+#include "pipeline/base/statistics.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t plants = 1000;  // simulated: a mean of counts is known to 3 % of their deviation
+constexpr double shortest_life = 1;  // [h] of a new dresspack in a simulated plant, so that each plant ends
+constexpr double days_per_year = 365.2425;
+constexpr std::size_t ages = 400;  // of (D6), between a tenth of the shortest life and the robot's: 2 % steps
+constexpr double longest = 1e5;       // [h] of (D6): twice a robot's life
+
+double days_between(Day from, Day to) { return static_cast<double>((to - from).count()); }
+
+/// Weights of worlds, and what follows for one dresspack that lives at some age.
+class Worlds {
+ public:
+  explicit Worlds(std::size_t count) : log_weight_(count, 0.0), weight_(count, 1.0 / static_cast<double>(count)) {}
+
+  /// A dresspack that has survived (D3). Of some draws none that does stands for half a draw.
+  void survived(const LifeTable& table, double age) {
+    for (std::size_t w = 0; w < log_weight_.size(); ++w)
+      log_weight_[w] += std::log((table.alive(w, age) * double(table.draws) + 0.5) / (double(table.draws) + 0.5));
+  }
+  void weigh() {
+    const double most = *std::max_element(log_weight_.begin(), log_weight_.end());
+    double sum = 0;
+    for (std::size_t w = 0; w < weight_.size(); ++w) sum += weight_[w] = std::exp(log_weight_[w] - most);
+    for (double& weight : weight_) weight /= sum;
+  }
+  double effective() const {
+    double squares = 0;
+    for (const double weight : weight_) squares += weight * weight;
+    return 1 / squares;
+  }
+  const std::vector<double>& weights() const { return weight_; }
+
+  /// Mean over the worlds in which a dresspack of this age can live, of what `share` (world) gives per dresspack that does.
+  template <class Share>
+  double mean(const LifeTable& table, double now, const Share& share) const {
+    double sum = 0, all = 0;
+    for (std::size_t w = 0; w < weight_.size(); ++w)
+      if (const double lives = table.alive(w, now); lives > 0) sum += weight_[w] * share(w) / lives, all += weight_[w];
+    return all > 0 ? sum / all : 0;
+  }
+  /// P(failure at an age in (from, to] | it lives at `now`). Its survival is part of what is known of the worlds.
+  double fails(const LifeTable& table, double now, double from, double to) const {
+    return mean(table, now, [&](std::size_t w) { return table.alive(w, from) - table.alive(w, to); });
+  }
+  double lives(const LifeTable& table, double now, double at) const {
+    return mean(table, now, [&](std::size_t w) { return table.alive(w, at); });
+  }
+  /// E(hours of operation between two ages | it lives at `now`).
+  double running(const LifeTable& table, double now, double from, double to) const {
+    return mean(table, now, [&](std::size_t w) { return table.running(w, from, to); });
+  }
+
+ private:
+  std::vector<double> log_weight_, weight_;
+};
+
+/// What an interval brings to a dresspack that lives at its begin.
+struct Interval {
+  double fails = 0, running = 0;  ///< probability, mean hours of operation
+};
+
+/// Decides by (D4) or (D5).
+class Decision {
+ public:
+  Decision(const Worlds& worlds, const PlanRule& rule) : worlds_(worlds), rule_(rule) {}
+
+  bool replace(const Installed& row, const LifeTable& table, const Interval& ahead) {
+    if (!rule_.by_cost) return ahead.fails > rule_.risk;
+    return ahead.fails > 0 &&
+           (row.unplanned_cost - row.planned_cost) * ahead.fails >= least_rate(row, curve_of(table)) * ahead.running;
+  }
+  /// The same for a dresspack that is put in later, at this age. hours: of operation in the interval.
+  bool replace_new(const Installed& row, const LifeTable& table, double age, double hours) {
+    age = age_step * std::round(age / age_step);
+    const auto [found, is_new] = ahead_.try_emplace({&table, age, hours});
+    if (is_new)
+      if (const double lives = worlds_.lives(table, 0, age); lives > 0)
+        found->second = {worlds_.fails(table, 0, age, age + hours) / lives, worlds_.running(table, 0, age, age + hours) / lives};
+    return replace(row, table, found->second);
+  }
+
+ private:
+  static constexpr double age_step = 10;  // [h]: an eighth of a week
+
+  /// (age) S, and its integral from 0 [h].
+  struct Curve {
+    std::vector<double> lives, running;
+  };
+  const Curve& curve_of(const LifeTable& table) {
+    const auto [found, is_new] = curves_.try_emplace(&table);
+    if (!is_new) return found->second;
+    const double shortest = *std::min_element(table.hours.begin(), table.hours.end()), last = std::min(table.robot_life_hours, longest);
+    const double first = std::min(last, shortest) / 10;
+    double running = 0, before = 0;
+    for (std::size_t k = 0; k < ages; ++k) {
+      const double age = first * std::pow(last / first, double(k) / double(ages - 1));
+      running += worlds_.running(table, 0, before, age);
+      before = age;
+      found->second.lives.push_back(worlds_.lives(table, 0, age));
+      found->second.running.push_back(running);
+    }
+    return found->second;
+  }
+  /// g (D6).
+  static double least_rate(const Installed& row, const Curve& curve) {
+    double least = infinity;
+    for (std::size_t k = 0; k < ages; ++k)
+      least = std::min(least, (row.planned_cost * curve.lives[k] + row.unplanned_cost * (1 - curve.lives[k])) / curve.running[k]);
+    return least;
+  }
+
+  const Worlds& worlds_;
+  const PlanRule rule_;
+  std::map<std::tuple<const LifeTable*, double, double>, Interval> ahead_;
+  std::map<const LifeTable*, Curve> curves_;
+};
+
+/// Times [days from today] of the windows, then the end of the plan.
+std::vector<double> times_of(const std::vector<Window>& windows, Day today) {
+  std::vector<double> times;
+  for (const Window& window : windows) times.push_back(days_between(today, window.first));
+  const double interval = times.size() > 1 ? times.back() - times[times.size() - 2] : days_per_year;
+  times.push_back(times.back() + interval);
+  return times;
+}
+
+/// One simulated plant.
+struct Outcome {
+  std::vector<int> planned, unplanned;  ///< (year)
+  double cost = 0;
+};
+
+class Simulation {
+ public:
+  Simulation(const Fleet& fleet, const std::vector<const LifeTable*>& tables, const std::vector<double>& hours_per_day,
+             const std::vector<RowPlan>& rows, const std::vector<double>& times, const Worlds& worlds)
+      : fleet_(fleet), tables_(tables), hours_per_day_(hours_per_day), rows_(rows), times_(times) {
+    double sum = 0;
+    for (const double weight : worlds.weights()) until_.push_back(sum += weight);
+    years_ = static_cast<std::size_t>(std::ceil(times.back() / days_per_year));
+  }
+
+  /// decision: null: only failures are replaced.
+  Outcome plant(RandomNumbers& random, Decision* decision) const {
+    Outcome outcome{std::vector<int>(years_, 0), std::vector<int>(years_, 0)};
+    const double at = random.uniform() * until_.back();
+    const auto world = static_cast<std::size_t>(std::upper_bound(until_.begin(), until_.end(), at) - until_.begin());
+    for (std::size_t i = 0; i < fleet_.rows.size(); ++i) dresspack(i, std::min(world, until_.size() - 1), random, decision, outcome);
+    return outcome;
+  }
+
+ private:
+  /// A life in a world that is longer than an age.
+  static double draw(const LifeTable& table, std::size_t world, double age, RandomNumbers& random) {
+    const float* const first = table.hours.data() + world * table.draws;
+    const auto dead = static_cast<std::size_t>(std::upper_bound(first, first + table.draws, static_cast<float>(age)) - first);
+    if (dead == table.draws) return age;
+    return first[dead + static_cast<std::size_t>(random.uniform() * double(table.draws - dead))];
+  }
+
+  void dresspack(std::size_t i, std::size_t world, RandomNumbers& random, Decision* decision, Outcome& outcome) const {
+    const LifeTable& table = *tables_[i];
+    const double rate = hours_per_day_[i];
+    double begun = -rows_[i].age_hours / rate;  // [days from today]
+    double fails = begun + draw(table, world, rows_[i].age_hours, random) / rate;
+    std::size_t window = 0;
+    bool is_first = true;
+    const auto put_in = [&](double day, bool planned) {
+      ++(planned ? outcome.planned : outcome.unplanned)[std::min(years_ - 1, static_cast<std::size_t>(day / days_per_year))];
+      outcome.cost += planned ? fleet_.rows[i].planned_cost : fleet_.rows[i].unplanned_cost;
+      begun = day, is_first = false;
+      fails = begun + std::max(shortest_life, draw(table, world, 0, random)) / rate;
+    };
+    while (true) {
+      const bool at_window = decision && window + 1 < times_.size() && times_[window] < fails;
+      const double next = at_window ? times_[window] : fails;
+      if (!(next < times_.back())) return;
+      if (!at_window) {
+        put_in(next, false);
+        continue;
+      }
+      const double hours = (times_[window + 1] - times_[window]) * rate;
+      const bool replaces = is_first ? rows_[i].window == window
+                                     : decision->replace_new(fleet_.rows[i], table, (next - begun) * rate, hours);
+      if (replaces) put_in(next, true);
+      ++window;
+    }
+  }
+
+  const Fleet& fleet_;
+  const std::vector<const LifeTable*>& tables_;
+  const std::vector<double>& hours_per_day_;
+  const std::vector<RowPlan>& rows_;
+  const std::vector<double>& times_;
+  std::vector<double> until_;
+  std::size_t years_ = 1;
+};
+
+}  // namespace
+
+double LifeTable::alive(std::size_t world, double age) const {
+  const float* const first = hours.data() + world * draws;
+  return double(first + draws - std::upper_bound(first, first + draws, static_cast<float>(age))) / double(draws);
+}
+
+double LifeTable::median() const {
+  std::vector<float> all = hours;
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
+
+double LifeTable::running(std::size_t world, double from, double to) const {
+  const float* const first = hours.data() + world * draws;
+  double sum = 0;
+  for (const float* life = std::upper_bound(first, first + draws, static_cast<float>(from)); life != first + draws; ++life)
+    sum += std::min<double>(*life, to) - from;
+  return sum / double(draws);
+}
+
+Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,
+             const PlanRule& rule, std::uint64_t seed) {
+  Plan plan;
+  plan.today = today, plan.windows = windows;
+  const std::vector<double> times = times_of(windows, today);
+  plan.end = today + std::chrono::days(std::llround(times.back()));
+  std::vector<const LifeTable*> of_row;
+  std::vector<double> hours_per_day;
+  Worlds worlds(tables.begin()->second.worlds);
+  for (const Installed& row : fleet.rows) {
+    of_row.push_back(&tables.at(row.duty));
+    hours_per_day.push_back(row.hours_per_week.value_or(of_row.back()->hours_per_week) / 7);
+    plan.rows.emplace_back().age_hours = days_between(row.since, today) * hours_per_day.back();
+    worlds.survived(*of_row.back(), plan.rows.back().age_hours);
+  }
+  worlds.weigh();
+  plan.effective_worlds = worlds.effective();
+  Decision decision(worlds, rule);
+  for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+    RowPlan& row = plan.rows[i];
+    const LifeTable& table = *of_row[i];
+    const auto age_at = [&](double day) { return row.age_hours + day * hours_per_day[i]; };
+    row.fails_before_first = worlds.fails(table, row.age_hours, row.age_hours, age_at(times.front()));
+    double failed = row.fails_before_first;
+    for (std::size_t n = 0; n < windows.size(); ++n) {
+      const double lives = 1 - failed, from = age_at(times[n]), to = age_at(times[n + 1]);
+      const double fails = worlds.fails(table, row.age_hours, from, to);
+      row.fails_until_next.push_back(lives > 0 ? fails / lives : 1);
+      const double running = lives > 0 ? worlds.running(table, row.age_hours, from, to) / lives : 0;
+      if (!row.window && decision.replace(fleet.rows[i], table, {row.fails_until_next.back(), running}))
+        row.window = n, row.fails_before = failed;
+      failed += fails;
+    }
+    if (!row.window) row.fails_before = failed;
+  }
+  const Simulation simulation(fleet, of_row, hours_per_day, plan.rows, times, worlds);
+  std::vector<std::vector<double>> replaced;  // (year, plant)
+  for (std::size_t p = 0; p < plants; ++p) {
+    RandomNumbers random(mixed(seed + p)), same(mixed(seed + p));  // costs are compared plant by plant
+    const Outcome outcome = simulation.plant(random, &decision);
+    plan.years.resize(outcome.planned.size());
+    replaced.resize(outcome.planned.size());
+    for (std::size_t y = 0; y < plan.years.size(); ++y) {
+      plan.years[y].planned += double(outcome.planned[y]) / plants;
+      plan.years[y].unplanned += double(outcome.unplanned[y]) / plants;
+      replaced[y].push_back(outcome.planned[y] + outcome.unplanned[y]);
+    }
+    plan.cost += outcome.cost / plants;
+    plan.cost_without_windows += simulation.plant(same, nullptr).cost / plants;
+  }
+  for (std::size_t y = 0; y < plan.years.size(); ++y) {
+    std::sort(replaced[y].begin(), replaced[y].end());
+    plan.years[y].low = number_at(replaced[y], 0.05 * (plants - 1));
+    plan.years[y].high = number_at(replaced[y], 0.95 * (plants - 1));
+  }
+  return plan;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,78 @@
+// When to replace the dresspacks of a plant.
+//
+// A plant is one world: a value of everything that its dresspacks have in common (friction of the construction, constants
+// of the metal, the model's error). In a world dresspacks fail independently, each by what it has for itself (its slack,
+// its scatter). Worlds are drawn from the prior. That every dresspack has survived until today is evidence.
+// The weight of a world w is
+//     product over dresspacks i of S_w,i(a_i)                                                                  (D3)
+// S_w,i(a): share of dresspacks of i's duty that reach the age a in the world w. So one dresspack informs the others, and
+// the uncertainty does not shrink with the size of the fleet.
+//
+// A dresspack at a window has the age a, and the next window is an interval later. It is replaced in the first window with
+//     P(failure in the interval | it lives) > risk                                                             (D4)
+// or, with costs C_p (planned) and C_u (unplanned), in the first with (marginal cost analysis; Berg 1980)
+//     (C_u - C_p) P(failure in the interval | it lives) >= g E(hours of operation in the interval | it lives)  (D5)
+// g: least cost per hour of age replacement (Barlow and Hunter 1960),
+//     g = least over ages T of (C_p S(T) + C_u (1 - S(T))) / integral of S from 0 to T                         (D6)
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "pipeline/advise/plan/fleet.h"
+
+namespace dresslife::pipeline {
+
+/// Lives of dresspacks under one duty [h of operation].
+struct LifeTable {
+  std::size_t worlds = 0, draws = 0;
+  std::vector<float> hours;  ///< (world, draw), rising in each world; infinite: no damage
+  double robot_life_hours = 0;
+  double hours_per_week = 0;
+
+  /// S_w(age)
+  double alive(std::size_t world, double age) const;
+  /// Over all worlds [h].
+  double median() const;
+  /// Integral of S_w from one age to another [h].
+  double running(std::size_t world, double from, double to) const;
+};
+
+/// How to decide.
+struct PlanRule {
+  double risk = 0.1;  ///< (D4)
+  bool by_cost = false;
+};
+
+struct RowPlan {
+  double age_hours = 0;
+  double fails_before_first = 0;         ///< before the first window
+  std::vector<double> fails_until_next;  ///< (window) from it to the next one, if the dresspack lives then
+  std::optional<std::size_t> window;     ///< in which it is replaced; absent: in none of them
+  double fails_before = 0;               ///< before that window, or within the plan
+};
+
+/// Replacements in one year from today: mean, and 5 and 95 % of simulated plants.
+struct YearOfPlan {
+  double planned = 0, unplanned = 0, low = 0, high = 0;
+};
+
+struct Plan {
+  Day today{}, end{};  ///< of the plan: the last window, and the interval before it once more
+  std::vector<Window> windows;
+  std::vector<RowPlan> rows;
+  std::vector<YearOfPlan> years;
+  double cost = 0, cost_without_windows = 0;  ///< mean over simulated plants: by this plan; if only failures are replaced
+  double effective_worlds = 0;                ///< (sum of weights)^2 / sum of their squares
+};
+
+/// Fewer are no sample: percentiles would rest on chance.
+constexpr double fewest_worlds = 20;
+
+/// tables: by the names of duties. Precondition: windows are not empty, every duty has a table, all of as many worlds.
+Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,
+             const PlanRule& rule, std::uint64_t seed = 1);
+
+}  // namespace dresslife::pipeline

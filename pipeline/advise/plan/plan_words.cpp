@@ -1,0 +1,132 @@
+#include "pipeline/advise/plan/plan_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "pipeline/base/csv_rows.h"
+#include "pipeline/base/readable.h"
+#include "pipeline/settings/units.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr std::size_t width = 118;
+
+std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::size_t window) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < fleet.rows.size(); ++i)
+    if (plan.rows[i].window == window) names.push_back(fleet.rows[i].name);
+  return names;
+}
+
+std::string window_text(const Window& window) { return day_text(window.first) + " .. " + day_text(window.last); }
+
+std::string percent(double share) { return readable(100 * share, 2) + " %"; }
+
+/// Text of an iCalendar property in lines of at most 75 bytes.
+std::string folded(std::string line) {
+  std::string text;
+  constexpr std::size_t most = 75;
+  while (line.size() > most) {
+    std::size_t end = most;
+    while (end > 1 && (static_cast<unsigned char>(line[end]) & 0xc0) == 0x80) --end;  // not within a character
+    text += line.substr(0, end) + "\r\n";
+    line = " " + line.substr(end);
+  }
+  return text + line + "\r\n";
+}
+
+std::string escaped(const std::string& text) {
+  std::string escaped;
+  for (const char letter : text) {
+    if (letter == '\\' || letter == ';' || letter == ',') escaped += '\\';
+    escaped += letter;
+  }
+  return escaped;
+}
+
+std::string compact(Day day) {
+  std::string text = day_text(day);
+  std::erase(text, '-');
+  return text;
+}
+
+}  // namespace
+
+std::string plan_words(const Fleet& fleet, const Plan& plan) {
+  double before = 0;
+  for (const RowPlan& row : plan.rows) before += row.fails_before_first;
+  std::string text = wrapped(fmt::format("{} dresspacks, from {} to {}. Before the first window {} of them are expected to fail.",
+                                         plan.rows.size(), day_text(plan.today), day_text(plan.end), readable(before, 2)),
+                             width, "");
+  for (std::size_t n = 0; n < plan.windows.size(); ++n) {
+    const std::vector<std::string> names = replaced_in(fleet, plan, n);
+    text += fmt::format("\n{}: {}\n", window_text(plan.windows[n]),
+                        names.empty() ? "nothing to replace" : fmt::format("replace {}", names.size()));
+    if (!names.empty()) text += wrapped(fmt::format("{}", fmt::join(names, ", ")), width, "  ");
+  }
+  const auto kept = std::count_if(plan.rows.begin(), plan.rows.end(), [](const RowPlan& row) { return !row.window; });
+  text += fmt::format("\nIn no window: {}\n", kept);
+  std::vector<std::size_t> risky(plan.rows.size());
+  for (std::size_t i = 0; i < risky.size(); ++i) risky[i] = i;
+  std::stable_sort(risky.begin(), risky.end(),
+                   [&](std::size_t a, std::size_t b) { return plan.rows[a].fails_before > plan.rows[b].fails_before; });
+  risky.resize(std::min<std::size_t>(risky.size(), 10));
+  std::size_t wide = 9;
+  for (const std::size_t i : risky) wide = std::max(wide, columns_of(fleet.rows[i].name));
+  text += fmt::format("\n{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", "most risk", wide, "age [h]", "fails before first window", "fails before replacement",
+                      "replace");
+  for (const std::size_t i : risky) {
+    const RowPlan& row = plan.rows[i];
+    text += fmt::format("{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", fleet.rows[i].name, wide, readable(row.age_hours),
+                        percent(row.fails_before_first), percent(row.fails_before),
+                        row.window ? day_text(plan.windows[*row.window].first) : "in no window");
+  }
+  text += '\n';
+  for (std::size_t y = 0; y < plan.years.size(); ++y) {
+    const YearOfPlan& year = plan.years[y];
+    text += fmt::format("Year {} from today: {} spare dresspacks ({:g} .. {:g} in 90 of 100 plants): {} planned, {} after failures.\n",
+                        y + 1, readable(year.planned + year.unplanned, 2), year.low, year.high, readable(year.planned, 2),
+                        readable(year.unplanned, 2));
+  }
+  if (fleet.has_costs)
+    text += fmt::format("Cost until {}: {} by this plan, {} if only failed dresspacks are replaced.\n", day_text(plan.end),
+                        readable(plan.cost), readable(plan.cost_without_windows));
+  return text;
+}
+
+std::string plan_csv(const Fleet& fleet, const Plan& plan) {
+  std::string text = "name,duty,installed,age_hours,fails_before_first_window,replace_in,fails_before_replacement";
+  for (const Window& window : plan.windows) text += fmt::format(",fails_after_{}", day_text(window.first));
+  text += '\n';
+  for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+    const RowPlan& row = plan.rows[i];
+    std::vector<std::string> cells{csv_cell(fleet.rows[i].name), csv_cell(fleet.rows[i].duty), day_text(fleet.rows[i].since),
+                                   shortest_text(row.age_hours), shortest_text(row.fails_before_first),
+                                   row.window ? day_text(plan.windows[*row.window].first) : "", shortest_text(row.fails_before)};
+    for (const double share : row.fails_until_next) cells.push_back(shortest_text(share));
+    text += fmt::format("{}\n", fmt::join(cells, ","));
+  }
+  return text;
+}
+
+std::string plan_calendar(const Fleet& fleet, const Plan& plan) {
+  std::string text = "BEGIN:VCALENDAR\r\nPRODID:-//dresslife//plan//EN\r\nVERSION:2.0\r\n";
+  for (std::size_t n = 0; n < plan.windows.size(); ++n) {
+    const std::vector<std::string> names = replaced_in(fleet, plan, n);
+    if (names.empty()) continue;
+    const Window& window = plan.windows[n];
+    text += "BEGIN:VEVENT\r\n";
+    text += fmt::format("UID:{}-replace@dresslife\r\nDTSTAMP:{}T000000Z\r\n", compact(window.first), compact(plan.today));
+    text += fmt::format("DTSTART;VALUE=DATE:{}\r\nDTEND;VALUE=DATE:{}\r\n", compact(window.first),
+                        compact(window.last + std::chrono::days(1)));  // the end is the day after
+    text += folded(fmt::format("SUMMARY:Replace {} dresspacks", names.size()));
+    text += folded("DESCRIPTION:" + escaped(fmt::format("{}", fmt::join(names, ", "))));
+    text += "END:VEVENT\r\n";
+  }
+  return text + "END:VCALENDAR\r\n";
+}
+
+}  // namespace dresslife::pipeline

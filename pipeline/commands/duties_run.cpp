@@ -1,0 +1,24 @@
+#include "pipeline/commands/duties_run.h"
+
+#include "pipeline/advise/plan/evaluated_duties.h"
+#include "pipeline/base/installation.h"
+#include "pipeline/commands/making.h"
+#include "pipeline/study/folder_lock.h"
+
+namespace dresslife::pipeline {
+
+DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
+  const std::filesystem::path named = file.study;
+  const bool is_path = named.extension() == ".yaml" && named.is_relative();
+  const std::filesystem::path study = named_study((is_path ? folder_of(file.where) / named : named).string());
+  const StudyRequest request{study, options.sets, options.out, program_folder()};
+  Standing standing = expanded(request);
+  check_programs(file, standing.study);
+  const FolderLock lock(standing.places.folder);
+  look_again(standing);
+  make_rest(request, standing, options);
+  std::vector<RankingRow> rows = ranking_of(standing.study, standing.places, standing.states);
+  return {std::move(standing.study), std::move(standing.places), std::move(rows)};
+}
+
+}  // namespace dresslife::pipeline

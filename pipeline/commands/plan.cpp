@@ -1,0 +1,85 @@
+#include "pipeline/advise/plan/plan.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <set>
+
+#include "pipeline/advise/plan/evaluated_duties.h"
+#include "pipeline/advise/plan/plan_words.h"
+#include "pipeline/base/readable.h"
+#include "pipeline/base/whole_file.h"
+#include "pipeline/commands/as_json.h"
+#include "pipeline/commands/command.h"
+#include "pipeline/commands/duties_run.h"
+#include "pipeline/study/row_warnings.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options : RunOptions {
+  std::string fleet, windows, today;
+  std::optional<double> risk_percent;
+};
+
+Day day_of(const std::string& text) {
+  if (text.empty()) return today();
+  if (const std::optional<Day> day = day_from(text)) return *day;
+  throw InputError({"--today"}, fmt::format("'{}' is no date", text), "write YYYY-MM-DD");
+}
+
+int plan(const Options& options) {
+  const Day day = day_of(options.today);
+  note_input(options.fleet);
+  const Fleet fleet = read_fleet(options.fleet, day);
+  const std::vector<Window> windows = windows_from(options.windows, day);
+  const DutyFile file = read_duties(named_file(options.study, "duties"));
+  std::set<std::string> needed;
+  for (const Installed& row : fleet.rows) needed.insert(duty_named(file, row.duty, row.where).name);
+  const DutiesRun made = run_duties(file, options);
+  const std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed);
+  for (const auto& [name, table] : tables)
+    if (const double half = table.median(); half < table.hours_per_week)
+      throw InputError({options.study}, fmt::format("half of the dresspacks under duty '{}' fail within {}", name, hours_text(half)),
+                       "no plan helps; see dresslife improve");
+  const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent};
+  const Plan found = plan_of(fleet, tables, windows, day, rule);
+  if (found.effective_worlds < fewest_worlds)
+    throw InputError({options.fleet},
+                     fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",
+                                 found.effective_worlds, tables.begin()->second.worlds),
+                     "learn from them first: dresslife calibrate");
+  const std::string stem = "plan_" + fs::path(options.fleet).stem().string(), csv = plan_csv(fleet, found);
+  const fs::path table = made.places.folder / (stem + ".csv"), calendar = made.places.folder / (stem + ".ics");
+  write_text_if_changed(table, csv);
+  write_text_if_changed(calendar, plan_calendar(fleet, found));
+  print(options.json ? json_of_csv(csv).text + "\n"
+                     : shown(fmt::format("{}\nTable: {}\nCalendar: {}\n", plan_words(fleet, found), table.string(),
+                                         calendar.string())));
+  if (!options.quiet) tell(warning_lines(rows_of(file, made.rows)));
+  return 0;
+}
+
+}  // namespace
+
+Command plan_command() {
+  const auto options = std::make_shared<Options>();
+  return {"plan",
+          "plan which dresspacks of a plant to replace in which maintenance window, and the spare parts",
+          joined({{{"fleet", "", "FLEET.csv", &options->fleet, {.required = true}},
+                   {"--duties", "DUTIES.yaml", "the duties that the table names", &options->study, {.required = true}},
+                   {"--windows", "DATES", "the maintenance windows: 2027-07-12..2027-08-01,2027-12-20..2028-01-02",
+                    &options->windows, {.required = true}},
+                   {"--risk", "PERCENT",
+                    "replace a dresspack when its probability of failure before the next window is larger; default: 10, or by "
+                    "the costs of the table",
+                    &options->risk_percent, {.range = {{0, 100}}}},
+                   {"--today", "DATE", "the first day of the plan; default: the computer's date", &options->today},
+                   json_option(options->json)},
+                  run_options(*options), study_options(*options)}),
+          [options] { return plan(*options); }};
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,175 @@
+// Plans against closed forms: age replacement of a Weibull life, constant failure rates, what survivors say of a plant.
+#include "pipeline/advise/plan/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/advise/plan/plan_words.h"
+#include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
+
+using namespace dresslife::pipeline;
+
+namespace {
+
+constexpr double week = 70;  // [h of operation]: 10 a day
+const Day start = *day_from("2026-11-23");
+
+/// Quantiles of a Weibull life, one list for each world's scale [h].
+LifeTable weibull(double shape, const std::vector<double>& scales, std::size_t draws = 20000) {
+  LifeTable table{scales.size(), draws, {}, 40000, week};
+  for (const double scale : scales)
+    for (std::size_t d = 0; d < draws; ++d)
+      table.hours.push_back(
+          static_cast<float>(scale * std::pow(-std::log1p(-(double(d) + 0.5) / double(draws)), 1 / shape)));
+  return table;
+}
+
+/// Dresspacks of these ages [weeks].
+Fleet fleet_of(const std::vector<int>& ages, double planned = 0, double unplanned = 0) {
+  Fleet fleet;
+  for (const int age : ages)
+    fleet.rows.push_back({{}, "r" + std::to_string(fleet.rows.size()), "d", start - std::chrono::days(7 * age), {}, planned, unplanned});
+  fleet.has_costs = unplanned > 0;
+  return fleet;
+}
+
+/// A window in each of these weeks.
+std::vector<Window> windows_in(const std::vector<int>& weeks) {
+  std::vector<Window> windows;
+  for (const int of : weeks) windows.push_back({start + std::chrono::days(7 * of), start + std::chrono::days(7 * of)});
+  return windows;
+}
+
+std::vector<int> many(std::size_t count, int age) { return std::vector<int>(count, age); }
+
+}  // namespace
+
+TEST_CASE("with frequent windows a dresspack is replaced at the best age of a Weibull life") {
+  constexpr double shape = 3, scale = 5000, planned = 1, unplanned = 6;
+  // The age with the least cost per hour, by brute force over ages of an hour.
+  double best = 0, least = std::numeric_limits<double>::infinity(), running = 0;
+  for (double age = 1; age < 3 * scale; ++age) {
+    const double lives = std::exp(-std::pow(age / scale, shape));
+    running += std::exp(-std::pow((age - 0.5) / scale, shape));
+    if (const double rate = (planned * lives + unplanned * (1 - lives)) / running; rate < least) least = rate, best = age;
+  }
+  std::vector<int> ages;
+  for (int age = 0; age < 90; ++age) ages.push_back(age);
+  const Plan plan = plan_of(fleet_of(ages, planned, unplanned), {{"d", weibull(shape, {scale})}}, windows_in({1, 2}), start,
+                            {0.1, true});
+  for (std::size_t k = 0; k < ages.size(); ++k) {
+    const double at_window = (ages[k] + 1) * week;
+    INFO("age at the window " << at_window << ", best " << best);
+    // One interval of a week, and steps of 2 % in the age of (D6) at a flat minimum.
+    if (at_window < best - 2 * week) CHECK(plan.rows[k].window != std::optional<std::size_t>(0));
+    if (at_window > best + 2 * week) CHECK(plan.rows[k].window == std::optional<std::size_t>(0));
+  }
+  // A new dresspack that is just replaced at that age: cost per hour by the closed form, over twenty of its lives.
+  std::vector<int> weeks;
+  for (int of = 1; of <= 20 * int(best / week); ++of) weeks.push_back(of);
+  const Plan longer = plan_of(fleet_of(many(20, 0), planned, unplanned), {{"d", weibull(shape, {scale})}}, windows_in(weeks), start, {0.1, true});
+  const double hours = 20 * week * (weeks.back() + 1);
+  CHECK(longer.cost / hours == Approx(least).epsilon(0.05));  // the last life of each is not at its end
+  CHECK(longer.cost < 0.75 * longer.cost_without_windows);
+}
+
+TEST_CASE("by risk a dresspack is replaced where a Weibull life fails in the interval more often") {
+  constexpr double shape = 2.5, scale = 4000;
+  for (const double risk : {0.02, 0.1, 0.3}) {
+    const Plan plan = plan_of(fleet_of({5, 20, 40, 60}), {{"d", weibull(shape, {scale})}}, windows_in({4, 14}), start, {risk, false});
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double age = plan.rows[k].age_hours;
+      const auto lives = [&](double weeks) { return std::exp(-std::pow((age + weeks * week) / scale, shape)); };
+      CHECK(plan.rows[k].fails_before_first == Approx(1 - lives(4) / lives(0)).margin(2e-4));  // 20,000 draws
+      CHECK(plan.rows[k].fails_until_next[0] == Approx(1 - lives(14) / lives(4)).margin(2e-4));
+      CHECK(plan.rows[k].fails_until_next[1] == Approx(1 - lives(24) / lives(14)).margin(2e-4));
+      CHECK((plan.rows[k].window == std::optional<std::size_t>(0)) == (1 - lives(14) / lives(4) > risk));
+    }
+  }
+}
+
+TEST_CASE("without windows a constant failure rate needs so many spare dresspacks, with the spread of a Poisson number") {
+  constexpr double mean = 2000;
+  const Plan plan = plan_of(fleet_of(many(50, 10)), {{"d", weibull(1, {mean})}}, windows_in({26}), start, {1, false});
+  const double expected = 50 * week * 365.2425 / 7 / mean;
+  REQUIRE(plan.years.size() >= 1);
+  CHECK(plan.years[0].planned == 0);
+  CHECK(plan.years[0].unplanned == Approx(expected).margin(4 * std::sqrt(expected / 1000)));  // 1,000 plants, 4 deviations
+  CHECK(plan.years[0].low == Approx(expected - 1.645 * std::sqrt(expected)).margin(3));
+  CHECK(plan.years[0].high == Approx(expected + 1.645 * std::sqrt(expected)).margin(3));
+}
+
+TEST_CASE("survivors tell which world the plant is in, and the spread between plants stays") {
+  // Two worlds with a constant failure rate each; n dresspacks have survived to the age a.
+  constexpr double bad = 1000, good = 20000, age = 10 * week;
+  for (const std::size_t count : {1, 4, 30}) {
+    const Plan plan = plan_of(fleet_of(many(count, 10)), {{"d", weibull(1, {bad, good})}}, windows_in({10}), start, {1, false});
+    const double survive_bad = std::exp(-double(count) * age / bad), survive_good = std::exp(-double(count) * age / good);
+    const double of_bad = survive_bad / (survive_bad + survive_good);
+    const auto fails = [&](double mean) { return 1 - std::exp(-10 * week / mean); };
+    CHECK(plan.rows[0].fails_before_first == Approx(of_bad * fails(bad) + (1 - of_bad) * fails(good)).margin(1e-3));
+  }
+  // New dresspacks say nothing: the number of failures is of one world or of the other, not of their mean.
+  const Plan fresh = plan_of(fleet_of(many(100, 0)), {{"d", weibull(1, {bad, good})}}, windows_in({26}), start, {1, false});
+  const double year = week * 365.2425 / 7;
+  CHECK(fresh.years[0].low < 1.5 * 100 * year / good);
+  CHECK(fresh.years[0].high > 0.9 * 100 * year / bad);
+  CHECK(fresh.effective_worlds == Approx(2).epsilon(1e-12));
+}
+
+TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it is named at its cell") {
+  const Scratch scratch;
+  const auto read = [&](const std::string& text) {
+    scratch.write("fleet.csv", text);
+    return read_fleet(scratch / "fleet.csv", start);
+  };
+  const auto refusal = [&](const std::string& text) -> std::string {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const Fleet fleet = read("name;duty;installed;hours_per_week;planned_cost;unplanned_cost\nr 1;day;2025-02-28;100;5;50\nr 2;day;;;5;50\n");
+  REQUIRE(fleet.rows.size() == 2);
+  CHECK(day_text(fleet.rows[0].since) == "2025-02-28");
+  CHECK(fleet.rows[0].hours_per_week == 100.0);
+  CHECK(fleet.rows[1].since == start);
+  CHECK(fleet.has_costs);
+  CHECK(refusal("name,duty,installed\nr,day,2025-02-30\n").find("fleet.csv:2:7: error: '2025-02-30' is no date") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,28.02.2025\n").find("write YYYY-MM-DD") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,2027-01-01\n").find("after today") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,\nr,day,\n").find("is the name of line 2, too") != std::string::npos);
+  CHECK(refusal("name,duty\nr,day\n").find("no column 'installed'") != std::string::npos);
+  CHECK(refusal("name,duty,installed,hours\nr,day,,3\n").find("unknown column 'hours'") != std::string::npos);
+  CHECK(refusal("name,duty,installed,planned_cost\nr,day,,3\n").find("no column 'unplanned_cost'") != std::string::npos);
+  CHECK(refusal("name,duty,installed,planned_cost,unplanned_cost\nr,day,,3,2\n").find("must be larger") != std::string::npos);
+  CHECK(refusal("name,duty,installed,hours_per_week\nr,day,,200\n").find("must be 0.1 .. 168") != std::string::npos);
+  CHECK(refusal("name,duty,installed\n").find("no row") != std::string::npos);
+}
+
+TEST_CASE("windows are days in order, after today") {
+  const std::vector<Window> windows = windows_from("2027-07-12..2027-08-01,2027-12-20", start);
+  REQUIRE(windows.size() == 2);
+  CHECK(day_text(windows[0].last) == "2027-08-01");
+  CHECK(windows[1].first == windows[1].last);
+  for (const char* wrong : {"", "2027-07-12..", "2027-13-01", "2027-08-01..2027-07-12", "2026-11-23", "2027-07-12..2027-08-01,2027-08-01",
+                            "2027-07-12,", "soon"})
+    CHECK_THROWS_AS(windows_from(wrong, start), InputError);
+}
+
+TEST_CASE("the calendar has an event for each window with work, in lines of 75 bytes") {
+  const Fleet fleet = fleet_of(many(30, 60));
+  const Plan plan = plan_of(fleet, {{"d", weibull(3, {5000})}}, windows_in({4, 30}), start, {0.05, false});
+  const std::string calendar = plan_calendar(fleet, plan);
+  CHECK(calendar.find("SUMMARY:Replace 30 dresspacks\r\n") != std::string::npos);
+  CHECK(calendar.find("DTSTART;VALUE=DATE:20261221\r\nDTEND;VALUE=DATE:20261222\r\n") != std::string::npos);
+  CHECK(calendar.find("VALUE=DATE:20270621") == std::string::npos);  // nothing is left for the second
+  std::size_t begin = 0;
+  for (std::size_t end; (end = calendar.find("\r\n", begin)) != std::string::npos; begin = end + 2) CHECK(end - begin <= 75);
+  CHECK(begin == calendar.size());
+  CHECK(plan_csv(fleet, plan).starts_with("name,duty,installed,age_hours,"));
+}
