@@ -3,8 +3,7 @@
 // A plant is one world: a value of everything that its dresspacks have in common (friction of the construction, constants
 // of the metal, the model's error). In a world dresspacks fail independently, each by what it has for itself (its slack,
 // its scatter). Worlds are drawn from the prior. That every dresspack has survived until today is evidence.
-// The weight of a world w is
-//     product over dresspacks i of S_w,i(a_i)                                                                  (D3)
+// (D3) The weight of a world w is the product over dresspacks i of S_w,i(a_i).
 // S_w,i(a): share of dresspacks of i's duty that reach the age a in the world w. So one dresspack informs the others, and
 // the uncertainty does not shrink with the size of the fleet.
 //
