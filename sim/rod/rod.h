@@ -11,7 +11,7 @@
 // (S17)        c = 1 + (1 - t_a.t_b)/12 between two segments, 1 at a clamp
 // (S2) turn    phi = log(R_a^T R_b);   energy  1/2 (phi - phi_0)^T diag(EI, EI, GJ)/len (phi - phi_0)  [J]
 // (S3) step    (M + theta h C + beta h^2 K) dv = h (f(x_n) - C v_n),   v += dv,  x += h v
-// Second order in h and l. sim/rod/README.md derives the end links' lengths, the weights and the tension.
+// Second order in h and l. sim/rod/theory.md derives the end links' lengths, the weights and the tension.
 // Assumptions: round hose with equal bending stiffness both ways, stretch and shear equally stiff, small
 // strain in each link, any rotation. SI units.
 #pragma once
