@@ -97,7 +97,7 @@ std::string at_both_widths(const Draw& draw) {
       draw(broad), draw(narrow));
 }
 
-Panel panel_of(double width, Axis x, Axis y) {
+Panel panel_of(double width, PlotAxis x, PlotAxis y) {
   constexpr double left = 80, top = 10, right = 20, below = 60;
   return {left, top, width - left - right, chart_height - top - below, std::move(x), std::move(y)};
 }
@@ -148,7 +148,7 @@ std::string front_charts(const ImprovementStory& story) {
     least = std::min(least, second), most = std::max(most, second);
   }
   if (!(high > 0) || !(least < most)) return "";
-  Axis across;
+  PlotAxis across;
   across.title = story.second_title;
   across.low = least;
   across.high = most;

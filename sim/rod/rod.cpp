@@ -542,7 +542,7 @@ class Assembly {
   // c its change of velocity without w, k e.dv_0 as in drive(). Eliminating w adds -k^2/pivot e e^T to the
   // first segment's block.
   [[gnu::noinline]] void slide(int segment, double k, const Vector3& arm, const Vector3& pull) {
-    const Slider& slider = *p_.slider;
+    const SlidingClamp& slider = *p_.slider;
     SlideEquation& s = system_.slide[first_end_ / 2];
     const Vector3 d = tangent(state_.clamps.end(first_end_).orientation), turn = -arm.cross(d);
     s.direction = d;
@@ -669,7 +669,7 @@ double RodSolver::travel_change(int k) const {
 // `support` along its direction: stops only push, friction up to its limit.
 bool RodSolver::choose_mode(const RodState& state, int k) {
   using Mode = Travel::Mode;
-  const Slider& slider = *rod_.spans()[k].properties.slider;
+  const SlidingClamp& slider = *rod_.spans()[k].properties.slider;
   SlideEquation& s = system_->slide[k];
   const Travel& t = state.travel[k];
   const Mode mode = s.travel.mode;

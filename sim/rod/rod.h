@@ -32,7 +32,7 @@ namespace dresslife::sim {
 enum class End { clamped, pinned, swivel, free };
 
 /// A base clamp that slides along its direction and is pulled back: spring-returned slack (S14).
-struct Slider {
+struct SlidingClamp {
   double force = 0;     ///< against its direction, at travel 0 [N]
   double spring = 0;    ///< more per travel [N/m]
   double stroke = 0;    ///< travel goes from 0 to this, where it meets stops [m]
@@ -58,7 +58,7 @@ struct RodProperties {
   End base_end = End::clamped;
   End tool_end = End::clamped;
   double tip_mass = 0;             ///< a point at the tip of a free tool end [kg]
-  std::optional<Slider> slider{};  ///< of the base end
+  std::optional<SlidingClamp> slider{};  ///< of the base end
 
   bool is_hysteretic() const { return !friction.empty() || loss_factor > 0; }
 };

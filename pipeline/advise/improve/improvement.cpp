@@ -91,7 +91,7 @@ class Improver {
     freedom_ = Freedom::from(freed, jobs_);
     check_ranges();
     done_.name = study_name(request.file);
-    for (const Freedom::Freed& key : freedom_.keys()) {
+    for (const Freedom::FreeVariable& key : freedom_.keys()) {
       done_.freed.push_back(key.path);
       done_.own.push_back(key.own);
     }
@@ -189,16 +189,16 @@ class Improver {
   }
 
   /// (trial) of the job that is worst by geometry: how far beyond its limits it is, and what it passes.
-  struct Screened {
+  struct ScreeningResult {
     double violation = 0;
     bool rejected = false;
     std::vector<double> beyond;
     std::string words;
     double bracket = -HUGE_VAL;  ///< (V7) of the job that is worst by that
   };
-  std::vector<Screened> screened(const std::vector<std::vector<std::string>>& sets) const {
+  std::vector<ScreeningResult> screened(const std::vector<std::vector<std::string>>& sets) const {
     const std::string candidates = list_of_changes(sets);
-    std::vector<Screened> worst(sets.size());
+    std::vector<ScreeningResult> worst(sets.size());
     for (const auto& job : screened_) {
       const ScreenedList list =
           screening_of(*job, candidates, ScreenedBy::geometry, request_.longest_bracket, places_.folder);
@@ -268,7 +268,7 @@ class Improver {
     if (screened_.empty()) return beyond;
     std::vector<std::vector<std::string>> sets;
     for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
-    const std::vector<Screened> told = screened(sets);
+    const std::vector<ScreeningResult> told = screened(sets);
     for (std::size_t k = 0; k < places.size(); ++k) beyond[k] = told[k].rejected ? told[k].violation : 0;
     return beyond;
   }
@@ -305,7 +305,7 @@ class Improver {
     if (screened_.empty()) return;
     std::vector<std::vector<std::string>> sets;
     for (const Trial& trial : trials) sets.push_back(trial.sets);
-    const std::vector<Screened> told = screened(sets);
+    const std::vector<ScreeningResult> told = screened(sets);
     for (std::size_t k = 0; k < trials.size(); ++k) {
       Outcome& worst = trials[k].worst;
       if (worst.failure.empty()) {

@@ -28,8 +28,8 @@ Shape& shape_of(CandidateModels::Shapes& shapes, std::size_t limit, bool differe
 }
 
 /// Those at places of looks first, then the nearest to the centre.
-std::vector<const Candidate*> chosen(const std::vector<Candidate>& rehearsals, const std::vector<Candidate>& looks,
-                                const VectorXd& centre) {
+std::vector<const Candidate*> chosen(const std::vector<Candidate>& rehearsals,
+                                     const std::vector<Candidate>& looks, const VectorXd& centre) {
   std::vector<std::pair<double, const Candidate*>> some;
   for (const Candidate& rehearsal : rehearsals) {
     const auto is_here = [&](const Candidate& look) {
@@ -97,8 +97,9 @@ GaussianProcess::Prediction CandidateModels::Limit::at(const VectorXd& place, do
   return told;
 }
 
-CandidateModels::CandidateModels(const std::vector<Candidate>& looks, const std::vector<Candidate>& rehearsals,
-                       const VectorXd& centre, Shapes shapes)
+CandidateModels::CandidateModels(const std::vector<Candidate>& looks,
+                                 const std::vector<Candidate>& rehearsals, const VectorXd& centre,
+                                 Shapes shapes)
     : shapes_(std::move(shapes)) {
   std::size_t limits = 0;
   for (const std::vector<Candidate>* list : {&looks, &rehearsals})

@@ -31,7 +31,7 @@ class CandidateModels {
   /// Precondition: at least one candidate or rehearsal ran. Of many rehearsals only the 250 nearest to `centre` count.
   /// shapes: shapes() of an earlier model; empty: default shapes.
   CandidateModels(const std::vector<Candidate>& looks, const std::vector<Candidate>& rehearsals,
-             const Eigen::VectorXd& centre, Shapes shapes);
+                  const Eigen::VectorXd& centre, Shapes shapes);
 
   /// Maximises the likelihood of the shapes.
   void fit();
@@ -77,7 +77,7 @@ class CandidateModels {
 
   std::vector<Limit> limits_;
   FunctionModel aim_, failed_;  // failed: -1: it ran; else 1 + the violation
-  Shapes shapes_;       // aim, failed, then rehearsed and difference of each limit
+  Shapes shapes_;               // aim, failed, then rehearsed and difference of each limit
   bool any_failed_ = false, any_feasible_ = false;
 };
 

@@ -133,8 +133,8 @@ VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
 }
 
 /// Places about the best one and results of local searches from them, sorted by violation, then by objective.
-std::vector<VectorXd> SurrogateSearch::ranked(const CandidateModels& models, const VectorXd& best, double width,
-                                              const Trust& trust) {
+std::vector<VectorXd> SurrogateSearch::ranked(const CandidateModels& models, const VectorXd& best,
+                                              double width, const Trust& trust) {
   const SearchBox whole{VectorXd::Zero(variables_), VectorXd::Ones(variables_)};
   const SearchBox box = trust.anywhere ? whole : around(best, width);
   const auto excess = [&](const VectorXd& place) { return models.excess(place, trust.of_limits); };

@@ -46,8 +46,8 @@ class SurrogateSearch : public Search {
   Eigen::VectorXd first_look();
   double distance_to_known(const Eigen::VectorXd& place) const;
   CandidateModels models_of(const std::vector<Candidate>& looks, std::size_t first = 0);
-  std::vector<Eigen::VectorXd> ranked(const CandidateModels& models, const Eigen::VectorXd& best, double width,
-                                      const Trust& trust);
+  std::vector<Eigen::VectorXd> ranked(const CandidateModels& models, const Eigen::VectorXd& best,
+                                      double width, const Trust& trust);
   std::vector<Eigen::VectorXd> promising(const CandidateModels& models) const;
   std::optional<Eigen::VectorXd> spread_look(const CandidateModels& models) const;
   Eigen::VectorXd rehearsed_pick(CandidateModels& models, const std::vector<Eigen::VectorXd>& by_merit,

@@ -120,7 +120,9 @@ std::vector<Candidate> searched(Search& search, const Problem& problem, int look
   return all;
 }
 
-Candidate best_of(const std::vector<Candidate>& looks) { return *std::min_element(looks.begin(), looks.end(), better); }
+Candidate best_of(const std::vector<Candidate>& looks) {
+  return *std::min_element(looks.begin(), looks.end(), better);
+}
 
 SurrogateSearch surrogate(const Problem& problem, std::uint64_t seed) {
   SurrogateSettings settings;
@@ -228,7 +230,8 @@ TEST_CASE("where a thousandth keeps all limits, rehearsals lead there within a f
     SurrogateSearch search(6, settings, nothing_rejected, rehearse_springs);
     RandomSearch chance(6, seed, nothing_rejected);
     const std::vector<Candidate> looks = searched(search, problem, 20, 4);
-    const auto first = std::find_if(looks.begin(), looks.end(), [](const Candidate& look) { return look.feasible(); });
+    const auto first =
+        std::find_if(looks.begin(), looks.end(), [](const Candidate& look) { return look.feasible(); });
     CHECK(first - looks.begin() < 8);
     // At most the allowed number before the first candidate, and a few per candidate.
     CHECK(search.rehearsals().size() <= 150 + 20 * 12);
