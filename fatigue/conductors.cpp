@@ -56,7 +56,7 @@ std::vector<PlacesOfConductor> places_of(const SiteDamage& all, const TextColumn
                                          const Conductors& conductors, std::size_t segments,
                                          const std::function<std::size_t(std::size_t)>& segment_of) {
   std::vector<PlacesOfConductor> places;
-  for (const Bundle& bundle : conductors.bundle)
+  for (const ConductorWires& bundle : conductors.bundle)
     places.push_back({std::vector<double>(bundle.damage.size() * segments, 0.0)});
   for (std::size_t site = 0; site < all.damage.size(); ++site) {
     const auto wire = static_cast<std::size_t>(component.index[site]);
@@ -83,7 +83,7 @@ LifeScatter life_scatter(const Conductors& conductors, const std::vector<PlacesO
   LifeScatter result;
   const Scatter scatter{settings.scatter_log10 * settings.scatter_factor, settings.scatter_shared};
   std::vector<std::vector<double>> wires;  // (dresspack)
-  for (const Bundle& bundle : conductors.bundle) {
+  for (const ConductorWires& bundle : conductors.bundle) {
     if (bundle.dresspack >= wires.size()) wires.resize(bundle.dresspack + 1);
     std::vector<double>& its = wires[bundle.dresspack];
     its.insert(its.end(), bundle.damage.begin(), bundle.damage.end());
@@ -99,7 +99,7 @@ LifeScatter life_scatter(const Conductors& conductors, const std::vector<PlacesO
     result.first_conductor = shared.first_conductor;
     return result;
   }
-  for (const Bundle& bundle : conductors.bundle)
+  for (const ConductorWires& bundle : conductors.bundle)
     result.conductor.push_back(conductor_lives(bundle, settings.failed_wires_percent, scatter));
   result.first_conductor = first_conductor_lives(conductors.bundle, settings.failed_wires_percent, scatter);
   return result;

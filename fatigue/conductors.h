@@ -19,7 +19,7 @@ std::string conductor_of(const std::string& wire, const std::vector<std::string>
 
 struct Conductors {
   std::vector<std::string> path;   ///< (conductor) in order of appearance
-  std::vector<Bundle> bundle;      ///< (conductor)
+  std::vector<ConductorWires> bundle;  ///< (conductor)
   std::vector<std::size_t> worst;  ///< (conductor) its site with the largest damage
   /// (component) the conductor that a wire lies in, no_site for the hose's wall; and which of its wires it
   /// is.

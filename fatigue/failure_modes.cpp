@@ -113,7 +113,7 @@ class Modes {
   /// Lives over the scatter of the mode's wires, also with another scatter.
   void add_planned(std::size_t mode, LifeResponse& response) const {
     std::vector<PlacesOfConductor> places;
-    std::vector<Bundle> bundles;
+    std::vector<ConductorWires> bundles;
     for (std::size_t k = 0; k < in_.conductors.path.size(); ++k) {
       if (mode_of(in_.conductors.worst[k]) != mode) continue;
       places.push_back(in_.places[k]);

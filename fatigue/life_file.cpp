@@ -286,7 +286,7 @@ Conductors loaded_conductors(const Context& c) {
     for (const std::string& layer : layer_names(mounted.dresspack)) layers.push_back(layer);
   Conductors conductors = conductors_of(c.damage, c.component, layers);
   for (std::size_t k = 0; k < conductors.path.size(); ++k) {
-    Bundle& bundle = conductors.bundle[k];
+    ConductorWires& bundle = conductors.bundle[k];
     bundle.dresspack = c.dresspack_of(conductors.worst[k]);
     if (c.job.fatigue.load_sharing)
       bundle.rate = sharing_rates_of(c, conductors.worst[k], bundle.damage.size());
@@ -299,7 +299,7 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
                    const pipeline::FirstFailures* uncertain) {
   std::vector<std::uint32_t> wires;
   std::vector<double> lives;
-  for (const Bundle& bundle : conductors.bundle)
+  for (const ConductorWires& bundle : conductors.bundle)
     wires.push_back(static_cast<std::uint32_t>(bundle.damage.size()));
   for (const FailureLives& conductor : scatter.conductor) {
     for (const Percentiles& failure : conductor) lives.insert(lives.end(), failure.begin(), failure.end());

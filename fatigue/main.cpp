@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
       .input = "strain.h5",
       .output = "life.h5",
       .example = "dresslife-fatigue strain.h5 -o life.h5 --set fatigue.stress=elastic",
-      .part = pipeline::Part::fatigue,
+      .part = pipeline::JobPart::fatigue,
       .told = [](const std::filesystem::path& life) {
         return pipeline::told_by(life, pipeline::life_format());
       }};
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
       info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
         const pipeline::FileReader strain(call.input, pipeline::strain_format());
         const pipeline::Job job =
-            pipeline::job_of(call, strain, {pipeline::Part::sim, pipeline::Part::strain});
+            pipeline::job_of(call, strain, {pipeline::JobPart::sim, pipeline::JobPart::strain});
         pipeline::require_memory(call, fatigue::memory_of(strain, pipeline::thread_count()), progress);
         pipeline::FileWriter life(call.output, pipeline::life_format());
         const fatigue::Notes notes = fatigue::write_life(strain, job, life, pipeline::thread_count(),

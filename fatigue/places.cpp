@@ -24,8 +24,9 @@ struct Place {
 };
 
 /// All that can fail, soonest first.
-std::vector<Place> places_of(std::span<const PlacesOfConductor> places, std::span<const Bundle> bundles,
-                             std::size_t segments, double failed_percent) {
+std::vector<Place> places_of(std::span<const PlacesOfConductor> places,
+                             std::span<const ConductorWires> bundles, std::size_t segments,
+                             double failed_percent) {
   std::vector<Place> all;
   std::vector<double> damage;
   for (std::size_t conductor = 0; conductor < places.size(); ++conductor) {
@@ -60,7 +61,7 @@ class Places {
  public:
   /// all: of this dresspack, soonest first, not empty. haste: ln of how much sooner sharing may make one
   /// fail.
-  Places(std::span<const PlacesOfConductor> places, std::span<const Bundle> bundles,
+  Places(std::span<const PlacesOfConductor> places, std::span<const ConductorWires> bundles,
          const std::vector<Place>& all, double failed_percent, double own, double haste)
       : own_(own) {
     const auto judged = [&](const Place& place) {
@@ -121,7 +122,7 @@ class Places {
 
  private:
   /// Sorts what is judged by conductor, and looks up each conductor's wires at their worst places.
-  void take_conductors(std::span<const Bundle> bundles) {
+  void take_conductors(std::span<const ConductorWires> bundles) {
     std::stable_sort(judged_.begin(), judged_.end(),
                      [](const JudgedPlace& a, const JudgedPlace& b) { return a.conductor < b.conductor; });
     anywhere_.clear();
@@ -150,7 +151,7 @@ class Places {
 }  // namespace
 
 std::vector<double> median_place_lives(std::span<const PlacesOfConductor> places,
-                                       std::span<const Bundle> bundles, std::size_t segments,
+                                       std::span<const ConductorWires> bundles, std::size_t segments,
                                        double failed_percent) {
   std::vector<double> lives(places.size(), infinity);
   for (const Place& place : places_of(places, bundles, segments, failed_percent))
@@ -158,8 +159,9 @@ std::vector<double> median_place_lives(std::span<const PlacesOfConductor> places
   return lives;
 }
 
-FirstPlace first_place_lives(std::span<const PlacesOfConductor> places, std::span<const Bundle> bundles,
-                             std::size_t segments, double failed_percent, Scatter scatter, int draws) {
+FirstPlace first_place_lives(std::span<const PlacesOfConductor> places,
+                             std::span<const ConductorWires> bundles, std::size_t segments,
+                             double failed_percent, Scatter scatter, int draws) {
   assert(places.size() == bundles.size());
   FirstPlace result;
   result.lives.fill(infinity);
@@ -171,9 +173,9 @@ FirstPlace first_place_lives(std::span<const PlacesOfConductor> places, std::spa
   for (const Place& place : all) of_dresspack[bundles[place.conductor].dresspack].push_back(place);
 
   const bool sharing =
-      std::any_of(bundles.begin(), bundles.end(), [](const Bundle& b) { return !b.rate.empty(); });
+      std::any_of(bundles.begin(), bundles.end(), [](const ConductorWires& b) { return !b.rate.empty(); });
   double haste = 0;
-  for (const Bundle& bundle : bundles)
+  for (const ConductorWires& bundle : bundles)
     for (std::size_t k = 0;
          k < bundle.rate.size() && k < pipeline::wires_of_share(failed_percent, bundle.damage.size()); ++k)
       haste = std::max(haste, std::log(bundle.rate[k]));

@@ -34,14 +34,15 @@ struct FirstPlace {
 /// (conductor): their wires' worst places and, where broken wires leave their load to the rest, rates; then
 /// by `draws` draws as shared_lives(), which need no bounds. What is left out, places and moments, adds up to
 /// a probability of twice `neglected` at most before the first has failed for certain.
-FirstPlace first_place_lives(std::span<const PlacesOfConductor> places, std::span<const Bundle> bundles,
-                             std::size_t segments, double failed_percent, Scatter scatter, int draws);
+FirstPlace first_place_lives(std::span<const PlacesOfConductor> places,
+                             std::span<const ConductorWires> bundles, std::size_t segments,
+                             double failed_percent, Scatter scatter, int draws);
 constexpr double neglected = 1e-4;
 
 /// Repeats until each conductor has lost that share in one of its segments, (conductor), if every wire lives
 /// its median and none takes over another's load; infinite without damage to so many.
 std::vector<double> median_place_lives(std::span<const PlacesOfConductor> places,
-                                       std::span<const Bundle> bundles, std::size_t segments,
+                                       std::span<const ConductorWires> bundles, std::size_t segments,
                                        double failed_percent);
 
 }  // namespace dresslife::fatigue

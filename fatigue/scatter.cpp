@@ -31,7 +31,7 @@ Percentiles quantiles(std::vector<double>& lives) {
   return result;
 }
 
-std::array<std::size_t, failures> counts_of(const Bundle& bundle, double failed_percent) {
+std::array<std::size_t, failures> counts_of(const ConductorWires& bundle, double failed_percent) {
   return {1, pipeline::wires_of_share(failed_percent, bundle.damage.size()), bundle.damage.size()};
 }
 
@@ -41,8 +41,8 @@ double common_of(std::size_t dresspack, std::uint64_t draw, Scatter scatter) {
 }
 
 /// Factors of the lives of a conductor's wires in one draw, (wire).
-void draw_factors(const Bundle& bundle, std::uint64_t first_stream, std::uint64_t draw, Scatter scatter,
-                  std::vector<double>& factors) {
+void draw_factors(const ConductorWires& bundle, std::uint64_t first_stream, std::uint64_t draw,
+                  Scatter scatter, std::vector<double>& factors) {
   factors.clear();
   const double common = common_of(bundle.dresspack, draw, scatter);
   for (std::size_t wire = 0; wire < bundle.damage.size(); ++wire)
@@ -86,7 +86,7 @@ Percentiles first_wire_lives(std::span<const std::vector<double>> damage, Scatte
   return scatter.log10 == 0 ? result : first_of(each);
 }
 
-FailureLives conductor_lives(const Bundle& bundle, double failed_percent, Scatter scatter) {
+FailureLives conductor_lives(const ConductorWires& bundle, double failed_percent, Scatter scatter) {
   FailureLives lives{};
   const auto counts = counts_of(bundle, failed_percent);
   const auto wires = std::make_shared<const Wires>(bundle.damage);
@@ -99,14 +99,15 @@ FailureLives conductor_lives(const Bundle& bundle, double failed_percent, Scatte
   return lives;
 }
 
-Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed_percent, Scatter scatter) {
+Percentiles first_conductor_lives(std::span<const ConductorWires> bundles, double failed_percent,
+                                  Scatter scatter) {
   struct Conductor {
     Wires wires;
     std::size_t count;
   };
   std::map<std::size_t, std::vector<Conductor>> dresspacks;
   double shortest = infinity;
-  for (const Bundle& bundle : bundles) {
+  for (const ConductorWires& bundle : bundles) {
     Conductor conductor{Wires(bundle.damage), pipeline::wires_of_share(failed_percent, bundle.damage.size())};
     if (conductor.wires.damaged() < conductor.count) continue;
     shortest = std::min(shortest, conductor.wires.life(conductor.count - 1));
@@ -137,11 +138,12 @@ Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed
   return first_of(each);
 }
 
-SharedLives shared_lives(std::span<const Bundle> bundles, double failed_percent, Scatter scatter, int draws) {
+SharedLives shared_lives(std::span<const ConductorWires> bundles, double failed_percent, Scatter scatter,
+                         int draws) {
   SharedLives result;
   std::vector<double> first(draws, infinity), factors, breaks;
   std::uint64_t stream = 0;
-  for (const Bundle& bundle : bundles) {
+  for (const ConductorWires& bundle : bundles) {
     const auto counts = counts_of(bundle, failed_percent);
     std::array<std::vector<double>, failures> lives;
     for (int draw = 0; draw < draws; ++draw) {
@@ -159,11 +161,12 @@ SharedLives shared_lives(std::span<const Bundle> bundles, double failed_percent,
   return result;
 }
 
-Percentiles shared_place_lives(std::span<const Bundle> bundles, std::span<const PlaceOfConductor> places,
-                               double failed_percent, Scatter scatter, int draws, const DamageAt& damage_at) {
+Percentiles shared_place_lives(std::span<const ConductorWires> bundles,
+                               std::span<const PlaceOfConductor> places, double failed_percent,
+                               Scatter scatter, int draws, const DamageAt& damage_at) {
   std::vector<std::uint64_t> stream;  // (conductor), as shared_lives() draws them
   std::uint64_t next = 0;
-  for (const Bundle& bundle : bundles) {
+  for (const ConductorWires& bundle : bundles) {
     stream.push_back(next);
     next += bundle.damage.size();
   }
@@ -172,7 +175,7 @@ Percentiles shared_place_lives(std::span<const Bundle> bundles, std::span<const 
     double soonest = infinity;
     std::size_t drawn = bundles.size();
     for (const auto& [conductor, segment] : places) {
-      const Bundle& bundle = bundles[conductor];
+      const ConductorWires& bundle = bundles[conductor];
       if (drawn != conductor) draw_factors(bundle, stream[conductor], draw, scatter, factors);
       drawn = conductor;
       order_breaks(damage_at(conductor, segment), factors, bundle.rate,

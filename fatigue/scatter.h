@@ -37,7 +37,7 @@ using FailureLives = std::array<Percentiles, failures>;
 Percentiles first_wire_lives(std::span<const std::vector<double>> damage, Scatter scatter);
 
 /// The wires of one conductor.
-struct Bundle {
+struct ConductorWires {
   std::vector<double> damage;  ///< (wire) per repeat of its worst place
   std::size_t dresspack = 0;   ///< conductors of different ones share no common factor
   /// (broken) how much faster the rest is damaged when so many have broken; empty: no faster.
@@ -45,10 +45,11 @@ struct Bundle {
 };
 
 /// Lives of one conductor whose wires do not take over load: (F15).
-FailureLives conductor_lives(const Bundle& bundle, double failed_percent, Scatter scatter);
+FailureLives conductor_lives(const ConductorWires& bundle, double failed_percent, Scatter scatter);
 
 /// Life by which the first of several conductors has lost `failed_percent` of its wires.
-Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed_percent, Scatter scatter);
+Percentiles first_conductor_lives(std::span<const ConductorWires> bundles, double failed_percent,
+                                  Scatter scatter);
 
 /// What happens when the rest of a conductor takes over the load of its broken wires (F16).
 struct SharedLives {
@@ -56,10 +57,11 @@ struct SharedLives {
   Percentiles first_conductor;
 };
 
-/// The same with Bundle::rate, by `draws` draws of all wires with a fixed seed. With k broken, every wire
+/// The same with ConductorWires::rate, by `draws` draws of all wires with a fixed seed. With k broken, every wire
 /// left is damaged rate[k] times as fast; in the time that runs faster by that factor the wires break as if
 /// nothing were shared, so one sorting of a draw gives all its breaks.
-SharedLives shared_lives(std::span<const Bundle> bundles, double failed_percent, Scatter scatter, int draws);
+SharedLives shared_lives(std::span<const ConductorWires> bundles, double failed_percent, Scatter scatter,
+                         int draws);
 
 /// A conductor in one segment, and what its wires suffer there per repeat, (wire).
 struct PlaceOfConductor {
@@ -69,8 +71,9 @@ using DamageAt = std::function<std::span<const double>(std::size_t conductor, st
 
 /// By the same draws, when the first of these places, those of a conductor in a row, has lost
 /// `failed_percent` of its wires.
-Percentiles shared_place_lives(std::span<const Bundle> bundles, std::span<const PlaceOfConductor> places,
-                               double failed_percent, Scatter scatter, int draws, const DamageAt& damage_at);
+Percentiles shared_place_lives(std::span<const ConductorWires> bundles,
+                               std::span<const PlaceOfConductor> places, double failed_percent,
+                               Scatter scatter, int draws, const DamageAt& damage_at);
 
 /// A number from the standard normal distribution, the same for the same pair on every machine.
 double normal_of(std::uint64_t stream, std::uint64_t draw);

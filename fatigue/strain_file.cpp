@@ -105,13 +105,6 @@ void SiteSet::for_each_block(const Visit& visit) const {
   }
 }
 
-void SiteSet::for_each(const std::function<void(std::size_t, std::span<const float>)>& visit) const {
-  for_each_block([&](const Block& block, const std::function<void()>& read_ahead) {
-    for (std::size_t site = block.begin; site < block.end; ++site) visit(site, block.strains_of(site));
-    read_ahead();
-  });
-}
-
 void SiteSet::check_alternating(std::size_t site, std::span<const float> strains) const {
   const std::size_t bad = first_going_on(strains, [](float strain) { return strain; });
   if (bad == strains.size()) return;

@@ -54,8 +54,6 @@ class SiteSet {
   /// work.
   using Visit = std::function<void(const Block& block, const std::function<void()>& read_ahead)>;
   void for_each_block(const Visit& visit) const;
-  /// Calls `visit(site, strains)` for every site in order; strains are its reversals'.
-  void for_each(const std::function<void(std::size_t, std::span<const float>)>& visit) const;
   static constexpr std::size_t block_reversals = 1 << 20;
 
   std::vector<Reversal> reversals_of(std::size_t site) const;

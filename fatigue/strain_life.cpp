@@ -57,7 +57,7 @@ StrainLife::StrainLife(const pipeline::Material& m, pipeline::MeanStress mean_st
            m.fatigue_strength_exponent + m.fatigue_ductility_exponent),
       walker_power_(-(1 - m.walker_exponent.value_or(swt_walker_exponent)) / m.fatigue_strength_exponent) {}
 
-double StrainLife::reversals(const Load& load) const {
+double StrainLife::reversals(const CycleLoad& load) const {
   if (load.strain_amplitude <= endurance_strain_ || load.strain_amplitude == 0) return infinity;
   switch (mean_stress_) {
     case pipeline::MeanStress::none:
@@ -79,7 +79,7 @@ double StrainLife::reversals(const Load& load) const {
   throw std::logic_error("no such rule of mean stress");
 }
 
-double StrainLife::damage(const Load& load) const { return 2 / reversals(load); }
+double StrainLife::damage(const CycleLoad& load) const { return 2 / reversals(load); }
 
 StrainLife::MorrowScale StrainLife::morrow_scale(double stress_mean) const {
   assert(stress_mean < material_.fatigue_strength);

@@ -37,7 +37,7 @@ class PowerSum {
 };
 
 /// What one cycle does to the metal.
-struct Load {
+struct CycleLoad {
   double strain_amplitude = 0;  ///< eps_a [1]
   double stress_max = 0;        ///< [Pa]
   double stress_mean = 0;       ///< [Pa]
@@ -50,8 +50,8 @@ class StrainLife {
   StrainLife(const pipeline::Material& material, pipeline::MeanStress mean_stress,
              double endurance_strain = 0);
 
-  double reversals(const Load& load) const;  ///< 2N; infinity where the load does no damage
-  double damage(const Load& load) const;     ///< 1/N of one full cycle; 0 to 2
+  double reversals(const CycleLoad& load) const;  ///< 2N; infinity where the load does no damage
+  double damage(const CycleLoad& load) const;     ///< 1/N of one full cycle; 0 to 2
 
   const PowerSum& coffin_manson() const { return coffin_manson_; }  ///< (8): eps_a of 2N
   const PowerSum& swt() const { return swt_; }                      ///< (9): s_max eps_a [Pa] of 2N

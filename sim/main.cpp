@@ -135,7 +135,7 @@ int main(int argc, char** argv) {
             {.range = {{0, 10'000}}}},
            {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about",
             &request.exercise}},
-      .part = pipeline::Part::sim,
+      .part = pipeline::JobPart::sim,
       .told = pipeline::told_checks};
   return pipeline::run_stage(
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {

@@ -110,8 +110,8 @@ void ClampMeans::attach(BundleNesting& nesting, int part, const SegmentMotion& m
           k == 0 ? motion.strain[construction_.cable_of(line[k])] : of_part(line[k]) + first;
 }
 
-Shortened ClampMeans::shorten(double bend_wave) {
-  const Shortened result = shortened(construction_, plan_, bend_wave);
+ShortenedPlan ClampMeans::shorten(double bend_wave) {
+  const ShortenedPlan result = shortened(construction_, plan_, bend_wave);
   plan_ = result.plan;
   return result;
 }

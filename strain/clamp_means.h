@@ -25,7 +25,7 @@ class ClampMeans {
 
   const std::vector<LayerSlip>& plan() const { return plan_; }
   /// Friction gathers over no more than this length (shortened()); returns what of the plan was longest.
-  Shortened shorten(double bend_wave);
+  ShortenedPlan shorten(double bend_wave);
   /// The same with so many times the friction. glued: nothing slips, not even where compression takes the pressure
   /// away, on which any finite friction acts. Precondition: all samples have been added.
   static constexpr double glued = std::numeric_limits<double>::infinity();

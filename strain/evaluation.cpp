@@ -129,8 +129,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
   find_probes(settings.probes);
 }
 
-void Evaluation::find_probes(const std::vector<pipeline::Probe>& probes) {
-  for (const pipeline::Probe& probe : probes) {
+void Evaluation::find_probes(const std::vector<pipeline::ProbeRequest>& probes) {
+  for (const pipeline::ProbeRequest& probe : probes) {
     const auto wire =
         std::find_if(wires_.begin(), wires_.end(), [&](const Wire& w) { return w.path == probe.component; });
     if (wire == wires_.end())
@@ -225,7 +225,7 @@ void Evaluation::end_first_pass() {
     if (i + 1 < lengths_.size()) slopes += bends_[2 * i + 1].variance() / (arcs_[i + 1] - arcs_[i]);
   }
   evening_.bend_wave = slopes > 0 ? 2 * std::numbers::pi * std::sqrt(bends / slopes) : HUGE_VAL;
-  const Shortened of = means_.shorten(evening_.bend_wave);
+  const ShortenedPlan of = means_.shorten(evening_.bend_wave);
   evening_.layer = of.longest;
   evening_.longest = of.evening;
 }
@@ -549,9 +549,9 @@ std::span<const float> Evaluation::append_points(SiteRows& rows, std::span<const
   return {strain, points.size()};
 }
 
-Evaluation::Seen Evaluation::seen(Site site, const StrainMeasures& of) {
+Evaluation::SiteMeasures Evaluation::seen(Site site, const StrainMeasures& of) {
   const float range = of.highest - of.lowest, tension = std::max(0.0f, of.highest);
-  Seen seen{site, {}};
+  SiteMeasures seen{site, {}};
   seen.by[Worst::range] = range;
   seen.by[Worst::size] = std::max(std::abs(of.lowest), std::abs(of.highest));
   seen.by[Worst::tension] = tension;
@@ -562,7 +562,7 @@ Evaluation::Seen Evaluation::seen(Site site, const StrainMeasures& of) {
   return seen;
 }
 
-void Evaluation::Worst::consider(const Seen& seen) {
+void Evaluation::Worst::consider(const SiteMeasures& seen) {
   for (int measure = 0; measure < measures; ++measure)
     if (seen.by[measure] > value[measure]) {
       value[measure] = seen.by[measure];
@@ -583,7 +583,7 @@ std::vector<Evaluation::Worst> Evaluation::worst_of(std::size_t segment, const C
                                                     const std::function<void(const SiteRows&)>& sink) {
   std::vector<Worst> worst(construction_.layers().size());
   scan_bundles(segment, means, motion, sink != nullptr, [&](const BundleSites& bundle) {
-    for (const Seen& seen : bundle.seen) worst[wires_[seen.site.wire].layer].consider(seen);
+    for (const SiteMeasures& seen : bundle.seen) worst[wires_[seen.site.wire].layer].consider(seen);
     if (sink) sink(bundle.rows);
   });
   return worst;

@@ -131,11 +131,11 @@ class Evaluation {
   void end_first_pass();
   /// Wave length over which what varies of the span's curvature changes, 2 pi rms/rms of its slope [m]; infinite: it
   /// does not. The layer that rubs and whose strain evens out over most, with that length (LayerSlip::evening); -1: none.
-  struct Evening {
+  struct BendScale {
     double bend_wave = 0, longest = 0;
     int layer = -1;
   };
-  const Evening& evening() const { return evening_; }
+  const BendScale& evening() const { return evening_; }
 
   /// Second pass: segment `segment` of the span, whose history is `row` of `history`. Call for segments in
   /// order.
@@ -161,7 +161,7 @@ class Evaluation {
   };
   /// The sites of one wire layer of the construction, over all its bundles, that see most, by each of several
   /// measures. Which of them lives shortest depends on the material and the mean-stress correction.
-  struct Seen;
+  struct SiteMeasures;
   struct Worst {
     enum By { range, size, tension, range_times_tension, cycles, ranges, yielding_cycles, measures };
     std::array<Site, measures> site;
@@ -171,9 +171,9 @@ class Evaluation {
     static constexpr std::array<By, 2> sums{cycles, ranges};
     static constexpr std::size_t always_by_sum = 12, most_by_sum = 128;
     std::array<std::vector<std::pair<float, Site>>, sums.size()> by_sum;
-    void consider(const Seen& seen);
+    void consider(const SiteMeasures& seen);
   };
-  struct Seen {
+  struct SiteMeasures {
     Site site;
     std::array<float, Worst::measures> by;
   };
@@ -205,7 +205,7 @@ class Evaluation {
   /// The sites of one bundle, wire by wire.
   struct BundleSites {
     SiteRows rows;
-    std::vector<Seen> seen;
+    std::vector<SiteMeasures> seen;
   };
 
   /// Wires whose strain is put together one by one: of layers with friction, and all when shear counts.
@@ -223,7 +223,7 @@ class Evaluation {
                                                    const std::vector<const ClampMeans*>& ways,
                                                    const SegmentMotion& motion);
   const DeformationColumns& columns_of(Site site, const ClampMeans& means, const SegmentMotion& motion) const;
-  void find_probes(const std::vector<pipeline::Probe>& probes);
+  void find_probes(const std::vector<pipeline::ProbeRequest>& probes);
   BundleNesting part_nesting(int part, std::size_t segment, const ClampMeans& means,
                              const SegmentMotion& motion, const std::vector<Fibre>& fibres,
                              Worker& worker) const;
@@ -262,7 +262,7 @@ class Evaluation {
   std::vector<double> helix_of(int part, std::size_t segment) const;
   void append_site(SiteRows& rows, Site site, std::size_t segment, const std::vector<double>& helix) const;
   static std::span<const float> append_points(SiteRows& rows, std::span<const TurningPoint> points);
-  static Seen seen(Site site, const StrainMeasures& of);
+  static SiteMeasures seen(Site site, const StrainMeasures& of);
   /// Layers of which any wire was seen; the hose's wall is no wire.
   std::vector<const Worst*> of_wires(const std::vector<Worst>& worst) const;
   void find_likely(const std::vector<const Worst*>& wires);
@@ -296,7 +296,7 @@ class Evaluation {
   CablePaths cables_;
   CablePaths::Keeper keeper_;
   /// Of a vector over the samples.
-  struct Varying {
+  struct Variance {
     std::array<double, 2> sum{};
     double squares = 0, count = 0;
     void add(const std::array<double, 2>& value) {
@@ -305,9 +305,9 @@ class Evaluation {
     }
     double variance() const { return (squares - (sum[0] * sum[0] + sum[1] * sum[1]) / count) / count; }
   };
-  std::vector<Varying> bends_;  ///< (segment, 2) curvature, and by how much the next segment has more
+  std::vector<Variance> bends_;  ///< (segment, 2) curvature, and by how much the next segment has more
   bool first_pass_ended_ = false;
-  Evening evening_;
+  BendScale evening_;
   std::size_t meant_ = 0;                ///< samples that the means have had
   std::vector<Worker> workers_;          ///< one a thread
   std::vector<BundleSites> found_;       ///< being scanned, or waiting to be used

@@ -14,11 +14,11 @@ int main(int argc, char** argv) {
       .input = "motion.h5",
       .output = "strain.h5",
       .example = "dresslife-strain motion.h5 -o strain.h5 --set strain.slip=stick",
-      .part = pipeline::Part::strain};
+      .part = pipeline::JobPart::strain};
   return pipeline::run_stage(
       info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
         const pipeline::FileReader motion(call.input, pipeline::motion_format());
-        const pipeline::Job job = pipeline::job_of(call, motion, {pipeline::Part::sim});
+        const pipeline::Job job = pipeline::job_of(call, motion, {pipeline::JobPart::sim});
         pipeline::require_memory(call, strain::memory_of(motion, job, pipeline::thread_count()), progress);
         pipeline::FileWriter file(call.output, pipeline::strain_format());
         const strain::Notes notes = strain::write_strain(motion, job, file, pipeline::thread_count(),

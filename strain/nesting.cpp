@@ -11,7 +11,7 @@ constexpr double pi = std::numbers::pi;
 
 /// The undeformed parent at the end of a nesting; turn < 0: as it is, else with the helical ancestor moved
 /// on.
-const Rod<double>& rest_at_end(const BundleNesting& nesting, int turn = -1) {
+const ComponentState<double>& rest_at_end(const BundleNesting& nesting, int turn = -1) {
   if (nesting.steps.empty()) return nesting.dresspack_at_rest;
   return turn < 0 ? nesting.steps.back().rest : nesting.steps.back().turned_rest[turn];
 }
@@ -32,7 +32,7 @@ SlidingNumbers sliding_numbers(const LayerSlip& slip, const BundleNesting& nesti
 }
 
 /// What a node is at rest where its place is.
-void put_at_rest(WireNode& node, const Rod<double>& parent) {
+void put_at_rest(WireNode& node, const ComponentState<double>& parent) {
   node.rest = wire_state(parent, node.place);
   node.inverse_rest_stretch = 1 / node.rest.stretch;
   const bool exact = !is_thesis(node.place.kinematics);

@@ -65,7 +65,7 @@ SlidingFibre sliding_fibre(const AtRest& rest, double height) {
 
 }  // namespace
 
-SlidingLayer sliding_layer(const Rod<double>& parent, const Placement& first, double radial_share,
+SlidingLayer sliding_layer(const ComponentState<double>& parent, const Placement& first, double radial_share,
                            std::span<const double> heights) {
   assert(!is_thesis(first.kinematics) && first.radius > 0 && heights.size() <= most_sliding_fibres);
   const auto single = [](double x) { return static_cast<float>(x); };

@@ -63,7 +63,7 @@ struct SlidingLayer {
 
 /// parent: at rest; first: the place of wire 1; heights: of the fibres [m]. Precondition: exact kinematics, a
 /// helix (radius > 0), at most most_sliding_fibres.
-SlidingLayer sliding_layer(const Rod<double>& parent, const Placement& first, double radial_share,
+SlidingLayer sliding_layer(const ComponentState<double>& parent, const Placement& first, double radial_share,
                            std::span<const double> heights);
 
 }  // namespace dresslife::strain

@@ -75,8 +75,8 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
   return plan;
 }
 
-Shortened shortened(const Construction& construction, std::vector<LayerSlip> plan, double bend_wave) {
-  Shortened result{std::move(plan)};
+ShortenedPlan shortened(const Construction& construction, std::vector<LayerSlip> plan, double bend_wave) {
+  ShortenedPlan result{std::move(plan)};
   for (std::size_t k = 0; k < result.plan.size(); ++k) {
     LayerSlip& slip = result.plan[k];
     if (!slip.friction) continue;

@@ -51,11 +51,11 @@ constexpr double believable_evening = 0.25;
 
 /// The same with friction that gathers over no more than a wave of the bend [m], and the layer whose strain evens
 /// out over most of that; -1: none rubs.
-struct Shortened {
+struct ShortenedPlan {
   std::vector<LayerSlip> plan;
   int longest = -1;
   double evening = 0;  ///< of that layer, before [m]
 };
-Shortened shortened(const Construction& construction, std::vector<LayerSlip> plan, double bend_wave);
+ShortenedPlan shortened(const Construction& construction, std::vector<LayerSlip> plan, double bend_wave);
 
 }  // namespace dresslife::strain

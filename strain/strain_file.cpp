@@ -300,12 +300,12 @@ bool lies_in(const pipeline::Job& job, std::size_t d, const std::string& path) {
 pipeline::Strain settings_of(const pipeline::Job& job, std::size_t d) {
   pipeline::Strain settings = job.strain;
   std::erase_if(settings.probes,
-                [&](const pipeline::Probe& probe) { return !lies_in(job, d, probe.component); });
+                [&](const pipeline::ProbeRequest& probe) { return !lies_in(job, d, probe.component); });
   return settings;
 }
 
 void check_probes(const pipeline::Job& job) {
-  for (const pipeline::Probe& probe : job.strain.probes) {
+  for (const pipeline::ProbeRequest& probe : job.strain.probes) {
     bool known = false;
     for (std::size_t d = 0; d < job.dresspacks.size(); ++d) known |= lies_in(job, d, probe.component);
     if (!known)
@@ -464,7 +464,7 @@ std::vector<Warning> write_cables(FileWriter& file,
 std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   std::vector<Warning> all;
   for (const auto& evaluation : evaluations) {
-    const Evaluation::Evening& of = evaluation->evening();
+    const Evaluation::BendScale& of = evaluation->evening();
     if (of.layer < 0 || of.longest <= believable_evening * of.bend_wave) continue;
     all.push_back(pipeline::warning_of(
         WarningKind::material, "",

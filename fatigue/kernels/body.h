@@ -49,12 +49,12 @@ inline Pack branch_one_by_one(const LockstepTables& tables, const Pack& range) {
 }
 
 /// A closed loop in each lane.
-struct Load {
+struct LaneLoads {
   Pack amplitude, stress_max, stress_min;
 };
 
 /// Of the lanes in `closing`; of the others 0.
-inline Pack damage_of(const LockstepTables& tables, const DoubleMask& closing, const Load& loop) {
+inline Pack damage_of(const LockstepTables& tables, const DoubleMask& closing, const LaneLoads& loop) {
   const LogTable::View& table = tables.damage;
   const Pack low = Pack(table.low), high = Pack(table.high);
   const Pack y = tables.times_stress_max ? loop.amplitude * loop.stress_max : loop.amplitude;
@@ -64,7 +64,8 @@ inline Pack damage_of(const LockstepTables& tables, const DoubleMask& closing, c
   return select(damaging, select(at_least(y, high), Pack(tables.damage_at_high), damage), Pack{});
 }
 
-inline Pack damage_one_by_one(const LockstepTables& tables, const DoubleMask& closing, const Load& loop) {
+inline Pack damage_one_by_one(const LockstepTables& tables, const DoubleMask& closing,
+                              const LaneLoads& loop) {
   if (tables.damage_of == nullptr) return damage_of(tables, closing, loop);
   double amplitude[lanes], max[lanes], min[lanes], damage[lanes] = {};
   store(loop.amplitude, amplitude), store(loop.stress_max, max), store(loop.stress_min, min);
@@ -156,7 +157,7 @@ class Loops {
     const Pack amplitude = (falls ? top_.strain - top_.below : top_.below - top_.strain) * 0.5;
     const Pack peak = falls ? top_.stress : top_.stress_below,
                valley = falls ? top_.stress_below : top_.stress;
-    const Load loop{amplitude, select(mirrored_, -valley, peak), select(mirrored_, -peak, valley)};
+    const LaneLoads loop{amplitude, select(mirrored_, -valley, peak), select(mirrored_, -peak, valley)};
     sum_ += one_by_one ? damage_one_by_one(tables_, closing, loop) : damage_of(tables_, closing, loop);
     depth_ = select(closing, depth_ - 2, depth_);
     if (agree() && bits(closing) == all_lanes) {

@@ -18,7 +18,7 @@ extern const Lockstep set;
 }
 #endif
 
-const Lockstep& lockstep_for(InstructionSet instructions) {
+const Lockstep& lockstep_for([[maybe_unused]] InstructionSet instructions) {
 #ifdef DRESSLIFE_WIDE_KERNELS
   if (instructions == InstructionSet::avx512) return avx512_lockstep::set;
   if (instructions == InstructionSet::avx2) return avx2_lockstep::set;

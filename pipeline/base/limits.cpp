@@ -102,11 +102,11 @@ namespace {
 
 /// Letters that nobody sees and that turn or hide the text around them: how many bytes of UTF-8 one takes here, and
 /// its number; 0 bytes: none of them.
-struct Unseen {
+struct InvisibleCharacter {
   std::size_t bytes;
   unsigned code;
 };
-Unseen unseen_at(std::string_view text, std::size_t at) {
+InvisibleCharacter unseen_at(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t k) { return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0u; };
   const unsigned two = (byte(0) & 0x1f) << 6 | (byte(1) & 0x3f);
   const unsigned three = (byte(0) & 0x0f) << 12 | (byte(1) & 0x3f) << 6 | (byte(2) & 0x3f);
@@ -116,7 +116,7 @@ Unseen unseen_at(std::string_view text, std::size_t at) {
   if (byte(0) == 0xd8 && byte(1) == 0x9c) return {2, two};
   const bool turns = three == 0x200e || three == 0x200f || (three >= 0x202a && three <= 0x202e) ||
                      (three >= 0x2066 && three <= 0x2069);
-  return byte(0) == 0xe2 && turns ? Unseen{3, three} : Unseen{0, 0};
+  return byte(0) == 0xe2 && turns ? InvisibleCharacter{3, three} : InvisibleCharacter{0, 0};
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ std::string shown(const std::string& text) {
   made.reserve(text.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
-    if (const Unseen unseen = unseen_at(text, i); unseen.bytes > 0) {
+    if (const InvisibleCharacter unseen = unseen_at(text, i); unseen.bytes > 0) {
       made += unseen.code < 0x100 ? fmt::format("\\x{:02x}", unseen.code) : fmt::format("\\u{:04x}", unseen.code);
       i += unseen.bytes - 1;
     } else if ((byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f) {

@@ -61,12 +61,12 @@ constexpr std::array beginnings{
     Beginning{"<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"job\""}};
 
 /// The digest in a mark and the text behind it.
-struct Marked {
+struct OwnershipMark {
   bool is_yours_once_changed = false;
   std::string_view digest, rest;
 };
 /// Nothing to be found: an empty digest.
-Marked marked(std::string_view text) {
+OwnershipMark marked(std::string_view text) {
   const std::size_t at = text.substr(0, ownership_bytes).find(words);
   if (at == std::string_view::npos) return {};
   for (const std::string_view what : {yours, ours}) {
@@ -188,12 +188,12 @@ std::string with_mark(const std::string& text, Mark mark) {
 }
 
 std::string_view without_mark(std::string_view text) {
-  const Marked found = marked(text);
+  const OwnershipMark found = marked(text);
   return found.digest.empty() ? text : found.rest;
 }
 
 bool is_as_marked(std::string_view text) {
-  const Marked found = marked(text);
+  const OwnershipMark found = marked(text);
   return !found.digest.empty() && xxh3(found.rest) == found.digest;
 }
 

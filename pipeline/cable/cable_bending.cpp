@@ -11,8 +11,8 @@
 namespace dresslife::pipeline {
 namespace {
 
+using helices::ComponentState;
 using helices::Placement;
-using helices::Rod;
 using helices::Series;
 
 constexpr double pi = std::numbers::pi;
@@ -35,8 +35,8 @@ void scale_friction(std::vector<Component>& parts, double factor) {
 constexpr double no_friction = 0, all_friction = 1e12;  // levels
 
 /// A part of the cable at rest and slightly deformed.
-struct Deformed {
-  Rod<double> rest, now;
+struct BentPart {
+  ComponentState<double> rest, now;
   double per_length;      ///< how many of it, times their length, per length of the cable
   double turning;         ///< about the cable's axis, per its length [rad/m]
   bool helical;           ///< it or what it lies in
@@ -48,7 +48,7 @@ struct Deformed {
 /// Of a layer of parts or wires at one angle, per size of the deformation.
 struct Answer {
   const Component& layer;
-  const Deformed& parent;
+  const BentPart& parent;
   double EA, weight;
   double evening;  ///< length over which its strain evens out; 0: straight in straight parts [m]
   double share;
@@ -59,7 +59,7 @@ struct Answer {
 
 /// Walks down the levels from a deformed parent; take(answer) of each layer at each of its angles.
 template <class Take>
-void descend(const Dresspack& dresspack, const Component& layer, const Deformed& parent, const Take& take) {
+void descend(const Dresspack& dresspack, const Component& layer, const BentPart& parent, const Take& take) {
   const double signed_angle = sign_of(layer.hand) * layer.lay_angle, R = layer.helix_radius;
   const double cosine = std::cos(layer.lay_angle);
   const bool helical = R > 0 && layer.lay_angle != 0;
@@ -75,18 +75,19 @@ void descend(const Dresspack& dresspack, const Component& layer, const Deformed&
     const Placement place =
         helices::make_placement(Kinematics::exact, R, std::tan(signed_angle), std::cos(signed_angle),
                                 2 * pi * (k + 0.5) / angles, parent.rest.stretch.order);
-    const Rod<double> rest = helices::child(parent.rest, place), glued = helices::child(parent.now, place);
+    const ComponentState<double> rest = helices::child(parent.rest, place),
+                                 glued = helices::child(parent.now, place);
     const double strain = glued.stretch.at[0] / rest.stretch.at[0] - 1;
     const double mean =
         R == 0 ? strain : helices::mean_path_rate(parent.now, place) / helices::mean_path_rate(parent.rest, place) - 1;
-    const Rod<double> now = helices::slid(glued, share * mean, rest, Kinematics::exact);
+    const ComponentState<double> now = helices::slid(glued, share * mean, rest, Kinematics::exact);
     const auto rate = [&](const Series<double>& of, const Series<double>& at_rest) {
       return (of.at[0] - at_rest.at[0]) / small;
     };
     take(Answer{layer, parent, EA, weight, evening, share, (strain - mean) / small, mean / small,
                 rate(now.bend1, rest.bend1), rate(now.bend2, rest.bend2), rate(now.twist, rest.twist),
                 parent.depth + 1});
-    const Deformed bent{rest, now, weight, turns, helical || parent.helical, inside, parent.depth + 1};
+    const BentPart bent{rest, now, weight, turns, helical || parent.helical, inside, parent.depth + 1};
     for (const Component& inner : layer.components) descend(dresspack, inner, bent, take);
   }
 }
@@ -99,7 +100,7 @@ int levels_in(const Component& part) {
 }
 
 /// Exact down to the deepest wires in it.
-Deformed straight_cable(const Component& cable, double elongation, double curvature, double twist) {
+BentPart straight_cable(const Component& cable, double elongation, double curvature, double twist) {
   const int order = std::clamp(levels_in(cable), 1, Series<double>::capacity - 1);
   return {helices::uniform_rod<double>(0, 0, 0, 0, order),
           helices::uniform_rod<double>(elongation, curvature, 0, twist, order), 1, 0, false, 1, 0, curvature == 0};
@@ -162,7 +163,7 @@ CableBending::CableBending(const Dresspack& dresspack, const Component& cable, S
     const double line_load = of.parent.friction_level * layer.radial_line_load.value_or(0);
     auto known = std::find(layers.begin(), layers.end(), &layer);
     if (known == layers.end()) layers.push_back(&layer), held_.emplace_back(), known = layers.end() - 1;
-    Held& held = held_[known - layers.begin()];
+    HeldLayer& held = held_[known - layers.begin()];
     held.depth = of.depth;
     held.stiffness += of.weight * of.EA;
     held.glued += of.weight * of.EA * of.away * of.away;
@@ -176,7 +177,7 @@ CableBending::CableBending(const Dresspack& dresspack, const Component& cable, S
 
 double CableBending::moment(double curvature, double friction_level) const {
   double sum = own_stiffness_ * curvature;
-  for (const Held& of : held_) {
+  for (const HeldLayer& of : held_) {
     const double rate = std::sqrt(2 * of.glued / of.stiffness);
     const double cap = of.by_tension + friction_level * of.by_line_load;
     const double away = of.share * rate * curvature;
@@ -188,13 +189,13 @@ double CableBending::moment(double curvature, double friction_level) const {
 
 double CableBending::free_stiffness() const {
   double sum = own_stiffness_;
-  for (const Held& of : held_) sum += of.elastic * of.share * of.glued;
+  for (const HeldLayer& of : held_) sum += of.elastic * of.share * of.glued;
   return sum;
 }
 
 double CableBending::stuck_stiffness(int levels) const {
   double sum = own_stiffness_;
-  for (const Held& of : held_)
+  for (const HeldLayer& of : held_)
     sum += of.share * of.glued * (levels == 0 || of.depth > depth_ - levels ? 1 : of.elastic);
   return sum;
 }

@@ -48,7 +48,7 @@ class CableBending {
 
  private:
   /// Parts or wires of a layer.
-  struct Held {
+  struct HeldLayer {
     int depth = 0;         ///< levels below the cable, 1 = in it
     double stiffness = 0;  ///< E A x how many per length of the cable [N]
     double glued = 0;      ///< that x mean of D^2 [N m2]
@@ -58,7 +58,7 @@ class CableBending {
   };
   int depth_ = 0;
   double own_stiffness_ = 0;  ///< of wires whose deviation is free [N m2]
-  std::vector<Held> held_;
+  std::vector<HeldLayer> held_;
 };
 
 /// What a straight cable's wires answer to elongation and twist, per length of it: pull = pull_by_elongation

@@ -30,7 +30,7 @@ constexpr int highest_level = 6;  ///< of nesting; Series::capacity must exceed 
 /// State of a component at one place: see above. In `thesis` kinematics only the values (order 0) are used,
 /// stretch is 1 + strain, bend1 = kappa_bi and bend2 = kappa_no.
 template <class T>
-struct Rod {
+struct ComponentState {
   Series<T> stretch, bend1, bend2, twist;
 };
 
@@ -83,7 +83,8 @@ inline Placement make_placement(pipeline::Kinematics kinematics, double radius, 
 
 /// A rod in a uniform state, as the dresspack is within a segment. curvature [1/m], twist [rad/m].
 template <class T>
-Rod<T> uniform_rod(const T& elongation, const T& curvature1, const T& curvature2, const T& twist, int order) {
+ComponentState<T> uniform_rod(const T& elongation, const T& curvature1, const T& curvature2, const T& twist,
+                              int order) {
   return {constant_series(T(1.0 + elongation), order), constant_series(curvature1, order),
           constant_series(curvature2, order), constant_series(twist, order)};
 }
@@ -95,7 +96,7 @@ struct ThesisAngle {
 };
 
 template <class T>
-ThesisAngle<T> thesis_angle(const Rod<T>& parent, const Placement& place) {
+ThesisAngle<T> thesis_angle(const ComponentState<T>& parent, const Placement& place) {
   const T tangent = (place.lay_tangent + place.radius * parent.twist.at[0]) / parent.stretch.at[0];
   const T cosine_squared = 1.0 / (1.0 + tangent * tangent);
   return {cosine_squared, square_root(cosine_squared), tangent * cosine_squared};
@@ -103,7 +104,7 @@ ThesisAngle<T> thesis_angle(const Rod<T>& parent, const Placement& place) {
 
 /// Path length of a component per ideal length of its parent (exact: V of W5; thesis: 1 + its strain, W9).
 template <class T>
-T path_rate(const Rod<T>& parent, const Placement& place) {
+T path_rate(const ComponentState<T>& parent, const Placement& place) {
   const double R = place.radius;
   const T X = parent.bend1.at[0] * place.sine.at[0] - parent.bend2.at[0] * place.cosine.at[0];
   if (is_thesis(place.kinematics)) {
@@ -120,7 +121,7 @@ T path_rate(const Rod<T>& parent, const Placement& place) {
 /// the second and fourth derivative; the next term is below A (R K)^6 / 50, 2e-7 at R K = 0.2 and alpha = 25
 /// deg.
 template <class T>
-T mean_path_rate(const Rod<T>& parent, const Placement& place) {
+T mean_path_rate(const ComponentState<T>& parent, const Placement& place) {
   const double R = place.radius;
   if (is_thesis(place.kinematics)) {
     const ThesisAngle<T> a = thesis_angle(parent, place);
@@ -135,7 +136,7 @@ T mean_path_rate(const Rod<T>& parent, const Placement& place) {
 }
 
 template <class T>
-Rod<T> thesis_child(const Rod<T>& parent, const Placement& place) {
+ComponentState<T> thesis_child(const ComponentState<T>& parent, const Placement& place) {
   const ThesisAngle<T> a = thesis_angle(parent, place);
   const T X = parent.bend1.at[0] * place.sine.at[0] - parent.bend2.at[0] * place.cosine.at[0];
   const T Y = parent.bend1.at[0] * place.cosine.at[0] + parent.bend2.at[0] * place.sine.at[0];
@@ -144,10 +145,10 @@ Rod<T> thesis_child(const Rod<T>& parent, const Placement& place) {
 }
 
 /// The values of a glued component (W6) without the series. bend1 needs a parent of order one and is 0
-/// without; in `thesis` bend1 is minus kappa_no, about n, and bend2 kappa_bi, about b: not the order that Rod
-/// keeps them in.
+/// without; in `thesis` bend1 is minus kappa_no, about n, and bend2 kappa_bi, about b: not the order of
+/// ComponentState.
 template <class T>
-WireState<T> wire_state(const Rod<T>& parent, const Placement& place) {
+WireState<T> wire_state(const ComponentState<T>& parent, const Placement& place) {
   const double R = place.radius, c = place.lay_cosine;
   const double sine = place.sine.at[0], cosine = place.cosine.at[0];
   const T X = parent.bend1.at[0] * sine - parent.bend2.at[0] * cosine;
@@ -170,7 +171,7 @@ WireState<T> wire_state(const Rod<T>& parent, const Placement& place) {
 
 /// The component glued to its parent, one order less than the parent (W6).
 template <class T>
-Rod<T> child(const Rod<T>& parent, const Placement& place) {
+ComponentState<T> child(const ComponentState<T>& parent, const Placement& place) {
   if (is_thesis(place.kinematics)) return thesis_child(parent, place);
   if (parent.stretch.order == 1) {
     const WireState<T> values = wire_state(parent, place);
@@ -184,7 +185,7 @@ Rod<T> child(const Rod<T>& parent, const Placement& place) {
   const Series<T> V2 = (R * R) * (sigma * sigma) + y * y;
   const Series<T> V = square_root(V2);
   const Series<T> angle_slope = (R * (slope(sigma) * y - sigma * slope(y))) / V2;
-  Rod<T> rod;
+  ComponentState<T> rod;
   rod.stretch = stretched(c * V, c);
   rod.bend1 = stretched(c * (angle_slope - radial), c);
   rod.bend2 = stretched(c * ((R * (sigma * sigma) + y * X) / V), c);
@@ -198,8 +199,9 @@ Rod<T> child(const Rod<T>& parent, const Placement& place) {
 /// and torsion per path length stay, so its rotation rates per material length scale with the stretch. rest:
 /// the component in the undeformed construction.
 template <class T>
-Rod<T> slid(const Rod<T>& glued, const T& strain, const Rod<double>& rest, pipeline::Kinematics kinematics) {
-  Rod<T> rod = glued;
+ComponentState<T> slid(const ComponentState<T>& glued, const T& strain, const ComponentState<double>& rest,
+                       pipeline::Kinematics kinematics) {
+  ComponentState<T> rod = glued;
   for (int k = 0; k <= glued.stretch.order; ++k) rod.stretch.at[k] = (1.0 + strain) * rest.stretch.at[k];
   if (is_thesis(kinematics)) return rod;
   if (glued.stretch.order == 0) {
@@ -218,9 +220,9 @@ Rod<T> slid(const Rod<T>& glued, const T& strain, const Rod<double>& rest, pipel
 
 /// The same when its axial strain changes along it: what friction holds back (W17).
 template <class T>
-Rod<T> slid_unevenly(const Rod<T>& glued, const Series<T>& strain, const Rod<double>& rest,
-                     pipeline::Kinematics kinematics) {
-  Rod<T> rod = glued;
+ComponentState<T> slid_unevenly(const ComponentState<T>& glued, const Series<T>& strain,
+                                const ComponentState<double>& rest, pipeline::Kinematics kinematics) {
+  ComponentState<T> rod = glued;
   rod.stretch = (1.0 + strain) * rest.stretch;
   if (is_thesis(kinematics)) return rod;
   const Series<T> factor = rod.stretch / glued.stretch;

@@ -13,18 +13,18 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 double away(const CableSpot& cable) { return std::hypot(cable.place[0], cable.place[1]); }
 
 /// Distances from the axis between which a ring lies [m].
-struct Ring {
+struct CableRing {
   double inside, outside;
 };
 
 /// Puts cables into rings, innermost first.
-std::vector<Ring> rings_of(std::span<const CableSpot> cables, std::vector<CableRoom>& rooms) {
+std::vector<CableRing> rings_of(std::span<const CableSpot> cables, std::vector<CableRoom>& rooms) {
   std::vector<std::size_t> order(cables.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return away(cables[a]) - cables[a].radius < away(cables[b]) - cables[b].radius;
   });
-  std::vector<Ring> rings;
+  std::vector<CableRing> rings;
   for (const std::size_t k : order) {
     if (cables[k].own_play) continue;
     const double inside = away(cables[k]) - cables[k].radius, outside = away(cables[k]) + cables[k].radius;
@@ -39,7 +39,7 @@ std::vector<Ring> rings_of(std::span<const CableSpot> cables, std::vector<CableR
 
 std::vector<CableRoom> rooms_of(std::span<const CableSpot> cables, double bore, double core) {
   std::vector<CableRoom> rooms(cables.size(), {infinite, 0, infinite, no_ring});
-  const std::vector<Ring> rings = rings_of(cables, rooms);
+  const std::vector<CableRing> rings = rings_of(cables, rooms);
   for (std::size_t k = 0; k < cables.size(); ++k) {
     CableRoom& room = rooms[k];
     if (room.ring == no_ring) continue;

@@ -22,7 +22,7 @@ int clean(const StudyOptions& options) {
     throw InputError({folder.string()}, "is not there (the study has not run)",
                      "run it: dresslife run " + options.study);
   const FolderLock lock(folder);
-  const Standing standing = standing_of(request);
+  const StudyState standing = standing_of(request);
   std::uintmax_t freed = 0;
   std::set<std::string> jobs;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {

@@ -84,7 +84,7 @@ int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& 
 
 }  // namespace
 
-int make_rest(const StudyRequest& request, Standing& standing, const RunOptions& options) {
+int make_rest(const StudyRequest& request, StudyState& standing, const RunOptions& options) {
   const auto& [study, places, states, remembered, looks, digests] = standing;
   Progress progress(study.name, options.quiet);
   if (!remembered) share_stages(study, places, standing.states);

@@ -9,7 +9,7 @@
 namespace dresslife::pipeline {
 
 /// Makes what is not up to date and brings the states up to date. Returns how many stages were started.
-int make_rest(const StudyRequest& request, Standing& standing, const RunOptions& options);
+int make_rest(const StudyRequest& request, StudyState& standing, const RunOptions& options);
 
 /// Runs what is not up to date of a study that no file of its own tells. Returns its rows.
 std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options);

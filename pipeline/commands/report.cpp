@@ -26,7 +26,7 @@ int report(const StudyOptions& options) {
   if (const fs::path folder = request.out / study_name(request.file); kind_of(folder) != FileKind::folder)
     throw InputError({folder.string()}, "is not there (the study has not run)",
                      "run it: dresslife run " + options.study);
-  Standing standing = standing_of(request);
+  StudyState standing = standing_of(request);
   tell_changes(standing.study, standing.places, standing.states);
   const auto& [study, places, states, remembered, looks, digests] = standing;
   std::vector<RankingRow> rows = ranking_of(study, places, states);

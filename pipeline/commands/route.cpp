@@ -165,10 +165,10 @@ std::vector<double> beyond(const Trial& trial) {
 }
 
 /// The limit that the best of a search passes most, and what would cure it.
-struct Decided {
+struct DecidingLimit {
   std::string by, remedy;
 };
-Decided decided(const Trial& trial, const Draft& draft) {
+DecidingLimit decided(const Trial& trial, const Draft& draft) {
   std::vector<double> passed = beyond(trial);
   for (double& g : passed)
     if (!(g > 0)) g = 0;  // not a number: not known
@@ -253,7 +253,7 @@ std::string words_of(const Trial& trial, const Draft& draft, double off) {
   if (best.feasible()) {
     text += "It keeps all limits in a run.\n";
   } else {
-    const Decided by = decided(trial, draft);
+    const DecidingLimit by = decided(trial, draft);
     text += fmt::format("It runs, but no routing was found that keeps all limits ({}): {}. Remedy: {}\n",
                         best.words(), by.by, by.remedy);
   }
@@ -303,7 +303,7 @@ int route(const Options& options) {
     if (nearest->best) chosen = std::move(nearest);
   }
   if (!chosen) {
-    const Decided by = decided(*nearest, draft);
+    const DecidingLimit by = decided(*nearest, draft);
     throw InputError({options.request.of}, "no routing was found that runs; " + by.by, by.remedy);
   }
   const std::string& routing = chosen->proposals.candidates[*chosen->best].changes;

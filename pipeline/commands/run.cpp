@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 int run_shard(const RunOptions& options) {
   const Shard shard = shard_from(options.shard, "--shard");
   const StudyRequest request = request_of(options);
-  Standing standing = expanded(request);
+  StudyState standing = expanded(request);
   const fs::path& folder = standing.places.folder;
-  const FolderLock beside(folder, FolderLock::Held::with_shards);
+  const FolderLock beside(folder, FolderLock::Mode::with_shards);
   make_notes(folder / ".stage");
   keep_shard(standing, shard);
   const FolderLock lock(folder / standing.places.notes());
@@ -39,7 +39,7 @@ int run_shard(const RunOptions& options) {
 
 /// What a run would make, without making it.
 int dry_run(const RunOptions& options) {
-  Standing standing = standing_of(request_of(options));
+  StudyState standing = standing_of(request_of(options));
   tell_changes(standing.study, standing.places, standing.states);
   std::size_t to_make = 0, refused = 0;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
@@ -66,7 +66,7 @@ int run(const Options& options) {
   if (!options.shard.empty()) return run_shard(options);
   const StudyRequest request = request_of(options);
   const fs::path folder = request.out / study_name(request.file);
-  Standing standing;
+  StudyState standing;
   const bool begun = kind_of(folder) == FileKind::folder;
   if (!begun) standing = expanded(request);  // a study that cannot be expanded leaves no folder
   const FolderLock lock(folder);

@@ -13,7 +13,7 @@ namespace dresslife::pipeline {
 namespace {
 
 int status(const StudyOptions& options) {
-  Standing standing = standing_of(request_of(options));
+  StudyState standing = standing_of(request_of(options));
   tell_changes(standing.study, standing.places, standing.states);
   std::size_t done = 0;
   std::vector<Json> jobs;

@@ -34,7 +34,7 @@ std::string shell_word(const std::string& text) {
 
 /// The batch script: the same `dresslife run` in an allocation as on a laptop, but for the launcher. In an
 /// array of allocations each makes its shard; whichever is started again goes on where it was.
-std::string script_of(const SubmitOptions& options, const Cluster& cluster, const Standing& standing) {
+std::string script_of(const SubmitOptions& options, const Cluster& cluster, const StudyState& standing) {
   constexpr double megabyte = 1e6;
   const int tasks = options.tasks.value_or(cluster.tasks);
   const auto memory = static_cast<long>(cluster.memory / megabyte);
@@ -76,7 +76,7 @@ std::string submitted(const Cluster& cluster, const std::string& more, const fs:
 
 int submit(const SubmitOptions& options) {
   const Cluster cluster = read_cluster(named_file(options.cluster, "clusters"));
-  const Standing standing = standing_of(request_of(options));
+  const StudyState standing = standing_of(request_of(options));
   if (standing.all_done()) {
     print(shown(fmt::format("{}: nothing to do; dresslife report tells of it\n", standing.study.name)));
     return 0;

@@ -18,9 +18,9 @@ struct CheckedValue {
 
 /// For the receipt of a motion; nothing of a motion without checks. Errors: InputError when it cannot be
 /// read.
-std::vector<Told> told_checks(const std::filesystem::path& motion_file);
+std::vector<ResultValue> told_checks(const std::filesystem::path& motion_file);
 
 /// What told_checks() told.
-std::vector<CheckedValue> checks_in(const std::vector<Told>& told);
+std::vector<CheckedValue> checks_in(const std::vector<ResultValue>& told);
 
 }  // namespace dresslife::pipeline

@@ -135,7 +135,7 @@ void FileReader::Impl::check_shape(Open& made) {
   for (std::size_t i = 0; i < shape.size(); ++i) {
     if (i && __builtin_mul_overflow(made.row_values, made.lengths[i], &made.row_values))
       fail(fmt::format("dataset {} is too large", made.description->path));
-    const Axis axis(shape[i]);
+    const AxisLength axis(shape[i]);
     if (axis.fixed ? made.lengths[i] != axis.fixed : made.lengths[i] < axis.plus)
       fail(fmt::format("dataset {} has length {} (must be {})", made.description->path, made.lengths[i],
                        shape[i]));

@@ -104,7 +104,7 @@ struct FileWriter::Impl {
   }
 
   std::size_t axis_length(const std::string& text) const {
-    const Axis axis(text);
+    const AxisLength axis(text);
     if (axis.fixed) return axis.fixed;
     const auto found = axes.find(axis.name);
     if (found == axes.end()) throw std::logic_error("length of axis '" + axis.name + "' is not set");
@@ -307,7 +307,7 @@ struct FileWriter::Impl {
           throw std::logic_error("dataset " + description.path + " was never written");
         continue;
       }
-      const Axis axis(description.shape[0]);
+      const AxisLength axis(description.shape[0]);
       const auto [entry, fresh] = seen.emplace(axis.name, found->second.rows - axis.plus);
       if (!axis.fixed && !fresh && entry->second + axis.plus != found->second.rows)
         throw std::logic_error(fmt::format("{} has {} rows, others of its axis {}", description.path,

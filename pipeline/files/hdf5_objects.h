@@ -63,11 +63,11 @@ inline hid_t memory_type(Type type) {
 }
 
 /// What an axis of a table says of its length: a number, "name", or "name+1" for one more than that.
-struct Axis {
+struct AxisLength {
   std::string name;
   std::size_t plus = 0;
   std::size_t fixed = 0;
-  explicit Axis(const std::string& text) {
+  explicit AxisLength(const std::string& text) {
     if (text.find_first_not_of("0123456789") == std::string::npos)
       fixed = std::stoul(text);
     else if (text.ends_with("+1")) {

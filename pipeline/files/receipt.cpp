@@ -45,12 +45,12 @@ std::string recipe_of(std::string_view settings, const std::vector<std::filesyst
   return digest.hex();
 }
 
-std::vector<Told> told_by(const std::filesystem::path& file, const Format& format) {
+std::vector<ResultValue> told_by(const std::filesystem::path& file, const Format& format) {
   const FileReader reader(file, format, FileReader::Scope::attributes);
-  std::vector<Told> all;
+  std::vector<ResultValue> all;
   for (const AttributeInfo& attribute : format.attributes) {
     if (!reader.has_attribute(attribute.name)) continue;
-    Told& told = all.emplace_back();
+    ResultValue& told = all.emplace_back();
     told.name = attribute.name;
     if (attribute.is_text)
       told.text = reader.text_attribute(attribute.name);
@@ -106,7 +106,7 @@ FileState state_in(Words& words, char end) {
 std::string text_of(const Receipt& receipt) {
   std::string text = fmt::format("recipe {}\ninput {}\noutput {}\nstate {}\n", receipt.recipe, receipt.input,
                                  receipt.output, words_of(receipt.state));
-  for (const Told& told : receipt.told)
+  for (const ResultValue& told : receipt.told)
     text += told.text.empty() ? fmt::format("number {} {}\n", told.name, told.number)
                               : fmt::format("text {} {}\n", told.name, in_line(told.text));
   for (const auto& [what, digest] : receipt.made_with)
@@ -160,7 +160,7 @@ std::optional<Receipt> read_receipt(const std::filesystem::path& file) {
       std::string digest(lines.until(' '));
       receipt.made_with.emplace_back(out_of_line(lines.until('\n')), std::move(digest));
     } else {
-      Told& told = receipt.told.emplace_back();
+      ResultValue& told = receipt.told.emplace_back();
       told.name = lines.until(' ');
       if (what == "text")
         told.text = out_of_line(lines.until('\n'));

@@ -31,19 +31,19 @@ namespace dresslife::pipeline {
 struct Format;
 
 /// A root attribute of an output.
-struct Told {
+struct ResultValue {
   std::string name;
   std::string text;   ///< where it is text
   double number = 0;  ///< where it is none
-  bool operator==(const Told&) const = default;
+  bool operator==(const ResultValue&) const = default;
 };
 /// Those that the format names, of a file. Errors: InputError.
-std::vector<Told> told_by(const std::filesystem::path& file, const Format& format);
+std::vector<ResultValue> told_by(const std::filesystem::path& file, const Format& format);
 
 struct Receipt {
   std::string recipe, input, output;
   FileState state;
-  std::vector<Told> told{};
+  std::vector<ResultValue> told{};
   /// What else the recipe is of, with digests: the program by its name, and files as seen from the folder of the
   /// output.
   std::vector<std::pair<std::string, std::string>> made_with{};

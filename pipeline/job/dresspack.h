@@ -85,7 +85,7 @@ struct Sleeve {
   Where where;
 };
 
-/// A spring beside the hose's elastic bending whose moment friction limits (S20 of sim/rod/README.md).
+/// A spring beside the hose's elastic bending whose moment friction limits (S20 of sim/rod/theory.md).
 struct BendingFriction {
   double stiffness = 0;  ///< while it holds [N m2]
   double slides_at = 0;  ///< from this change of curvature on [1/m]

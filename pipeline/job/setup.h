@@ -30,7 +30,7 @@ struct Setup {
   Motion motion;
   std::vector<MountedDresspack> dresspacks = std::vector<MountedDresspack>(1);  ///< at least one
   Cell cell;
-  Simulation simulation;
+  SimulationSettings simulation;
 };
 
 /// (dresspack) what lies between its clamps, unstretched [m].

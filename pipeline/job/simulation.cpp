@@ -6,7 +6,7 @@
 
 namespace dresslife::pipeline {
 
-void describe(Fields& f, Simulation& simulation) {
+void describe(Fields& f, SimulationSettings& simulation) {
   f.integer("segments", simulation.segments, Need::optional, between(4, 2000),
             "The number of rigid segments of each dresspack.");
   f.number_or_word(
@@ -31,7 +31,7 @@ void describe(Fields& f, Simulation& simulation) {
             "The largest number of repeats of the motion.");
 }
 
-void check_simulation(const Simulation& simulation, const Where& where) {
+void check_simulation(const SimulationSettings& simulation, const Where& where) {
   if (simulation.choose_time_step) return;  // the choice fits the rate
   const double steps = 1 / (simulation.sample_rate * simulation.time_step);
   if (steps < 0.999 || std::abs(steps - std::round(steps)) > 1e-6 * steps)

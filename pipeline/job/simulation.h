@@ -11,7 +11,7 @@ class Fields;
 
 using Eigen::Vector3d;
 
-struct Simulation {
+struct SimulationSettings {
   int segments = 50;                 ///< of each dresspack
   double time_step = 0.005;          ///< [s]
   bool choose_time_step = false;     ///< time_step_ms: auto; time_step is then where the choice begins
@@ -25,9 +25,9 @@ struct Simulation {
   int most_repeats = 8;              ///< of the motion, also when they do not
 };
 
-void describe(Fields& f, Simulation& simulation);
+void describe(Fields& f, SimulationSettings& simulation);
 
 /// Errors: InputError where samples are not a whole number of steps apart.
-void check_simulation(const Simulation& simulation, const Where& where);
+void check_simulation(const SimulationSettings& simulation, const Where& where);
 
 }  // namespace dresslife::pipeline

@@ -4,7 +4,7 @@
 
 namespace dresslife::pipeline {
 
-void describe(Fields& f, Probe& probe) {
+void describe(Fields& f, ProbeRequest& probe) {
   f.integer("segment_from_tool", probe.segment_from_tool, Need::required, at_least(1),
             "The number of the segment, from the tool.");
   f.text("component", probe.component, Need::required, "The path of a wire, as in /site/component.");

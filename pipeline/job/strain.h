@@ -35,7 +35,7 @@ constexpr bool counts_shear(Equivalent value) { return value != Equivalent::axia
 /// Whether planes are judged one by one (F18).
 constexpr bool judges_planes(Equivalent value) { return value == Equivalent::critical_plane; }
 
-struct Probe {
+struct ProbeRequest {
   int segment_from_tool = 1;
   std::string component;  ///< path of a wire
 };
@@ -61,11 +61,11 @@ struct Strain {
   int surface_fibres = 1;                     ///< per wire; 0: the wire's axis
   double gate = 5e-4;                         ///< turning points of a smaller strain range are dropped
   int cable_elements = 0;                     ///< pieces of a loose cable per segment; 0: as its waves ask
-  std::vector<Probe> probes;
+  std::vector<ProbeRequest> probes;
   StrainFactors factors;
 };
 
-void describe(Fields& f, Probe& probe);
+void describe(Fields& f, ProbeRequest& probe);
 void describe(Fields& f, Strain& strain);
 
 }  // namespace dresslife::pipeline

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -84,6 +84,25 @@ Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance, const std::vector<s
           factor(column, column);
   }
   return factor;
+}
+
+/// (row, column) W with W C = numbers, for a covariance C and rows of numbers that C can give. A column that follows from
+/// those before it has weight 0. (Eigen's pseudo-inverse takes nine seconds to compile.)
+Eigen::MatrixXd divided(const Eigen::MatrixXd& numbers, const Eigen::MatrixXd& covariance) {
+  std::vector<std::size_t> order(static_cast<std::size_t>(covariance.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  const Eigen::MatrixXd factor = factor_of(covariance, order);
+  const Eigen::Index n = factor.rows();
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(numbers.rows(), n);
+  for (Eigen::Index row = 0; row < numbers.rows(); ++row) {
+    auto w = weights.row(row);
+    for (Eigen::Index k = 0; k < n; ++k)
+      if (factor(k, k) > 0) w(k) = (numbers(row, k) - factor.row(k).head(k).dot(w.head(k))) / factor(k, k);
+    for (Eigen::Index k = n - 1; k >= 0; --k)
+      if (factor(k, k) > 0)
+        w(k) = (w(k) - factor.col(k).tail(n - 1 - k).dot(w.tail(n - 1 - k))) / factor(k, k);
+  }
+  return weights;
 }
 
 /// All that one mode's lives are computed from.
@@ -200,7 +219,7 @@ class Mixed {
       for (Eigen::Index b = 0; b < count; ++b)
         inner(b, a) = covariance_(static_cast<Eigen::Index>(kept[std::size_t(b)]), of);
     }
-    const Eigen::MatrixXd weights = outer * inner.completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::MatrixXd weights = divided(outer, inner);
     Eigen::VectorXd apart(count);
     for (std::size_t m = 0; m < mixed.size(); ++m)
       for (std::size_t s = 0; s < mixed[m].u.size(); ++s) {

@@ -25,7 +25,7 @@ svg { font: 12px sans-serif; background: #fff }
 /// Rows of two bars, the wide one before, the narrow one after, on one axis.
 class Bars {
  public:
-  Bars(Picture& picture, double from_top, std::size_t rows, Axis axis)
+  Bars(Picture& picture, double from_top, std::size_t rows, PlotAxis axis)
       : picture_(picture), panel_{left, from_top, plot_width, row_height * static_cast<double>(rows),
                                   {},   {}} {
     panel_.x = std::move(axis);
@@ -91,7 +91,7 @@ std::string calibration_picture(const Learned& learned) {
   Picture picture(left + plot_width + words_width, second + row_height * static_cast<double>(tests) + 48,
                   "What observations have taught", "Parameters, and lives predicted, before and after");
   picture.text(left, 18, "wide bars: 80 % of what was likely before; narrow: after, with its median", "tick");
-  Axis deviations;
+  PlotAxis deviations;
   deviations.title = "parameter [deviations of what was known before]";
   deviations.low = -4, deviations.high = 4;
   Bars parameters(picture, top, uncertain_count, deviations);

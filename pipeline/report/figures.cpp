@@ -92,7 +92,7 @@ std::string deformation_chart(const std::array<Along, 3>& all, const std::vector
   constexpr double height = 120, gap = 18, heading = 26;
   double whole = 0;
   for (const double length : lengths) whole += length;
-  const Axis x{"base clamp   \u2192   along the dresspack [m]   \u2192   tool clamp", 0, whole};
+  const PlotAxis x{"base clamp   \u2192   along the dresspack [m]   \u2192   tool clamp", 0, whole};
   Picture picture(width, heading + 3 * (height + gap) + axis_height, title, title);
   picture.text(left, 15, title, "note");
   for (std::size_t p = 0; p < all.size(); ++p) {

@@ -64,12 +64,6 @@ constexpr GlossaryEntry entries[] = {
 
 std::span<const GlossaryEntry> glossary() { return entries; }
 
-std::string glossary_manual() {
-  std::string text = "| word | meaning |\n|---|---|\n";
-  for (const GlossaryEntry& entry : entries) text += fmt::format("| {} | {} |\n", entry.word, entry.meaning);
-  return text;
-}
-
 std::string glossary_html() {
   std::string text = "<details id=\"words\"><summary>What the words mean</summary>\n<dl>\n";
   for (const GlossaryEntry& entry : entries)

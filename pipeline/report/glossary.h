@@ -1,5 +1,4 @@
-// The words of tables, pages and warnings with their meanings: one list for the glossary page, the end of every HTML
-// page and `dresslife manual glossary`.
+// The words of tables, pages and warnings with their meanings, for the end of every HTML page.
 #pragma once
 
 #include <span>
@@ -14,9 +13,6 @@ struct GlossaryEntry {
 
 /// Sorted by word.
 std::span<const GlossaryEntry> glossary();
-
-/// As a Markdown list.
-std::string glossary_manual();
 
 /// The end of a page: a closed list, with the anchor #words.
 std::string glossary_html();

@@ -4,8 +4,8 @@
 
 namespace dresslife::pipeline {
 
-std::vector<Eigen::Vector3d> HoseLine::in(const std::vector<double>& clamps,
-                                          const std::vector<double>& centres) const {
+std::vector<Eigen::Vector3d> DresspackLine::in(const std::vector<double>& clamps,
+                                               const std::vector<double>& centres) const {
   const auto at = [](const std::vector<double>& of, std::size_t i) {
     return Eigen::Vector3d(of[3 * i], of[3 * i + 1], of[3 * i + 2]);
   };
@@ -15,8 +15,8 @@ std::vector<Eigen::Vector3d> HoseLine::in(const std::vector<double>& clamps,
   return line;
 }
 
-std::vector<HoseLine> hose_lines(const FileReader& motion) {
-  std::vector<HoseLine> lines;
+std::vector<DresspackLine> hose_lines(const FileReader& motion) {
+  std::vector<DresspackLine> lines;
   std::size_t dresspack = 0;
   for (const MotionSpan& span : motion_spans(motion)) {
     if (lines.empty() || span.dresspack != dresspack)

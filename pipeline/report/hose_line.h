@@ -9,7 +9,7 @@
 namespace dresslife::pipeline {
 
 /// Places of one dresspack's points in a row of /clamp/position and of /segment/position.
-struct HoseLine {
+struct DresspackLine {
   std::size_t base_clamp = 0, first_segment = 0, segments = 0, tool_clamp = 0;
 
   std::size_t points() const { return segments + 2; }
@@ -19,6 +19,6 @@ struct HoseLine {
 };
 
 /// One for each dresspack, in the order of the file. Errors: InputError.
-std::vector<HoseLine> hose_lines(const FileReader& motion);
+std::vector<DresspackLine> hose_lines(const FileReader& motion);
 
 }  // namespace dresslife::pipeline

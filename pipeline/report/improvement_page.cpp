@@ -97,13 +97,13 @@ std::string at_both_widths(const Draw& draw) {
       draw(broad), draw(narrow));
 }
 
-Panel panel_of(double width, Axis x, Axis y) {
+Panel panel_of(double width, PlotAxis x, PlotAxis y) {
   constexpr double left = 80, top = 10, right = 20, below = 60;
   return {left, top, width - left - right, chart_height - top - below, std::move(x), std::move(y)};
 }
 
 /// Lives over trials: what keeps its limits, what does not, and the best so far.
-std::string history_chart(const std::vector<ImprovementStory::Look>& looks, double low, double high,
+std::string history_chart(const std::vector<ImprovementStory::TrialPoint>& looks, double low, double high,
                           double width) {
   const Panel panel = panel_of(width, linear_axis("trial", 0, static_cast<double>(looks.size())),
                                decades_axis("life of the worst job, p10 [h]", low, high));
@@ -112,7 +112,7 @@ std::string history_chart(const std::vector<ImprovementStory::Look>& looks, doub
   panel.draw_axes(picture);
   double best = 0;
   std::vector<std::pair<double, double>> stairs;
-  for (const ImprovementStory::Look& look : looks) {
+  for (const ImprovementStory::TrialPoint& look : looks) {
     if (!look.ran || !(look.hours > 0)) continue;
     const double x = panel.across(look.trial);
     const double y = panel.down(std::min(look.hours, panel.y.high));
@@ -129,9 +129,9 @@ std::string history_chart(const std::vector<ImprovementStory::Look>& looks, doub
   return picture.svg();
 }
 
-std::string history_charts(const std::vector<ImprovementStory::Look>& looks) {
+std::string history_charts(const std::vector<ImprovementStory::TrialPoint>& looks) {
   double low = HUGE_VAL, high = 0;
-  for (const ImprovementStory::Look& look : looks)
+  for (const ImprovementStory::TrialPoint& look : looks)
     if (look.ran && look.hours > 0 && std::isfinite(look.hours)) {
       low = std::min(low, look.hours);
       high = std::max(high, look.hours);
@@ -148,7 +148,7 @@ std::string front_charts(const ImprovementStory& story) {
     least = std::min(least, second), most = std::max(most, second);
   }
   if (!(high > 0) || !(least < most)) return "";
-  Axis across;
+  PlotAxis across;
   across.title = story.second_title;
   across.low = least;
   across.high = most;
@@ -167,9 +167,9 @@ std::string front_charts(const ImprovementStory& story) {
 
 std::string history_section(const ImprovementStory& story) {
   const auto failed = std::count_if(story.looks.begin(), story.looks.end(),
-                                    [](const ImprovementStory::Look& look) { return !look.ran; });
+                                    [](const ImprovementStory::TrialPoint& look) { return !look.ran; });
   const auto feasible = std::count_if(story.looks.begin(), story.looks.end(),
-                                      [](const ImprovementStory::Look& look) { return look.feasible; });
+                                      [](const ImprovementStory::TrialPoint& look) { return look.feasible; });
   return fmt::format(
              "<h2>The search</h2>\n<p>{} trials, of which {} keep all limits (blue), {} break some (orange) and {} do not "
              "run; the line is the best so far. Lives are over the scatter of wires alone.</p>\n",

@@ -17,7 +17,7 @@ struct ImprovementStory {
     std::string words;                 ///< of its limits: "all kept"
     double p10 = 0, p50 = 0, p90 = 0;  ///< [h] of the worst job
   };
-  struct Look {
+  struct TrialPoint {
     int trial = 0;
     bool ran = false, feasible = false;
     double hours = 0;
@@ -35,7 +35,7 @@ struct ImprovementStory {
   std::optional<Lives> before, after;
   std::optional<double> longer_in;  ///< share of samples in which the job lives longer than before
   std::vector<Nudge> nudges;
-  std::vector<Look> looks;
+  std::vector<TrialPoint> looks;
   std::vector<std::pair<double, double>> front;  ///< second objective, life [h]; with two objectives
   std::string second_title;                      ///< "free length [m]"
 };

@@ -37,7 +37,7 @@ std::string line_name(const LifeSummary& life, std::int32_t step) {
 }
 
 /// An axis for damage or counts: over decades where the values span many, from zero where they do not.
-Axis axis_of_amounts(std::string title, const std::vector<double>& values) {
+PlotAxis axis_of_amounts(std::string title, const std::vector<double>& values) {
   double most = 0, least = 0;
   for (const double value : values) {
     if (!(value > 0)) continue;
@@ -178,8 +178,8 @@ std::vector<double> column(const std::vector<Bin>& bins, double Bin::*member) {
 }
 
 /// The whole axis of ranges with room for the outer bins.
-Axis range_axis(const std::vector<Bin>& bins) {
-  Axis axis{"strain range of a cycle [%]", bins.front().low, bins.back().high, true};
+PlotAxis range_axis(const std::vector<Bin>& bins) {
+  PlotAxis axis{"strain range of a cycle [%]", bins.front().low, bins.back().high, true};
   // Less than a decade has few round ticks; widen to the next decade then.
   if (axis.high < 8 * axis.low) axis = decades_axis(axis.title, axis.low, axis.high);
   return axis;
@@ -282,7 +282,7 @@ std::string strain_chart(const LifeSummary& life) {
   constexpr double label_row = 17, strain_height = 230, strip_height = 17, share_height = 76, gap = 7;
   const auto [low, high] = std::minmax_element(life.strain.begin(), life.strain.end());
   const std::vector<ProgramRun> runs = program_runs(life);
-  Axis time{"time [s]", life.time.front(), life.time.back()};
+  PlotAxis time{"time [s]", life.time.front(), life.time.back()};
   Panel strain{left_margin,   0,    panel_width,
                strain_height, time, linear_axis("strain [%]", percent * *low, percent * *high)};
   const std::vector<Label> labels = costly_lines(life, runs, strain);
@@ -325,8 +325,8 @@ std::string strain_chart(const LifeSummary& life) {
 std::string segment_chart(const LifeSummary& life, int worst_from_tool) {
   const std::size_t segments = life.segment_damage.size();
   if (segments == 0 || !(sum(life.segment_damage) > 0)) return "";
-  Axis x{"base clamp   \u2190   distance to the tool clamp along the dresspack [m]   \u2192   tool clamp", 0,
-         sum(life.segment_length)};
+  PlotAxis x{"base clamp   \u2190   distance to the tool clamp along the dresspack [m]   \u2192   tool clamp",
+             0, sum(life.segment_length)};
   x.reversed = true;
   const Panel panel{left_margin, 26, panel_width,
                     180,         x,  axis_of_amounts("damage per repeat", life.segment_damage)};
@@ -369,7 +369,7 @@ std::string cycle_chart(const LifeSummary& life) {
   std::vector<double> shares = column(bins, &Bin::damage);
   const double total = sum(shares);
   for (double& share : shares) share *= total > 0 ? percent / total : 0;
-  const Axis x = range_axis(bins);
+  const PlotAxis x = range_axis(bins);
   const Panel count{left_margin, 10, panel_width, 130, x, axis_of_amounts("cycles per repeat", counts)};
   const Panel share{
       left_margin, count.bottom() + 16,

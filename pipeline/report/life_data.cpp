@@ -164,15 +164,15 @@ class Data {
   }
 
   /// A wire whose whole history strain.h5 holds.
-  struct Probe {
+  struct ProbedWire {
     std::size_t row;  ///< of /probe/strain
     std::uint32_t site;
     double damage;
   };
 
   /// (segment) of its probed wires the one that is damaged most.
-  std::map<std::size_t, Probe> probes() const {
-    std::map<std::size_t, Probe> of;
+  std::map<std::size_t, ProbedWire> probes() const {
+    std::map<std::size_t, ProbedWire> of;
     if (!strain_) return of;
     const auto sites = strain_->read<std::uint32_t>("/probe/site");
     std::vector<std::int32_t> segment;
@@ -180,7 +180,7 @@ class Data {
     for (std::size_t k = 0; k < sites.size(); ++k) {
       life_.read_rows("/site/segment", sites[k], 1, segment);
       life_.read_rows("/damage", sites[k], 1, damage);
-      const Probe probe{k, sites[k], damage.front()};
+      const ProbedWire probe{k, sites[k], damage.front()};
       const auto [known, first] = of.emplace(static_cast<std::size_t>(segment.front()), probe);
       if (!first && probe.damage > known->second.damage) known->second = probe;
     }
@@ -190,7 +190,7 @@ class Data {
   /// One history, at its own times or at those of all. sampled: whole, else straight between turning points.
   /// site: of the wire; by default the segment's worst.
   Json strain_row(std::size_t segment, bool sampled, const std::vector<double>& strain,
-                  const std::vector<float>& own_times = {}, const Probe* of = nullptr) const {
+                  const std::vector<float>& own_times = {}, const ProbedWire* of = nullptr) const {
     const bool other = of && of->site != worst_site_[segment];
     std::vector<std::string> path{""};
     if (other) life_.read_rows("/site/component", of->site, 1, path);

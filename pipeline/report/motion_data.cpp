@@ -62,7 +62,7 @@ double largest(const std::vector<double>& values) {
 }
 
 /// Segments of a line whose centres are included: evenly spread, with the first and the last.
-std::vector<std::size_t> kept_centres(const HoseLine& line) {
+std::vector<std::size_t> kept_centres(const DresspackLine& line) {
   const std::size_t pieces = std::min(line.segments, most_points) - 1;
   std::vector<std::size_t> kept;
   for (std::size_t k = 0; k <= pieces; ++k) kept.push_back(pieces ? k * (line.segments - 1) / pieces : 0);
@@ -116,7 +116,7 @@ class Player {
     std::vector<double> points;
     for (std::size_t k = 0; k < samples; ++k) {
       const double *clamp = &clamps[k * clamp_row], *centre = &centres[k * centre_row];
-      for (const HoseLine& line : lines_) {
+      for (const DresspackLine& line : lines_) {
         points.insert(points.end(), clamp + 3 * line.base_clamp, clamp + 3 * line.base_clamp + 3);
         for (const std::size_t segment : kept_centres(line)) {
           const double* of = centre + 3 * (line.first_segment + segment);
@@ -249,7 +249,7 @@ class Player {
   /// places: of the points along the line, counted in segments from the base clamp.
   std::vector<Json> line_descriptions() const {
     std::vector<Json> list;
-    for (const HoseLine& line : lines_) {
+    for (const DresspackLine& line : lines_) {
       std::vector<double> places{0};
       for (const std::size_t segment : kept_centres(line))
         places.push_back(static_cast<double>(segment) + 0.5);
@@ -261,7 +261,7 @@ class Player {
   }
 
   std::size_t stride_;
-  std::vector<HoseLine> lines_;
+  std::vector<DresspackLine> lines_;
   Histories histories_;
   std::vector<Group> groups_;
   std::vector<std::vector<double>> parts_;

@@ -97,7 +97,7 @@ std::string at(double length) {
   return text == "-0" ? "0" : text;
 }
 
-double share_of(const Axis& axis, double value) {
+double share_of(const PlotAxis& axis, double value) {
   const double share = axis.logarithmic ? std::log(value / axis.low) / std::log(axis.high / axis.low)
                                         : (value - axis.low) / (axis.high - axis.low);
   const double inside = std::isnan(share) ? 0 : std::clamp(share, 0.0, 1.0);
@@ -151,18 +151,18 @@ std::string printed_hours(double hours) {
   return std::isinf(hours) ? hours_text(hours) : printed(hours) + " h";
 }
 
-std::vector<Tick> Axis::ticks(int most) const {
+std::vector<Tick> PlotAxis::ticks(int most) const {
   return logarithmic ? logarithmic_ticks(low, high, most) : linear_ticks(low, high, most);
 }
 
-Axis linear_axis(std::string title, double low, double high, int most_ticks) {
+PlotAxis linear_axis(std::string title, double low, double high, int most_ticks) {
   if (!(high > low)) high = low + (low == 0 ? 1 : std::abs(low));
   const double step = round_step(high - low, most_ticks);
   return {std::move(title), step * std::floor(low / step + close_to_tick),
           step * std::ceil(high / step - close_to_tick), false};
 }
 
-Axis decades_axis(std::string title, double low, double high) {
+PlotAxis decades_axis(std::string title, double low, double high) {
   double from = std::floor(std::log10(low) + close_to_tick), to = std::ceil(std::log10(high) - close_to_tick);
   if (to <= from) to = from + 1;
   return {std::move(title), std::pow(10, from), std::pow(10, to), true};

@@ -26,7 +26,7 @@ struct Tick {
 };
 
 /// One axis of a chart, in the unit of its title. Precondition: low < high; 0 < low when logarithmic.
-struct Axis {
+struct PlotAxis {
   std::string title;
   double low = 0, high = 1;
   bool logarithmic = false;
@@ -37,10 +37,10 @@ struct Axis {
 };
 
 /// An axis from 0 (or below) to the round value above `high`.
-Axis linear_axis(std::string title, double low, double high, int most_ticks = 6);
+PlotAxis linear_axis(std::string title, double low, double high, int most_ticks = 6);
 
 /// An axis over whole decades around [low, high].
-Axis decades_axis(std::string title, double low, double high);
+PlotAxis decades_axis(std::string title, double low, double high);
 
 /// A picture under construction.
 class Picture {
@@ -74,7 +74,7 @@ double text_width(const std::string& words);
 /// A rectangle of a picture with a scale along each side.
 struct Panel {
   double left, top, width, height;
-  Axis x, y;
+  PlotAxis x, y;
 
   double across(double value) const;  ///< from x to the picture, clamped to the panel
   double down(double value) const;    ///< from y to the picture, clamped to the panel

@@ -22,7 +22,7 @@ namespace dresslife::pipeline {
 namespace {
 
 /// A length that was tried.
-struct Tried {
+struct TriedLength {
   double length = 0, bend_radius = 0;  ///< [m]; bend radius 0: no rest was found
 };
 
@@ -33,7 +33,7 @@ struct SpanPreview {
   double least_way = 0, most_way = 0;
   double here[2]{}, program[2]{};  ///< lengths that work [m]
   double least_bend_radius = 0;    ///< allowed [m]
-  std::vector<Tried> tried;
+  std::vector<TriedLength> tried;
   bool hangs() const { return !(most_way > 0); }
   bool works() const { return hangs() || (length >= program[0] && length <= program[1]); }
 };
@@ -78,8 +78,8 @@ std::vector<SpanPreview> spans_of(const FileReader& file, const Setup& setup) {
 
 /// Lengths that are bent no harder at rest than allowed, or the one that is bent least.
 std::string bend_words(const SpanPreview& span) {
-  const Tried *first = nullptr, *last = nullptr, *best = nullptr;
-  for (const Tried& tried : span.tried) {
+  const TriedLength *first = nullptr, *last = nullptr, *best = nullptr;
+  for (const TriedLength& tried : span.tried) {
     if (!(tried.bend_radius > 0)) continue;
     if (!best || tried.bend_radius > best->bend_radius) best = &tried;
     if (tried.bend_radius < span.least_bend_radius) continue;
@@ -118,7 +118,7 @@ std::string words(const SpanPreview& span) {
 std::string scan_table(const std::vector<SpanPreview>& spans) {
   std::string rows;
   for (const SpanPreview& span : spans)
-    for (const Tried& tried : span.tried)
+    for (const TriedLength& tried : span.tried)
       rows += fmt::format(
           "<tr><td>{}</td><td class=\"number\">{:.2f} m</td><td class=\"number{}\">{}</td><td "
           "class=\"number\">{:.0f} mm</td></tr>\n",

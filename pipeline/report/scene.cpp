@@ -103,7 +103,7 @@ std::vector<std::vector<Vector3d>> hose_points(const FileReader& file, std::size
   file.read_rows("/clamp/position", sample, 1, clamps);
   file.read_rows("/segment/position", sample, 1, centres);
   std::vector<std::vector<Vector3d>> points;
-  for (const HoseLine& line : hose_lines(file)) points.push_back(line.in(clamps, centres));
+  for (const DresspackLine& line : hose_lines(file)) points.push_back(line.in(clamps, centres));
   return points;
 }
 

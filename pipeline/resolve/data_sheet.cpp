@@ -38,8 +38,8 @@ int room_in(double radius, double diameter) {
 }
 
 /// Straight, around nothing, a filler, or one part of their own size in the `middle`.
-std::vector<Ring> straight_rings(int count, double diameter, int middle, int first) {
-  std::vector<Ring> rings;
+std::vector<CoreRing> straight_rings(int count, double diameter, int middle, int first) {
+  std::vector<CoreRing> rings;
   if (middle > 0) rings.push_back({1, 0, 0});
   rings.push_back({first, first_radius(first, diameter), 0});
   for (count -= middle + first; count > 0; count -= rings.back().count) {
@@ -49,14 +49,14 @@ std::vector<Ring> straight_rings(int count, double diameter, int middle, int fir
   return rings;
 }
 
-double fullness(const Ring& outer, double diameter) {
+double fullness(const CoreRing& outer, double diameter) {
   return outer.radius == 0 ? 1 : static_cast<double>(outer.count) / room_in(outer.radius, diameter);
 }
 
 double lay_angle_at(double radius, double lay_length) { return std::atan(2 * pi * radius / lay_length); }
 
 /// Widens a ring until its parts lie beside each other on their lay.
-void lay(Ring& ring, double diameter, double lay_length, const Where& where) {
+void lay(CoreRing& ring, double diameter, double lay_length, const Where& where) {
   ring.lay_angle = lay_angle_at(ring.radius, lay_length);
   const auto fits = [&](double radius) {
     return neighbour_distance(radius, lay_angle_at(radius, lay_length), ring.count) >=
@@ -112,7 +112,7 @@ class Expansion {
   }
 
   std::vector<Component> components() const {
-    const std::vector<Ring> rings = cabled(core_diameter_);
+    const std::vector<CoreRing> rings = cabled(core_diameter_);
     const double part = group_diameter(core_diameter_);
     std::vector<Component> layers;
     for (std::size_t k = rings.size(); k-- > 0;) {  // the outermost is layer 1
@@ -162,8 +162,8 @@ class Expansion {
   bool grouped() const { return sheet_.cores_per_group > 1; }
   std::string group_name() const { return sheet_.cores_per_group == 2 ? "pair" : "group"; }
 
-  Component part_of(const std::string& name, const std::vector<Ring>& rings, std::size_t k, double diameter,
-                    Hand hand, std::optional<double> line_load) const {
+  Component part_of(const std::string& name, const std::vector<CoreRing>& rings, std::size_t k,
+                    double diameter, Hand hand, std::optional<double> line_load) const {
     Component part;
     part.name = name;
     if (rings.size() > 1) part.layer = fmt::format("layer {}", rings.size() - k);
@@ -187,7 +187,7 @@ class Expansion {
   }
 
   std::vector<Component> group(Hand hand) const {
-    const std::vector<Ring> rings = twisted(core_diameter_);
+    const std::vector<CoreRing> rings = twisted(core_diameter_);
     std::vector<Component> layers;
     for (std::size_t k = rings.size(); k-- > 0;) {
       layers.push_back(
@@ -204,18 +204,18 @@ class Expansion {
     conductor_ = width_of(wire_rings_, wire_);
   }
 
-  std::vector<Ring> laid(int count, double diameter, const std::optional<double>& lay_length) const {
+  std::vector<CoreRing> laid(int count, double diameter, const std::optional<double>& lay_length) const {
     if (count == 1) return packed(1, diameter, infinite, Fillers::none, sheet_.where);
     const double straight =
         width_of(packed(count, diameter, infinite, Fillers::allowed, sheet_.where), diameter);
     return packed(count, diameter, lay_length.value_or(core_lay_ratio * straight), Fillers::allowed,
                   sheet_.where);
   }
-  std::vector<Ring> twisted(double core) const {
+  std::vector<CoreRing> twisted(double core) const {
     return laid(sheet_.cores_per_group, core, sheet_.group_lay_length);
   }
   double group_diameter(double core) const { return width_of(twisted(core), core); }
-  std::vector<Ring> cabled(double core) const {
+  std::vector<CoreRing> cabled(double core) const {
     return laid(sheet_.cores, group_diameter(core), sheet_.lay_length);
   }
   double cabled_width(double core) const { return width_of(cabled(core), group_diameter(core)); }
@@ -272,7 +272,7 @@ class Expansion {
 
   int wire_count() const {
     int count = 0;
-    for (const Ring& ring : wire_rings_) count += ring.count;
+    for (const CoreRing& ring : wire_rings_) count += ring.count;
     return count;
   }
 
@@ -281,7 +281,7 @@ class Expansion {
 
   DataSheet sheet_;
   double wire_, outer_ = 0, jacket_ = 0;  // [m]
-  std::vector<Ring> wire_rings_;
+  std::vector<CoreRing> wire_rings_;
   double conductor_ = 0, core_diameter_ = 0;  // [m]
 };
 
@@ -413,10 +413,11 @@ void describe(Fields& f, DataSheet& sheet) {
                  "of published cables. measured_bending_stiffness_Nm2 beside data_sheet sets its level.");
 }
 
-std::vector<Ring> packed(int count, double diameter, double lay_length, Fillers fillers, const Where& where) {
-  std::vector<Ring> best;
+std::vector<CoreRing> packed(int count, double diameter, double lay_length, Fillers fillers,
+                             const Where& where) {
+  std::vector<CoreRing> best;
   const auto consider = [&](int middle, int first) {
-    std::vector<Ring> rings = straight_rings(count, diameter, middle, first);
+    std::vector<CoreRing> rings = straight_rings(count, diameter, middle, first);
     const double gain = best.empty() ? 1 : width_of(best, diameter) - width_of(rings, diameter);
     const bool equal = std::abs(gain) <= touching * diameter;
     if (equal ? fullness(rings.back(), diameter) > fullness(best.back(), diameter) : gain > 0)
@@ -435,7 +436,7 @@ std::vector<Ring> packed(int count, double diameter, double lay_length, Fillers 
   return best;
 }
 
-double width_of(const std::vector<Ring>& rings, double diameter) {
+double width_of(const std::vector<CoreRing>& rings, double diameter) {
   return 2 * rings.back().radius + diameter;
 }
 

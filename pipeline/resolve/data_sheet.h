@@ -56,7 +56,7 @@ Node sheet_from_line(const Node& line);
 
 enum class Fillers { none, allowed };
 
-struct Ring {
+struct CoreRing {
   int count;
   double radius;     ///< from the bundle's axis to those of its parts [m]
   double lay_angle;  ///< >= 0 [rad]
@@ -68,10 +68,11 @@ inline constexpr std::string_view estimate_mark = " ESTIMATE by rules: ";
 /// Rings of `count` >= 1 parts of one diameter [m] and lay length [m] (infinity: straight), innermost first.
 /// Errors: InputError at `where` for a lay too short for them to lie
 /// beside each other.
-std::vector<Ring> packed(int count, double diameter, double lay_length, Fillers fillers, const Where& where);
+std::vector<CoreRing> packed(int count, double diameter, double lay_length, Fillers fillers,
+                             const Where& where);
 
 /// Diameter of the circle around them [m].
-double width_of(const std::vector<Ring>& rings, double diameter);
+double width_of(const std::vector<CoreRing>& rings, double diameter);
 
 /// Replaces `data_sheet` in every component of a dresspack's tree by what it stands for: radius_mm and
 /// components; says in `source` what rules stood in for. Errors: InputError at the sheet, which says what does not fit into what.

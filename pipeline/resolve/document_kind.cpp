@@ -5,13 +5,13 @@
 namespace dresslife::pipeline {
 namespace {
 
-struct Known {
+struct KeyOfKind {
   DocumentKind kind;
   std::string_view key;  ///< that only this kind has at its top
   const char *name, *use;
 };
 
-constexpr Known known[] = {
+constexpr KeyOfKind known[] = {
     {DocumentKind::study, "base", "study", "give it to dresslife run, improve or reprogram"},
     {DocumentKind::job, "routing", "job", "give it to dresslife run, check, preview or route"},
     {DocumentKind::job, "dresspack", "job", "give it to dresslife run, check, preview or route"},
@@ -32,7 +32,7 @@ constexpr Known known[] = {
 }  // namespace
 
 DocumentKind kind_of_document(const Node& document) {
-  for (const Known& of : known)
+  for (const KeyOfKind& of : known)
     if (document.find(of.key)) return of.kind;
   return DocumentKind::unknown;
 }
@@ -41,9 +41,9 @@ void refuse_other_kind(const Node& document, DocumentKind wanted) {
   const DocumentKind kind = kind_of_document(document);
   if (kind == wanted || kind == DocumentKind::unknown) return;
   const char* wanted_name = "";
-  for (const Known& of : known)
+  for (const KeyOfKind& of : known)
     if (of.kind == wanted) wanted_name = of.name;
-  for (const Known& of : known)
+  for (const KeyOfKind& of : known)
     if (of.kind == kind && document.find(of.key))
       throw InputError(document.where,
                        fmt::format("is a {} (it has the key '{}'), no {}", of.name, of.key, wanted_name),

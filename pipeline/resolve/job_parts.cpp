@@ -158,10 +158,10 @@ void describe_fatigue(Fields& echo, Job copy) {
 
 }  // namespace
 
-std::string part_text(const Job& job, Part part) {
-  const auto described = part == Part::sim      ? describe_sim
-                         : part == Part::strain ? describe_strain
-                                                : describe_fatigue;
+std::string part_text(const Job& job, JobPart part) {
+  const auto described = part == JobPart::sim      ? describe_sim
+                         : part == JobPart::strain ? describe_strain
+                                                   : describe_fatigue;
   // What a file holds counts, and its digest is compared beside this text; where it lies does not.
   const PathText name = [](const std::filesystem::path& file) { return file.filename().string(); };
   return to_yaml(echo_fields(Describe([&](Fields& f) { described(f, job); }), name));

@@ -32,8 +32,8 @@ std::string stored_job_text(const Job& job, const std::filesystem::path& folder)
 
 /// What of the job each stage's result depends on; equal text and equal bytes of the files beside it, equal result.
 /// The text names files without their folders.
-enum class Part { sim, strain, fatigue };
-std::string part_text(const Job& job, Part part);
+enum class JobPart { sim, strain, fatigue };
+std::string part_text(const Job& job, JobPart part);
 
 /// Files beyond the job and the catalogue on which the result of dresslife-sim depends.
 std::vector<std::filesystem::path> files_beside(const Job& job);

@@ -226,10 +226,10 @@ class FieldReader final : public Fields {
     bool passed_over = false;        ///< it was refused as a whole
     std::string path;                ///< of the map, for messages: "dresspack.components[2]"
     std::vector<std::string> known;  ///< keys described so far
-    struct Missing {
+    struct MissingKey {
       std::string key, meaning;
     };
-    std::vector<Missing> missing;
+    std::vector<MissingKey> missing;
   };
 
   [[noreturn]] static void refuse(const Node& node, const std::string& what, std::string_view meaning) {

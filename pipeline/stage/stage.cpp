@@ -23,13 +23,13 @@
 namespace dresslife::pipeline {
 namespace {
 
-const char* part_name(Part part) {
+const char* part_name(JobPart part) {
   switch (part) {
-    case Part::sim:
+    case JobPart::sim:
       return "robot, motion, dresspack, routing or simulation";
-    case Part::strain:
+    case JobPart::strain:
       return "dresspack.components or strain";
-    case Part::fatigue:
+    case JobPart::fatigue:
       return "dresspack.materials or fatigue";
   }
   return "";
@@ -124,7 +124,7 @@ struct Settings {
 Settings settings_of(const StageCall& call) {
   const Job job = read_job(call.info.input_is_job ? call.input : call.job_file, call.sets);
   return {part_text(job, *call.info.part),
-          *call.info.part == Part::sim ? files_beside(job) : std::vector<std::filesystem::path>{}};
+          *call.info.part == JobPart::sim ? files_beside(job) : std::vector<std::filesystem::path>{}};
 }
 
 void say(const StageCall& call, Progress& progress, const Warning& warning) {
@@ -139,15 +139,16 @@ std::vector<Warning> warnings_in(const FileReader& file) {
                                         : std::vector<Warning>{};
 }
 
-const Format& format_of_output(Part part) {
-  return part == Part::sim ? motion_format() : part == Part::strain ? strain_format() : life_format();
+const Format& format_of_output(JobPart part) {
+  return part == JobPart::sim ? motion_format() : part == JobPart::strain ? strain_format() : life_format();
 }
 
 /// A log tells what its stage warned of, too, where the output is from an earlier run.
 void say_known_warnings(const StageCall& call) {
   std::vector<Warning> before;
-  if (*call.info.part != Part::sim) {
-    const Format& format = format_of_output(*call.info.part == Part::strain ? Part::sim : Part::strain);
+  if (*call.info.part != JobPart::sim) {
+    const Format& format =
+        format_of_output(*call.info.part == JobPart::strain ? JobPart::sim : JobPart::strain);
     before = warnings_in(FileReader(call.input, format, FileReader::Scope::attributes));
   }
   Progress silent(call.info.program, true);
@@ -299,7 +300,7 @@ std::optional<std::string> files_read(const FileReader& file) {
 
 }  // namespace
 
-Job job_of(const StageCall& call, const FileReader& input, const std::vector<Part>& before) {
+Job job_of(const StageCall& call, const FileReader& input, const std::vector<JobPart>& before) {
   const std::string own_text = input.text_attribute("job");
   const std::string own_name = input.where().file + " (attribute job)";
   // In a study it is the same text, which need not be understood twice.
@@ -308,7 +309,7 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Par
   const Job own = job_from(parse_yaml(own_text, own_name));
   const Job job = call.job_file.empty() ? job_from(parse_yaml(own_text, own_name), call.sets)
                                         : read_job(call.job_file, call.sets);
-  for (Part part : before)
+  for (JobPart part : before)
     if (part_text(own, part) != part_text(job, part))
       throw InputError(input.where(),
                        fmt::format("was made with other settings of {} than this job has", part_name(part)),
@@ -335,7 +336,7 @@ void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::s
                                  call.input.filename().string());
   if (!call.job_file.empty()) line += " --job " + call.job_file.filename().string();
   for (const std::string& set : call.sets) line += " --set " + set;
-  if (call.info.part == Part::sim) line += files_read(job);
+  if (call.info.part == JobPart::sim) line += files_read(job);
   const std::filesystem::path& described_by = call.job_file.empty() ? call.input : call.job_file;
   file.attribute("job", stored_job_text(job, described_by.parent_path()));
   file.attribute("history", earlier.empty() ? line : earlier + "\n" + line);

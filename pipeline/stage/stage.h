@@ -23,7 +23,7 @@
 namespace dresslife::pipeline {
 
 struct Job;
-enum class Part;
+enum class JobPart;
 
 struct StageInfo {
   std::string program;           ///< "dresslife-sim"
@@ -34,9 +34,10 @@ struct StageInfo {
   bool input_is_job = false;     ///< the input is the job itself; other stages take --job
   bool may_lack_output = false;  ///< without -o nothing is written
   std::vector<Option> options = {};      ///< of this stage only
-  std::optional<Part> part = {};  ///< of the job, on which the result depends; nothing: no stage of a study
+  std::optional<JobPart> part =
+      {};  ///< of the job, on which the result depends; nothing: no stage of a study
   /// What the receipt of its output tells, for who does not keep or open that; empty: nothing.
-  std::function<std::vector<Told>(const std::filesystem::path& output)> told = {};
+  std::function<std::vector<ResultValue>(const std::filesystem::path& output)> told = {};
 };
 
 /// A file that is read, as it was when the stage began.
@@ -75,7 +76,7 @@ int finish_output(int status);
 /// The settings of a stage whose input is a file: of --job, else of the file's `job` attribute; then --set.
 /// Errors: InputError also when the job differs from the file's in a part of an earlier stage (`before`),
 /// because the file then does not hold what the job asks for.
-Job job_of(const StageCall& call, const FileReader& input, const std::vector<Part>& before);
+Job job_of(const StageCall& call, const FileReader& input, const std::vector<JobPart>& before);
 
 /// Writes the root attribute `warnings`, those of the file that was read (before) first, and says this
 /// stage's own: on a terminal, in a study into the log. Of a file that does not tell its warnings the output

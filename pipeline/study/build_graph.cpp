@@ -27,13 +27,13 @@ namespace fs = std::filesystem;
 
 struct Stage {
   const char* name;
-  Part part;
+  JobPart part;
   const char* input;  ///< in the job's folder
   const char* output;
 };
-constexpr std::array<Stage, stage_count> stages{Stage{"sim", Part::sim, "job.yaml", "motion.h5"},
-                                                Stage{"strain", Part::strain, "motion.h5", "strain.h5"},
-                                                Stage{"fatigue", Part::fatigue, "strain.h5", "life.h5"}};
+constexpr std::array<Stage, stage_count> stages{Stage{"sim", JobPart::sim, "job.yaml", "motion.h5"},
+                                                Stage{"strain", JobPart::strain, "motion.h5", "strain.h5"},
+                                                Stage{"fatigue", JobPart::fatigue, "strain.h5", "life.h5"}};
 
 /// In the job's folder: what is not for people.
 fs::path beside(const Stage& stage, const char* ending) {
@@ -65,8 +65,8 @@ void set_recipes(JobState& state, const Job& job, const Programs& programs, Dige
   std::string all;
   for (std::size_t k = 0; k < stage_count; ++k) {
     const std::string text = part_text(job, stages[k].part);
-    state.recipes[k] =
-        recipe_of(text, stages[k].part == Part::sim ? files : std::vector<fs::path>{}, programs[k], digests);
+    state.recipes[k] = recipe_of(text, stages[k].part == JobPart::sim ? files : std::vector<fs::path>{},
+                                 programs[k], digests);
     all += text;
   }
   constexpr std::size_t digits = 12;
@@ -144,7 +144,7 @@ std::string rules(const StudyPlaces& places, const StageLimits& limits, const st
   std::string text = fmt::format("ninja_required_version = 1.8\nbuilddir = {}\n\n", places.notes().string());
   for (const Stage& stage : stages) {
     // The stage before is checked against the same job, so the settings come from job.yaml at every stage.
-    const std::string job = stage.part == Part::sim ? "" : " --job $job/job.yaml";
+    const std::string job = stage.part == JobPart::sim ? "" : " --job $job/job.yaml";
     // `exec`: the shell's process becomes the stage's, which then ends with Ninja. `3>&1`: Ninja takes the
     // end of its pipe for the end of the stage and waits for that stage alone, so the pipe must live as long
     // as the stage.
@@ -332,7 +332,7 @@ bool may_lack(Keep keep, std::size_t stage) {
     case Keep::all:
       return false;
     case Keep::histories:
-      return stages[stage].part == Part::sim;
+      return stages[stage].part == JobPart::sim;
     case Keep::lives:
       return true;
   }

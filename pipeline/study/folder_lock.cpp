@@ -70,16 +70,16 @@ void take(int descriptor, const fs::path& folder, int how) {
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder, Held held) {
+FolderLock::FolderLock(const fs::path& folder, Mode held) {
   fs::create_directories(folder);
   descriptor_ = ::open((folder / lock_name).c_str(), O_CREAT | O_RDWR | O_NOFOLLOW | O_NONBLOCK,
                        0644);  // passes to the stages
   if (descriptor_ < 0) refuse(folder);
   owner_of(descriptor_, folder / lock_name);
-  take(descriptor_, folder, held == Held::alone ? LOCK_EX : LOCK_SH);
+  take(descriptor_, folder, held == Mode::alone ? LOCK_EX : LOCK_SH);
   // As long for every process: over an earlier one's there is room on a full disk, too, which `clean` would
   // empty.
-  const std::string own = fmt::format("{:<20}\n", held == Held::alone ? std::to_string(::getpid()) : "");
+  const std::string own = fmt::format("{:<20}\n", held == Mode::alone ? std::to_string(::getpid()) : "");
   if (::pwrite(descriptor_, own.data(), own.size(), 0) != static_cast<ssize_t>(own.size())) refuse(folder);
   remove_leftovers(folder);
 }

@@ -10,10 +10,10 @@ class FolderLock {
  public:
   /// Makes the folder. Waits for the stages of an interrupted run, which end a moment later. Errors: InputError when
   /// another run holds the lock or the folder cannot be written.
-  explicit FolderLock(const std::filesystem::path& folder) : FolderLock(folder, Held::alone) {}
+  explicit FolderLock(const std::filesystem::path& folder) : FolderLock(folder, Mode::alone) {}
   /// shards: several runs hold the lock together.
-  enum class Held { alone, with_shards };
-  FolderLock(const std::filesystem::path& folder, Held held);
+  enum class Mode { alone, with_shards };
+  FolderLock(const std::filesystem::path& folder, Mode held);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

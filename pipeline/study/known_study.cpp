@@ -67,7 +67,7 @@ JobState state_from(Words& line, std::string& name, FileState& settings) {
   return state;
 }
 
-std::optional<Standing> recalled(const StudyRequest& request, const StudyPlaces& places) {
+std::optional<StudyState> recalled(const StudyRequest& request, const StudyPlaces& places) {
   if (!state_of(memory_of(places)).exists()) return std::nullopt;
   const std::string text = read_text(memory_of(places));
   const std::int64_t written = state_of(memory_of(places)).changed_ns;
@@ -77,7 +77,7 @@ std::optional<Standing> recalled(const StudyRequest& request, const StudyPlaces&
   if (digest != xxh3(std::string_view(text).substr(std::min(text.size(), title.size() + digest.size() + 2))))
     return std::nullopt;
   if (lines.until('\n') != digest_of(request)) return std::nullopt;
-  Standing standing{{places.folder.filename().string(), {}}, places, {}, true};
+  StudyState standing{{places.folder.filename().string(), {}}, places, {}, true};
   while (lines.any()) {
     const std::string_view what = lines.until(' ');
     if (what == "look") {
@@ -108,7 +108,7 @@ std::optional<Standing> recalled(const StudyRequest& request, const StudyPlaces&
 bool fits_a_line(const std::string& path) { return path.find('\n') == std::string::npos; }
 
 /// Nothing of a study that would not be read back as it is.
-std::optional<std::string> text_of(const StudyRequest& request, const Standing& standing) {
+std::optional<std::string> text_of(const StudyRequest& request, const StudyState& standing) {
   std::string text = digest_of(request) + '\n';
   for (const auto& [look, found] : standing.looks) {
     if (!fits_a_line(look.second)) return std::nullopt;
@@ -142,19 +142,19 @@ std::optional<std::string> text_of(const StudyRequest& request, const Standing& 
 
 }  // namespace
 
-bool Standing::all_done() const {
+bool StudyState::all_done() const {
   return std::all_of(states.begin(), states.end(), [](const JobState& state) { return state.done(); });
 }
 
-void look_again(Standing& standing) {
+void look_again(StudyState& standing) {
   for (std::size_t k = 0; k < standing.states.size(); ++k)
     if (const StudyJob& job = standing.study.jobs[k]; job.failure.empty())
       look_at(standing.states[k], standing.places.job(job.name));
 }
 
-Standing expanded(const StudyRequest& request) {
+StudyState expanded(const StudyRequest& request) {
   Sources sources;
-  Standing standing;
+  StudyState standing;
   standing.study = read_study(request.file, request.sets);
   standing.places = {request.out / standing.study.name, request.programs};
   standing.states = states_of(standing.study, standing.places, standing.digests);
@@ -162,13 +162,13 @@ Standing expanded(const StudyRequest& request) {
   return standing;
 }
 
-Standing standing_of(const StudyRequest& request) {
+StudyState standing_of(const StudyRequest& request) {
   const StudyPlaces places{request.out / study_name(request.file), request.programs};
-  if (std::optional<Standing> standing = recalled(request, places)) return std::move(*standing);
+  if (std::optional<StudyState> standing = recalled(request, places)) return std::move(*standing);
   return expanded(request);
 }
 
-void remember(const StudyRequest& request, const Standing& standing) {
+void remember(const StudyRequest& request, const StudyState& standing) {
   const fs::path memory = memory_of(standing.places);
   const std::optional<std::string> text = text_of(request, standing);
   if (!text) {

@@ -24,7 +24,7 @@ struct StudyRequest {
 };
 
 /// A study and the states of its jobs.
-struct Standing {
+struct StudyState {
   Study study;
   StudyPlaces places;
   std::vector<JobState> states;
@@ -37,14 +37,14 @@ struct Standing {
 };
 
 /// From the note if it is valid, else expanded. Errors: as read_study() and states_of().
-Standing standing_of(const StudyRequest& request);
+StudyState standing_of(const StudyRequest& request);
 /// Always expanded.
-Standing expanded(const StudyRequest& request);
+StudyState expanded(const StudyRequest& request);
 
 /// Updates the states after another run.
-void look_again(Standing& standing);
+void look_again(StudyState& standing);
 
 /// Notes an expanded study in its folder, after write_build_graph(). A study with an invalid job is not noted.
-void remember(const StudyRequest& request, const Standing& standing);
+void remember(const StudyRequest& request, const StudyState& standing);
 
 }  // namespace dresslife::pipeline

@@ -43,13 +43,13 @@ class LifeRoot {
   Where where() const { return {result_.life_file.string()}; }
 
  private:
-  const Told* find(const std::string& name) const {
+  const ResultValue* find(const std::string& name) const {
     const auto found = std::find_if(result_.told.begin(), result_.told.end(),
-                                    [&](const Told& one) { return one.name == name; });
+                                    [&](const ResultValue& one) { return one.name == name; });
     return found == result_.told.end() ? nullptr : &*found;
   }
-  const Told& told(const std::string& name) const {
-    if (const Told* const found = find(name)) return *found;
+  const ResultValue& told(const std::string& name) const {
+    if (const ResultValue* const found = find(name)) return *found;
     throw InputError(where(), fmt::format("attribute '{}' is missing", name),
                      "make the file again with dresslife-fatigue");
   }

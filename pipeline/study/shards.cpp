@@ -26,7 +26,7 @@ Shard shard_from(const std::string& text, const std::string& where) {
   return shard;
 }
 
-int shards_needed(const Standing& standing, int most_stages) {
+int shards_needed(const StudyState& standing, int most_stages) {
   std::size_t left = 0, jobs = 0;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     if (!standing.study.jobs[k].failure.empty()) continue;
@@ -38,7 +38,7 @@ int shards_needed(const Standing& standing, int most_stages) {
   return left <= most ? 1 : static_cast<int>((jobs + jobs_each - 1) / jobs_each);
 }
 
-void keep_shard(Standing& standing, const Shard& shard) {
+void keep_shard(StudyState& standing, const Shard& shard) {
   const std::size_t jobs = standing.states.size();
   std::unordered_map<std::string, std::size_t> firsts;  // of each simulation
   std::vector<std::size_t> order(jobs), group(jobs);

@@ -19,10 +19,10 @@ Shard shard_from(const std::string& text, const std::string& where);
 
 /// Number of shards so that every run starts at most `most_stages`, counting all jobs. 1 if the stages that are not
 /// up to date fit into one run.
-int shards_needed(const Standing& standing, int most_stages);
+int shards_needed(const StudyState& standing, int most_stages);
 
 /// Removes the jobs of other shards. Every job is in one shard, independent of finished jobs; jobs with the same
 /// simulation are in neighbouring places.
-void keep_shard(Standing& standing, const Shard& shard);
+void keep_shard(StudyState& standing, const Shard& shard);
 
 }  // namespace dresslife::pipeline

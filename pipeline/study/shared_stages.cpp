@@ -34,7 +34,7 @@ bool has_up_to(const JobState& state, const fs::path& folder, std::size_t stage)
 }
 
 /// Who gets the outputs of a job, up to and with which stage.
-struct Gift {
+struct Receiver {
   std::size_t to, last;
 };
 
@@ -65,7 +65,7 @@ void share_stages(const Study& study, const StudyPlaces& places, std::vector<Job
     for (std::size_t stage = 0; study.jobs[k].failure.empty() && stage < shared_count; ++stage)
       if (has_up_to(states[k], places.job(study.jobs[k].name), stage))
         havers.emplace(recipes_up_to(states[k], stage), k);
-  std::map<std::size_t, std::vector<Gift>> gifts;  // by giving job
+  std::map<std::size_t, std::vector<Receiver>> gifts;  // by giving job
   for (std::size_t k = 0; k < states.size(); ++k) {
     if (!study.jobs[k].failure.empty()) continue;
     for (std::size_t stage = shared_count; stage-- > states[k].next;)
@@ -77,11 +77,11 @@ void share_stages(const Study& study, const StudyPlaces& places, std::vector<Job
   for (const auto& [from, all] : gifts) {
     for (std::size_t stage = 0; stage < shared_count; ++stage) {
       std::vector<fs::path> folders;
-      for (const Gift& gift : all)
+      for (const Receiver& gift : all)
         if (gift.last >= stage) folders.push_back(places.job(study.jobs[gift.to].name));
       if (!folders.empty()) give_stage(places.job(study.jobs[from].name), folders, stage);
     }
-    for (const Gift& gift : all) look_at(states[gift.to], places.job(study.jobs[gift.to].name));
+    for (const Receiver& gift : all) look_at(states[gift.to], places.job(study.jobs[gift.to].name));
   }
 }
 

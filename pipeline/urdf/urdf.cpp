@@ -273,7 +273,7 @@ class Chain {
   struct Carrier {
     const urdf::Link* link;
   };
-  struct Moved {
+  struct MovedLink {
     const urdf::Joint* joint;
     Isometry3d origin;  // in the moved link before
     int driver = -1;    // index of the joint that it follows
@@ -344,7 +344,7 @@ class Chain {
 
   void check_axes() {
     const auto axes =
-        std::count_if(moved_.begin(), moved_.end(), [](const Moved& m) { return !m.joint->mimic; });
+        std::count_if(moved_.begin(), moved_.end(), [](const MovedLink& m) { return !m.joint->mimic; });
     if (axes < 4 || axes > 7)
       fail(file_, fmt::format("has {} axes between its root and its tip (a robot has 4 to 7)", axes),
            "choose another tip");
@@ -354,7 +354,7 @@ class Chain {
   void follow() {
     std::map<std::string, int> index;
     for (std::size_t k = 0; k < moved_.size(); ++k) index[moved_[k].joint->name] = static_cast<int>(k);
-    for (Moved& moved : moved_) {
+    for (MovedLink& moved : moved_) {
       const bool limited = moved.joint->type == urdf::Joint::REVOLUTE && moved.joint->limits;
       moved.lower = limited ? degrees * moved.joint->limits->lower : -endless;
       moved.upper = limited ? degrees * moved.joint->limits->upper : endless;
@@ -373,9 +373,9 @@ class Chain {
         joint = moved_[driver->second].joint;
       }
     }
-    for (const Moved& moved : moved_) {
+    for (const MovedLink& moved : moved_) {
       if (moved.driver < 0 || moved.ratio == 0) continue;
-      Moved& driver = moved_[moved.driver];
+      MovedLink& driver = moved_[moved.driver];
       double low = (moved.lower - moved.offset) / moved.ratio,
              high = (moved.upper - moved.offset) / moved.ratio;
       if (low > high) std::swap(low, high);
@@ -401,7 +401,7 @@ class Chain {
   }
 
   Node joint_node(std::size_t k) const {
-    const Moved& moved = moved_[k];
+    const MovedLink& moved = moved_[k];
     Tree tree(at(*moved.joint));
     tree.text("name", moved.joint->name).pose(moved.origin, "origin_m");
     tree.vector("axis", {moved.joint->axis.x, moved.joint->axis.y, moved.joint->axis.z});
@@ -413,8 +413,9 @@ class Chain {
     tree.number("lower_deg", moved.lower)
         .number("upper_deg", moved.upper)
         .number("speed_deg_per_s", moved.speed);
-    const auto axis = static_cast<std::size_t>(std::count_if(
-        moved_.begin(), moved_.begin() + static_cast<long>(k), [](const Moved& m) { return m.driver < 0; }));
+    const auto axis =
+        static_cast<std::size_t>(std::count_if(moved_.begin(), moved_.begin() + static_cast<long>(k),
+                                               [](const MovedLink& m) { return m.driver < 0; }));
     if (axis < request_.accelerations.size())
       tree.number("acceleration_deg_per_s2", degrees * request_.accelerations[axis]);
     return tree.done();
@@ -529,7 +530,7 @@ class Chain {
   const UrdfRequest& request_;
   Where file_;
   std::vector<Carrier> carriers_;  // link 0 is the base
-  std::vector<Moved> moved_;
+  std::vector<MovedLink> moved_;
   std::vector<Node> external_;
   Isometry3d carried_ = Isometry3d::Identity();  // of the link reached, in the last moved one
 };

@@ -113,7 +113,7 @@ void Mesh::gather(const Box& box, std::vector<int>& hits) const {
 }
 
 void Mesh::add_candidates(const Vector3& from, const Vector3& to, double reach, const std::vector<int>& hits,
-                          std::vector<Touching>& found) const {
+                          std::vector<MeshContact>& found) const {
   for (const int k : hits) {
     const Triangle& triangle = triangles_[k];
     const NearestToTriangle nearest = nearest_points(triangle, from, to);
@@ -132,21 +132,21 @@ void Mesh::add_candidates(const Vector3& from, const Vector3& to, double reach, 
 }
 
 // The whole piece, and its two ends: a piece that lies along a face rests on both.
-std::vector<Mesh::Touching> Mesh::near(const Vector3& from, const Vector3& to, double reach) const {
+std::vector<Mesh::MeshContact> Mesh::near(const Vector3& from, const Vector3& to, double reach) const {
   Box box(from);
   box.extend(to);
   const Vector3 around = Vector3::Constant(reach);
   std::vector<int> hits;
   gather(Box(box.min() - around, box.max() + around), hits);
-  std::vector<Touching> found, kept;
+  std::vector<MeshContact> found, kept;
   if (hits.empty()) return kept;
   add_candidates(from, to, reach, hits, found);
   for (const Vector3& end : {from, to}) add_candidates(end, end, reach, hits, found);
   std::stable_sort(found.begin(), found.end(),
-                   [](const Touching& a, const Touching& b) { return a.distance < b.distance; });
+                   [](const MeshContact& a, const MeshContact& b) { return a.distance < b.distance; });
   const double apart = same_place * (to - from).norm();
-  for (const Touching& touching : found)
-    if (std::none_of(kept.begin(), kept.end(), [&](const Touching& other) {
+  for (const MeshContact& touching : found)
+    if (std::none_of(kept.begin(), kept.end(), [&](const MeshContact& other) {
           return (other.on_axis - touching.on_axis).norm() <= apart &&
                  other.normal.dot(touching.normal) > same_direction;
         }))

@@ -31,14 +31,14 @@ class Mesh {
   /// Precondition: at least one triangle. Triangles without area are dropped where others remain.
   explicit Mesh(std::vector<Triangle> triangles);
 
-  struct Touching {
+  struct MeshContact {
     Vector3 on_axis, on_mesh;
     Vector3 normal;       ///< unit, from the mesh to the axis
     double distance = 0;  ///< 0: the axis crosses the surface
   };
   /// Local minima of the distance between the piece from..to and the mesh, up to `reach`, nearest first, in
   /// the mesh's own frame. O(log triangles) where few are near.
-  std::vector<Touching> near(const Vector3& from, const Vector3& to, double reach) const;
+  std::vector<MeshContact> near(const Vector3& from, const Vector3& to, double reach) const;
 
   double radius() const { return radius_; }  ///< of the ball about the origin that holds it [m]
   const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -53,7 +53,7 @@ class Mesh {
   void build(int first, int last);
   void gather(const Box& box, std::vector<int>& hits) const;
   void add_candidates(const Vector3& from, const Vector3& to, double reach, const std::vector<int>& hits,
-                      std::vector<Touching>& found) const;
+                      std::vector<MeshContact>& found) const;
 
   std::vector<Triangle> triangles_;
   std::vector<Node> nodes_;

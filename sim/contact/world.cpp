@@ -300,7 +300,7 @@ void World::Parts::collide(int segment, size_t mesh, const Frame& frame) {
   const Vector3 centre = back * (state.position[segment] - frame.position);
   if (centre.norm() > shape.mesh->radius() + l / 2 + reach) return;
   const Vector3 arm = (l / 2) * (back * tangent(state.orientation[segment]));
-  for (const Mesh::Touching& touching : shape.mesh->near(centre - arm, centre + arm, reach)) {
+  for (const Mesh::MeshContact& touching : shape.mesh->near(centre - arm, centre + arm, reach)) {
     Contact contact;
     contact.segment = segment;
     contact.obstacle = shape.link;

@@ -41,7 +41,7 @@ PolymerLoss polymer_loss(double factor) {
   return loss;
 }
 
-// (S22) Over a step the bend changes evenly: e' = a e + b dkappa, a = exp(-h/tau), b = (1 - a) tau/h.
+// keep_ and gain_ are a and b of (S22).
 Hysteresis::Hysteresis(double bending_stiffness, const std::vector<FrictionElement>& friction,
                        double loss_factor, double step) {
   assert(friction.size() <= BendMemory::frictions);

@@ -6,7 +6,7 @@
 // A bend for the first time follows M(kappa) = EI kappa + sum of K_i min(kappa, y_i), every later branch its double
 // (Masing). The polymer's elements and tau make the loss factor, E''/E', the given one from 0.8 to 30 Hz and E' the given
 // stiffness at 1 Hz, where hoses swing; EI of (S19) is what remains of it at rest.
-// sim/rod/README.md derives the discrete form and why it never gains energy. SI units.
+// sim/rod/theory.md derives the discrete form and why it never gains energy. SI units.
 #pragma once
 
 #include <Eigen/Core>

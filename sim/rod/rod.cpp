@@ -416,7 +416,7 @@ class Assembly {
             &frame.orientation, Vector3::Zero()};
   }
 
-  // (S6) f = k (g + c h dg/dt), the pull on the segment before.
+  // (S6), the pull on the segment before.
   Vector3 gap_force(int j, const Side& a, const Side& b, const LinkArms& arms) {
     const Vector3 gap = (*b.position - arms.b) - (*a.position + arms.a);
     const Vector3 rate = gap_change(arms, *a.velocity, *a.angular_velocity, *b.velocity, *b.angular_velocity);
@@ -425,7 +425,7 @@ class Assembly {
     return force;
   }
 
-  // (S7) m = G K (phi - phi_0 + tau dphi/dt), with (S19) where bending is hysteretic, the moment on the segment before.
+  // (S7), with (S19) where bending is hysteretic: the moment on the segment before.
   Vector3 turn_moment(int j, const LinkTurn& turn, const Vector3& rate) const {
     const Vector3 strain =
         turn.phi - rod_.rest_turn(j) + damping_.cwiseProduct(turn.map.transpose() * rate);
@@ -542,7 +542,7 @@ class Assembly {
   // c its change of velocity without w, k e.dv_0 as in drive(). Eliminating w adds -k^2/pivot e e^T to the
   // first segment's block.
   [[gnu::noinline]] void slide(int segment, double k, const Vector3& arm, const Vector3& pull) {
-    const Slider& slider = *p_.slider;
+    const SlidingClamp& slider = *p_.slider;
     SlideEquation& s = system_.slide[first_end_ / 2];
     const Vector3 d = tangent(state_.clamps.end(first_end_).orientation), turn = -arm.cross(d);
     s.direction = d;
@@ -669,7 +669,7 @@ double RodSolver::travel_change(int k) const {
 // `support` along its direction: stops only push, friction up to its limit.
 bool RodSolver::choose_mode(const RodState& state, int k) {
   using Mode = Travel::Mode;
-  const Slider& slider = *rod_.spans()[k].properties.slider;
+  const SlidingClamp& slider = *rod_.spans()[k].properties.slider;
   SlideEquation& s = system_->slide[k];
   const Travel& t = state.travel[k];
   const Mode mode = s.travel.mode;
@@ -752,7 +752,7 @@ void RodSolver::apply_impulses(std::span<Twist6> impulses) {
   }
 }
 
-// (S9) lambda = f + beta h^2 K B dv / h: the force that acted over the step. k g alone rings by O(h^2).
+// (S9) The force that acted over the step. k g alone rings by O(h^2).
 void RodSolver::finish(RodState& state) {
   RodSystem& s = *system_;
   for (int k = 0; k < static_cast<int>(rod_.spans().size()); ++k) {

@@ -11,7 +11,7 @@
 // (S17)        c = 1 + (1 - t_a.t_b)/12 between two segments, 1 at a clamp
 // (S2) turn    phi = log(R_a^T R_b);   energy  1/2 (phi - phi_0)^T diag(EI, EI, GJ)/len (phi - phi_0)  [J]
 // (S3) step    (M + theta h C + beta h^2 K) dv = h (f(x_n) - C v_n),   v += dv,  x += h v
-// Second order in h and l. sim/rod/README.md derives the end links' lengths, the weights and the tension.
+// Second order in h and l. sim/rod/theory.md derives the end links' lengths, the weights and the tension.
 // Assumptions: round hose with equal bending stiffness both ways, stretch and shear equally stiff, small
 // strain in each link, any rotation. SI units.
 #pragma once
@@ -32,7 +32,7 @@ namespace dresslife::sim {
 enum class End { clamped, pinned, swivel, free };
 
 /// A base clamp that slides along its direction and is pulled back: spring-returned slack (S14).
-struct Slider {
+struct SlidingClamp {
   double force = 0;     ///< against its direction, at travel 0 [N]
   double spring = 0;    ///< more per travel [N/m]
   double stroke = 0;    ///< travel goes from 0 to this, where it meets stops [m]
@@ -58,7 +58,7 @@ struct RodProperties {
   End base_end = End::clamped;
   End tool_end = End::clamped;
   double tip_mass = 0;             ///< a point at the tip of a free tool end [kg]
-  std::optional<Slider> slider{};  ///< of the base end
+  std::optional<SlidingClamp> slider{};  ///< of the base end
 
   bool is_hysteretic() const { return !friction.empty() || loss_factor > 0; }
 };

@@ -131,7 +131,7 @@ LengtheningStiffness lengthening_stiffness(const LinkArms& arms, const Vector3& 
           pull * (turn - t_b * t_a.transpose()) + n * u_b.transpose() - u_a * n.transpose()};
 }
 
-// (S12), derived in sim/rod/README.md. With arms a, b, link force f, world moment m and turns da, db of the
+// (S12), derived in sim/rod/theory.md. With arms a, b, link force f, world moment m and turns da, db of the
 // segments: gap: k B^T B and (f.a) 1 - sym(f a^T) on each segment's own turning; turn: H = G K G^T + (sym(m
 // phi^T) - (m.phi) 1)/6 on da - db, and the antisymmetric half of m in the coupling.
 void Statics::add_link(const RodState& state, int j) {

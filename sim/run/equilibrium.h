@@ -2,7 +2,7 @@
 //
 // The potential energy (stretch, bending, twist, gravity) is minimised by Newton's method with the exact
 // tangent stiffness, shifted by a multiple of the mass matrix until it is positive definite and the energy
-// falls (Levenberg-Marquardt). The result is therefore a stable equilibrium. (S11), (S12) in sim/rod/README.md.
+// falls (Levenberg-Marquardt). The result is therefore a stable equilibrium. (S11), (S12) in sim/rod/theory.md.
 #pragma once
 
 #include <optional>

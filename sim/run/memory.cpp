@@ -13,7 +13,7 @@ pipeline::MemoryNeed memory_of(const Simulation& simulation) {
   constexpr double of_a_segment =
       50'000;  // bodies, shapes and contacts, blocks of the solve, and the same at half the step; the rubbed surface
   const RunDescription& run = simulation.description();
-  const pipeline::Simulation& settings = simulation.setup().simulation;
+  const pipeline::SimulationSettings& settings = simulation.setup().simulation;
   const double steps = simulation.path().duration() / settings.time_step;
   const std::size_t segments = run.segment_length.size();
   pipeline::MemoryNeed need;

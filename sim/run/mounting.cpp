@@ -24,7 +24,7 @@ constexpr double overlap_share = 0.5;  // of the diameter: overlaps up to this a
 constexpr double roomy = 0.98;  // of the free length: no less is left to bend when a unit is pulled out
 constexpr double pre_twist_part = 0.5;  // turned at a time [rad]
 
-struct Held {
+struct MountedPiece {
   RodState state;
   double roll = 0;                // of its far end
   double depth = 0;               // largest overlap with an obstacle or another dresspack [m]
@@ -108,7 +108,7 @@ class Mounting {
                      remedy + " (dresslife preview shows them)");
   }
 
-  [[noreturn]] void fail_in_the_way(const Piece& piece, const Held& held) const {
+  [[noreturn]] void fail_in_the_way(const Piece& piece, const MountedPiece& held) const {
     const std::string what = held.through >= 0    ? pipeline::dresspack_words(setup_, held.through)
                              : held.obstacle >= 0 ? setup_.robot.links[held.obstacle].name
                              : held.obstacle == cell_obstacle ? "what stands in its cell"
@@ -142,7 +142,7 @@ class Mounting {
     for (int k = first; k < rod_.first_span(dresspack + 1); ++k)
       for (Piece piece : pieces_of(k, begin.position)) {
         piece.begin = begin;
-        const Held held = held_clear(piece);
+        const MountedPiece held = held_clear(piece);
         begin = held.state.clamps.tool;
         hung_.push_back(held.state);
         hung_pieces_.push_back(piece);
@@ -290,15 +290,15 @@ class Mounting {
     return state;
   }
 
-  Held held_clear(const Piece& piece) const {
+  MountedPiece held_clear(const Piece& piece) const {
     const Pose pose = mounting_pose();
     const Vector3 g = setup_.simulation.gravity;
     const Vector3 chord = piece.end.position - piece.begin.position;
     Vector3 side = chord.cross(g);
     if (side.norm() > 0) side *= g.norm() / side.norm();
-    Held best;
+    MountedPiece best;
     for (const Vector3& gravity : std::array<Vector3, 4>{g, side, -side, Vector3(-g + lean * side)}) {
-      Held held = equilibrium(piece, pose, gravity);
+      MountedPiece held = equilibrium(piece, pose, gravity);
       if (!held.found || (best.found && held.depth >= best.depth)) continue;
       best = std::move(held);
       if (best.depth == 0) break;
@@ -308,7 +308,7 @@ class Mounting {
     return best;
   }
 
-  Held equilibrium(const Piece& piece, const Pose& pose, const Vector3& gravity) const {
+  MountedPiece equilibrium(const Piece& piece, const Pose& pose, const Vector3& gravity) const {
     RodProperties properties = piece.properties;
     properties.gravity = gravity;
     const Rod rod(properties);
@@ -331,7 +331,7 @@ class Mounting {
     settings.base_link = piece.begin_link, settings.tool_link = piece.end_link;
     World world(rod, settings, found.state, pose.links);
     add_obstacles(world, setup_, robot_);
-    Held held;
+    MountedPiece held;
     held.state = found.state;
     held.roll = clamped.roll + piece.pre_twist;
     held.found = true;
@@ -350,7 +350,7 @@ class Mounting {
   }
 
   /// How deep a piece lies in the dresspacks that hang already.
-  void find_other_dresspacks(const Piece& piece, Held& held) const {
+  void find_other_dresspacks(const Piece& piece, MountedPiece& held) const {
     if (!setup_.simulation.self_contact || piece.dresspack == 0) return;
     const Rod rod = hung_rod(&piece);
     std::vector<RodState> pieces = hung_;

@@ -9,7 +9,8 @@
 namespace dresslife::sim {
 namespace {
 
-RodProperties properties_of(const pipeline::MountedDresspack& mounted, const pipeline::Simulation& settings) {
+RodProperties properties_of(const pipeline::MountedDresspack& mounted,
+                            const pipeline::SimulationSettings& settings) {
   const pipeline::Dresspack& hose = mounted.dresspack;
   RodProperties properties;
   properties.segments = settings.segments;
@@ -46,7 +47,7 @@ std::vector<RodProperties> spans_of(const RodProperties& whole, const pipeline::
   }
   if (const auto& unit = routing.retraction)
     spans.front().slider =
-        Slider{unit->force, unit->spring, unit->stroke, unit->damping, unit->friction, unit->mass};
+        SlidingClamp{unit->force, unit->spring, unit->stroke, unit->damping, unit->friction, unit->mass};
   if (!is_clamped(routing.tool_end)) {
     spans.back().tool_end = End::free;
     spans.back().tip_mass = routing.tool_mass;

@@ -25,7 +25,7 @@ int intervals(double duration, double rate) { return static_cast<int>(std::ceil(
 /// samples are written with 136 bytes a segment and more.
 void check_size(const pipeline::Setup& setup, double duration, int segments) {
   constexpr double most_steps = 1e8, most_values = 1e9;  // 0.8 GB of memory, 140 GB of disk
-  const pipeline::Simulation& settings = setup.simulation;
+  const pipeline::SimulationSettings& settings = setup.simulation;
   const double steps = duration / settings.time_step, values = duration * settings.sample_rate * segments;
   if (!(steps <= most_steps))
     throw InputError(
@@ -199,7 +199,7 @@ std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
 }
 
 RunSummary Simulation::run(const RunSinks& sinks) const {
-  const pipeline::Simulation& settings = setup_.simulation;
+  const pipeline::SimulationSettings& settings = setup_.simulation;
   RunSummary summary;
   summary.returns = returns(*path_);
   summary.time_step = settings.time_step;
@@ -300,7 +300,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
 
 std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary) {
   std::vector<pipeline::Warning> warnings = simulation.doubts();
-  const pipeline::Simulation& settings = simulation.setup().simulation;
+  const pipeline::SimulationSettings& settings = simulation.setup().simulation;
   if (summary.returns && !summary.periodic)
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::periodic, "",

@@ -15,17 +15,17 @@ using namespace simd;
 
 /// The states along a nesting at one pack of samples: rods[0] is the dresspack, rods[k] the part of level k.
 struct Descent {
-  Rod<Pack> rods[highest_level + 1];
+  ComponentState<Pack> rods[highest_level + 1];
   Pack free_strain[highest_level + 1];
 };
 
 /// The part of step k in its parent `rod`, once its free strain is known. held: what friction holds of its
 /// deviation, at this sample. One copy: inlined wherever it is called, it is most of what there is to
 /// compile.
-__attribute__((noinline, flatten)) Rod<Pack> step_down(const Rod<Pack>& rod, const NestingLevel& step,
-                                                       const Placement& place, const Rod<double>& rest,
-                                                       const Pack& free_strain, const double* held) {
-  const Rod<Pack> glued = child(rod, place);
+__attribute__((noinline, flatten)) ComponentState<Pack> step_down(
+    const ComponentState<Pack>& rod, const NestingLevel& step, const Placement& place,
+    const ComponentState<double>& rest, const Pack& free_strain, const double* held) {
+  const ComponentState<Pack> glued = child(rod, place);
   if (step.slide.sliding == Sliding::glued) {
     if (step.slide.radial_share == 1) return glued;
     Series<Pack> strain =
@@ -46,10 +46,10 @@ inline const double* at_sample(const double* row, std::size_t sample) { return r
 
 /// The parent of level `level` when the ancestor of level `turned_level` is moved on by `turn` sixths of its
 /// pitch.
-inline Rod<Pack> turned_parent(const BundlePointers& nesting, const Descent& descent, int turned_level,
-                               int level, int turn, std::size_t sample) {
+inline ComponentState<Pack> turned_parent(const BundlePointers& nesting, const Descent& descent,
+                                          int turned_level, int level, int turn, std::size_t sample) {
   const int first = turned_level - 1;
-  Rod<Pack> rod = descent.rods[first];
+  ComponentState<Pack> rod = descent.rods[first];
   for (int k = first; k < level; ++k)
     rod = step_down(rod, nesting.steps[k], nesting.steps[k].turned[turn], nesting.steps[k].turned_rest[turn],
                     descent.free_strain[k], at_sample(nesting.steps[k].slide.turned_held[turn], sample));
@@ -77,7 +77,7 @@ inline Pack free_strain(const BundlePointers& nesting, const Descent& descent, i
 }
 
 /// The part that holds the last one of the nesting, as part_states() left it.
-inline void load_parent(const BundlePointers& nesting, std::size_t sample, Rod<Pack>& rod) {
+inline void load_parent(const BundlePointers& nesting, std::size_t sample, ComponentState<Pack>& rod) {
   const double* row = nesting.parent + sample;
   for (Series<Pack>* series : {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist}) {
     series->order = nesting.order + 1;
@@ -115,15 +115,15 @@ void deviations(const BundlePointers& nesting, int turn, int turned_level, const
   const int last = nesting.step_count - 1;
   const NestingLevel& step = nesting.steps[last];
   const Placement& place = turn < 0 ? step.place : step.turned[turn];
-  const Rod<double>& rest = turn < 0 ? step.rest : step.turned_rest[turn];
+  const ComponentState<double>& rest = turn < 0 ? step.rest : step.turned_rest[turn];
   for (std::size_t t = 0; t < count; t += pack_size) {
     Descent descent;
     descend(nesting, in, first + t, descent, last);
     const Pack mean = free_strain(nesting, descent, last, step.place, step.slide, first + t);
-    const Rod<Pack> parent = turn < 0 || turned_level == 0
-                                 ? descent.rods[last]
-                                 : turned_parent(nesting, descent, turned_level, last, turn, first + t);
-    const Rod<Pack> glued = child(parent, place);
+    const ComponentState<Pack> parent =
+        turn < 0 || turned_level == 0 ? descent.rods[last]
+                                      : turned_parent(nesting, descent, turned_level, last, turn, first + t);
+    const ComponentState<Pack> glued = child(parent, place);
     const Series<Pack> ratio = glued.stretch * (constant_series(1.0, rest.stretch.order) / rest.stretch);
     store(mean, out + t);
     const double share = step.slide.radial_share;
@@ -140,8 +140,8 @@ inline FibreShape shape_of(const Fibre& fibre, const WireNode& node) {
 }
 
 /// Strains of one node's fibres at a pack of samples. sliding: its axial strain when it slides.
-inline void strains_of_node(const BundlePointers& nesting, const Rod<Pack>& parent, const WireNode& node,
-                            const Pack& sliding, Pack* strain) {
+inline void strains_of_node(const BundlePointers& nesting, const ComponentState<Pack>& parent,
+                            const WireNode& node, const Pack& sliding, Pack* strain) {
   const WireState<Pack> wire = wire_state(parent, node.place);
   Pack axial = node.slide.radial_share * (wire.stretch * node.inverse_rest_stretch - 1.0);
   Pack bend1 = wire.bend1, bend2 = wire.bend2;
@@ -244,7 +244,7 @@ struct PartAtRest {
   PartAtRest(const BundlePointers& nesting, int steps) {
     bend2 = nesting.rest_curvature;
     if (steps == 0) return;
-    const Rod<double>& rest = nesting.steps[steps - 1].rest;
+    const ComponentState<double>& rest = nesting.steps[steps - 1].rest;
     stretch = rest.stretch.at[0];
     bend1 = rest.bend1.at[0];
     bend2 = rest.bend2.at[0];
@@ -253,7 +253,7 @@ struct PartAtRest {
 };
 
 /// A part's state in single precision, from that in double, to rows[PartRow * stride].
-inline void put_part(const Rod<Pack>& rod, const PartAtRest& rest, int order, float* rows,
+inline void put_part(const ComponentState<Pack>& rod, const PartAtRest& rest, int order, float* rows,
                      std::size_t stride) {
   const Series<Pack>* const of[] = {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist};
   const double at_rest[] = {rest.stretch, rest.bend1, rest.bend2, rest.twist};
@@ -272,7 +272,7 @@ __attribute__((flatten)) void part_states(const BundlePointers& nesting, const D
   for (std::size_t t = 0; t < count; t += pack_size) {
     Descent descent;
     descend(nesting, in, first + t, descent);
-    const Rod<Pack>& rod = descent.rods[nesting.step_count];
+    const ComponentState<Pack>& rod = descent.rods[nesting.step_count];
     double* row = out + t;
     for (const Series<Pack>* series : {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist})
       for (int power = 0; power <= nesting.order; ++power, row += stride)

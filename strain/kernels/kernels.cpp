@@ -18,7 +18,7 @@ extern const Kernels set;
 }
 #endif
 
-const Kernels& kernels_for(InstructionSet instructions) {
+const Kernels& kernels_for([[maybe_unused]] InstructionSet instructions) {
 #ifdef DRESSLIFE_WIDE_KERNELS
   if (instructions == InstructionSet::avx512) return avx512_kernels::set;
   if (instructions == InstructionSet::avx2) return avx2_kernels::set;

@@ -48,11 +48,11 @@ struct SlidingNumbers {
 /// One level of the nesting from the dresspack to the bundle's part.
 struct NestingLevel {
   Placement place;
-  Rod<double> rest;  ///< the part in the undeformed construction
+  ComponentState<double> rest;  ///< the part in the undeformed construction
   SlidingNumbers slide;
   /// The same with the part, or else its nearest helical ancestor, moved on by sixths of its pitch.
   std::array<Placement, phases_per_pitch> turned;
-  std::array<Rod<double>, phases_per_pitch> turned_rest;
+  std::array<ComponentState<double>, phases_per_pitch> turned_rest;
 };
 
 /// One place around a wire layer.
@@ -79,7 +79,7 @@ struct BundleNesting {
   std::vector<SlidingLayer> sliding;  ///< of each layer; empty: all waves are those of the nodes
   std::vector<Fibre> fibres;
   int order = 0;                  ///< of the part's state: 1 when fibres feel bend1
-  Rod<double> dresspack_at_rest;  ///< (W25) in the shape in which it was delivered
+  ComponentState<double> dresspack_at_rest;  ///< (W25) in the shape in which it was delivered
 };
 
 struct BundlePointers {

@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
                   values(side, 2, 0.01), values(side, 20, 1));
   const StudyRequest request{
       folder.write("many.yaml", text), {}, folder.path / "runs", folder.path / "programs"};
-  Standing standing;
+  StudyState standing;
   const auto write = [&] {
     write_build_graph(standing.study, standing.places, standing.states);
     remember(request, standing);

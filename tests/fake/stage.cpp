@@ -55,11 +55,12 @@ int main(int argc, char** argv) {
                        .output = "OUTPUT",
                        .example = program + " INPUT -o OUTPUT",
                        .input_is_job = stage == "sim",
-                       .part = stage == "sim"      ? Part::sim
-                               : stage == "strain" ? Part::strain
-                                                   : Part::fatigue,
+                       .part = stage == "sim"      ? JobPart::sim
+                               : stage == "strain" ? JobPart::strain
+                                                   : JobPart::fatigue,
                        .told = [&](const fs::path& output) {
-                         return stage == "fatigue" ? told_by(output, life_format()) : std::vector<Told>();
+                         return stage == "fatigue" ? told_by(output, life_format())
+                                                   : std::vector<ResultValue>();
                        }};
   return run_stage(info, argc, argv, [&](const StageCall& call, Progress&) { make(call, stage); });
 }

@@ -39,7 +39,7 @@ UniversalSlopes universal_slopes(double tensile_strength, double reduction_of_ar
   return {3.5 / 2 * std::pow(2, 0.12) * tensile_strength, std::pow(2 * d, 0.6) / 2};
 }
 
-double cycles(const Material& m, MeanStress rule, const Load& load) {
+double cycles(const Material& m, MeanStress rule, const CycleLoad& load) {
   return StrainLife(m, rule).reversals(load) / 2;
 }
 

@@ -762,11 +762,14 @@ TEST_CASE("sites are visited in order with their own strains, also over many blo
   bool all_equal = true;
   constexpr float kept = 1.5e-7f;  // half of the seventh decimal, and a float's roundings of 0.5
   const auto same = [](float a, float b) { return std::abs(a - b) < kept; };
-  sites.for_each([&](std::size_t site, std::span<const float> strains) {
-    all_equal = all_equal && site == visited &&
-                std::equal(strains.begin(), strains.end(), f.sites[site].strain.begin(),
-                           f.sites[site].strain.end(), same);
-    ++visited;
+  sites.for_each_block([&](const SiteSet::Block& block, const std::function<void()>& read_ahead) {
+    for (std::size_t site = block.begin; site < block.end; ++site, ++visited) {
+      const std::span<const float> strains = block.strains_of(site);
+      all_equal = all_equal && site == visited &&
+                  std::equal(strains.begin(), strains.end(), f.sites[site].strain.begin(),
+                             f.sites[site].strain.end(), same);
+    }
+    read_ahead();
   });
   CHECK(visited == count);
   CHECK(all_equal);

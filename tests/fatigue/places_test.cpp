@@ -23,7 +23,7 @@ constexpr double straight_pieces = 3e-3;
 /// Conductors of so many wires; damage(conductor, segment, wire).
 struct Pack {
   std::vector<PlacesOfConductor> places;
-  std::vector<Bundle> bundles;
+  std::vector<ConductorWires> bundles;
   std::size_t segments = 0;
 };
 
@@ -146,7 +146,7 @@ TEST_CASE("places: told lives are on the safe side of drawn ones, and near") {
       }
       // Drawing itself, which needs no bounds: rates of 1 share nothing.
       Pack drawn = pack;
-      for (Bundle& bundle : drawn.bundles) bundle.rate.assign(30, 1.0);
+      for (ConductorWires& bundle : drawn.bundles) bundle.rate.assign(30, 1.0);
       const FirstPlace by_draws = lives_of(drawn, percent, scatter, draws);
       for (std::size_t i = 0; i < percentiles.size(); ++i) {
         CHECK(by_draws.lives[i] > told.lives[i] * 0.95);
@@ -175,7 +175,7 @@ TEST_CASE("places: those left out do not move the life") {
     for (std::size_t g = 0; g < 50; ++g)
       wires.emplace_back(std::span(pack.places[c].damage).subspan(g * 10, 10));
   std::vector<Wires> anywhere;
-  for (const Bundle& bundle : pack.bundles) anywhere.emplace_back(bundle.damage);
+  for (const ConductorWires& bundle : pack.bundles) anywhere.emplace_back(bundle.damage);
   all.emplace_back(
       [&, memory = std::vector<double>()](double log_time) mutable {
         double none = 1;
@@ -200,7 +200,7 @@ TEST_CASE("places: dresspacks scatter apart, and broken wires that leave their l
   pack.bundles[1].dresspack = 1;
   CHECK(lives_of(pack, 10, scatter).lives[0] < together[0]);
   Pack loaded = pack;
-  for (Bundle& bundle : loaded.bundles)
+  for (ConductorWires& bundle : loaded.bundles)
     for (int broken = 0; broken < 20; ++broken) bundle.rate.push_back(std::pow(20.0 / (20 - broken), 9));
   const FirstPlace shared = lives_of(loaded, 10, {0.2, 0.5}), alone = lives_of(pack, 10, {0.2, 0.5});
   CHECK(shared.lives[1] < alone.lives[1] * 1.05);

@@ -22,8 +22,8 @@ constexpr double one_deviation = 0.8413447460685429;  // Phi(1)
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Bundle of wires with these median lives.
-Bundle wires(const std::vector<double>& lives, std::vector<double> rate = {}) {
-  Bundle bundle;
+ConductorWires wires(const std::vector<double>& lives, std::vector<double> rate = {}) {
+  ConductorWires bundle;
   for (const double life : lives) bundle.damage.push_back(1 / life);
   bundle.rate = std::move(rate);
   return bundle;
@@ -87,7 +87,7 @@ TEST_CASE("scatter: percentiles of one wire, of the first and of the last of equ
 
 TEST_CASE("scatter: the first conductor of single wires is the first wire, and the worst leads") {
   const std::vector<double> lives{100, 150, 400, 90};
-  std::vector<Bundle> single;
+  std::vector<ConductorWires> single;
   std::vector<double> damage;
   for (const double life : lives) single.push_back(wires({life})), damage.push_back(1 / life);
   const Percentiles first = first_conductor_lives(single, 10, 0.2);
@@ -115,7 +115,7 @@ TEST_CASE("scatter: drawn numbers are standard normal and independent") {
 
 TEST_CASE("scatter: drawing agrees with the closed form where nothing is shared") {
   constexpr int draws = 4000;
-  const std::vector<Bundle> bundles{wires({100, 120, 150, 200, 400}), wires({90, 300, 310, 320})};
+  const std::vector<ConductorWires> bundles{wires({100, 120, 150, 200, 400}), wires({90, 300, 310, 320})};
   const SharedLives drawn = shared_lives(bundles, 40, 0.2, draws);
   for (std::size_t i = 0; i < percentiles.size(); ++i) {
     const double q = percentiles[i],
@@ -232,7 +232,7 @@ TEST_CASE("scatter: dresspacks have no factor in common") {
   // The first of two independent ones: 1 - (1 - p)^2 = 1/2.
   CHECK(broken_share(first_wire_lives(two, scatter)[1], 1000, 0.2) ==
         Approx(1 - std::sqrt(0.5)).epsilon(1e-6));
-  std::vector<Bundle> bundles{wires({1000, 2000}), wires({1000})};
+  std::vector<ConductorWires> bundles{wires({1000, 2000}), wires({1000})};
   bundles[1].dresspack = 2;
   CHECK(first_conductor_lives(bundles, 10, scatter)[1] ==
         Approx(first_wire_lives(two, scatter)[1]).epsilon(1e-6));
@@ -242,7 +242,7 @@ TEST_CASE("scatter: dresspacks have no factor in common") {
 TEST_CASE("scatter: drawing with a common part agrees with the closed form") {
   constexpr int draws = 4000;
   const Scatter scatter{0.2, 0.6};
-  const std::vector<Bundle> bundles{wires({100, 120, 150, 200, 400}), wires({90, 300, 310, 320})};
+  const std::vector<ConductorWires> bundles{wires({100, 120, 150, 200, 400}), wires({90, 300, 310, 320})};
   const SharedLives drawn = shared_lives(bundles, 40, scatter, draws);
   const Percentiles first = first_conductor_lives(bundles, 40, scatter);
   for (std::size_t i = 0; i < percentiles.size(); ++i) {

@@ -119,8 +119,9 @@ std::vector<double> plain_history(const Construction& construction, const Bundle
   std::vector<double> strains;
   for (std::size_t t = 0; t < history.samples(); ++t) {
     const DeformationColumns c = history.columns(segment);
-    Rod<double> rod = uniform_rod<double>(c.elongation[t], c.curvature1[t], c.curvature2[t], c.twist[t], 5);
-    Rod<double> rest = uniform_rod<double>(0, 0, 0, 0, 5);
+    ComponentState<double> rod =
+        uniform_rod<double>(c.elongation[t], c.curvature1[t], c.curvature2[t], c.twist[t], 5);
+    ComponentState<double> rest = uniform_rod<double>(0, 0, 0, 0, 5);
     const auto go_down = [&](const Placement& place) {
       rod = child(rod, place);
       rest = child(rest, place);

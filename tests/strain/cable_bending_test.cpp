@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "strain/construction.h"
-#include "strain/strand_bending.h"
+#include "tests/strain/strand_bending.h"
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 

@@ -99,7 +99,7 @@ std::vector<Deformation> at_wires(const Chain& chain, DeformationMeasure measure
 }
 
 /// A chain of the simulator's kind, turned at the links by `rotation`: rigid segments whose ends meet, a
-/// little further out where they bend (sim/rod/README.md, S17).
+/// little further out where they bend (sim/rod/theory.md, S17).
 Chain jointed_chain(double segment_length, const std::vector<Vector3d>& rotation) {
   Chain chain;
   Quaterniond q = Quaterniond::Identity();

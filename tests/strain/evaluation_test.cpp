@@ -73,7 +73,8 @@ Settings settings_with(Slip slip, Kinematics kinematics = Kinematics::exact) {
   return settings;
 }
 
-Rod<double> dresspack_rod(const DeformationHistory& history, std::size_t segment, std::size_t t, int order) {
+ComponentState<double> dresspack_rod(const DeformationHistory& history, std::size_t segment, std::size_t t,
+                                     int order) {
   const DeformationColumns c = history.columns(segment);
   return uniform_rod<double>(c.elongation[t], c.curvature1[t], c.curvature2[t], c.twist[t], order);
 }
@@ -96,7 +97,8 @@ std::vector<Link> links_to(const Construction& construction, const Bundle& bundl
 /// Strain of the outward fibre of a wire with everything glued, by the plain recursion.
 double glued_strain(const Construction& construction, const std::vector<Link>& links, double arc,
                     const DeformationHistory& history, std::size_t segment, std::size_t t) {
-  Rod<double> rod = dresspack_rod(history, segment, t, 5), rest = uniform_rod<double>(0, 0, 0, 0, 5);
+  ComponentState<double> rod = dresspack_rod(history, segment, t, 5),
+                         rest = uniform_rod<double>(0, 0, 0, 0, 5);
   for (const Link& link : links) {
     const Placement place = construction.placement(link.layer, link.number, link.parent, arc);
     rod = child(rod, place);
@@ -187,11 +189,11 @@ TEST_CASE("free components have the mean of their glued strain and keep their ow
 
   // Independent of the product's slip code: averages over segments and over 48 phases.
   constexpr int phases = 48;
-  const Rod<double> at_rest = uniform_rod<double>(0, 0, 0, 0, 5);
+  const ComponentState<double> at_rest = uniform_rod<double>(0, 0, 0, 0, 5);
   auto placed = [&](const Link& link, std::size_t segment, double turn) {
     return construction.placement(link.layer, link.number, link.parent, centre(segment), turn);
   };
-  auto over_phases = [&](const Rod<double>& rod, const Link& link, std::size_t segment) {
+  auto over_phases = [&](const ComponentState<double>& rod, const Link& link, std::size_t segment) {
     double sum = 0;
     for (int m = 0; m < phases; ++m) sum += path_rate(rod, placed(link, segment, 2 * pi * m / phases));
     return sum / phases;
@@ -207,26 +209,27 @@ TEST_CASE("free components have the mean of their glued strain and keep their ow
     }
     return entry->second;
   };
-  auto scaled = [](Rod<double> rod, double strain, const Rod<double>& rest) {
+  auto scaled = [](ComponentState<double> rod, double strain, const ComponentState<double>& rest) {
     // same curvature and torsion per path length, stretch by the given strain
     const Series<double> stretch = (1 + strain) * rest.stretch, factor = stretch / rod.stretch;
-    return Rod<double>{stretch, rod.bend1 * factor, rod.bend2 * factor, rod.twist * factor};
+    return ComponentState<double>{stretch, rod.bend1 * factor, rod.bend2 * factor, rod.twist * factor};
   };
   const double difference = worst_difference(
       construction, results.sites, few_segments, [&](const auto& links, std::size_t segment, std::size_t t) {
         const Placement in_dresspack = placed(links[0], segment, 0), in_cable = placed(links[1], segment, 0),
                         in_conductor = placed(links[2], segment, 0);
-        const Rod<double> cable_rest = child(at_rest, in_dresspack);
-        const Rod<double> cable = scaled(child(dresspack_rod(history, segment, t, 5), in_dresspack),
-                                         cable_mean(links[0], t), cable_rest);
-        const Rod<double> conductor_rest = child(cable_rest, in_cable);
+        const ComponentState<double> cable_rest = child(at_rest, in_dresspack);
+        const ComponentState<double> cable = scaled(
+            child(dresspack_rod(history, segment, t, 5), in_dresspack), cable_mean(links[0], t), cable_rest);
+        const ComponentState<double> conductor_rest = child(cable_rest, in_cable);
         const double conductor_strain =
             over_phases(cable, links[1], segment) / over_phases(cable_rest, links[1], segment) - 1;
-        const Rod<double> conductor = scaled(child(cable, in_cable), conductor_strain, conductor_rest);
-        const Rod<double> wire_rest = child(conductor_rest, in_conductor);
+        const ComponentState<double> conductor =
+            scaled(child(cable, in_cable), conductor_strain, conductor_rest);
+        const ComponentState<double> wire_rest = child(conductor_rest, in_conductor);
         const double wire_strain =
             over_phases(conductor, links[2], segment) / over_phases(conductor_rest, links[2], segment) - 1;
-        const Rod<double> wire = scaled(child(conductor, in_conductor), wire_strain, wire_rest);
+        const ComponentState<double> wire = scaled(child(conductor, in_conductor), wire_strain, wire_rest);
         return (wire.stretch.at[0] + 75e-6 * wire.bend2.at[0]) /
                    (wire_rest.stretch.at[0] + 75e-6 * wire_rest.bend2.at[0]) -
                1;
@@ -256,7 +259,8 @@ TEST_CASE("straight wires in a helical conductor take the mean of a walk along i
         for (int k = 0; k < steps;
              ++k) {  // along one pitch of the conductor, the deformation of the segment held
           const double arc = centre(segment) + pitch * k / steps;
-          Rod<double> rod = dresspack_rod(history, segment, t, 5), rest = uniform_rod<double>(0, 0, 0, 0, 5);
+          ComponentState<double> rod = dresspack_rod(history, segment, t, 5),
+                                 rest = uniform_rod<double>(0, 0, 0, 0, 5);
           for (const Link& link : links) {
             const Placement place = construction.placement(link.layer, link.number, link.parent, arc);
             rod = child(rod, place);
@@ -541,7 +545,7 @@ TEST_CASE("a cable's state and its slopes in single precision are those in doubl
 TEST_CASE("a probe that names no wire or no segment is refused") {
   const Construction construction(thesis_dresspack(), Kinematics::exact);
   Settings settings = settings_with(Slip::stick);
-  auto message_of = [&](const dresslife::pipeline::Probe& probe) -> std::string {
+  auto message_of = [&](const dresslife::pipeline::ProbeRequest& probe) -> std::string {
     settings.probes = {probe};
     try {
       Evaluation(construction, settings, {0.5, 0.5}, 10);

@@ -56,7 +56,8 @@ void write_motion(const std::filesystem::path& name, const std::vector<int>& spa
         put(position, orientation);
         const Eigen::Vector3d from = tangent();
         if (i + 1 < n) {
-          advance(l);  // the segments' ends meet a little further out where they bend (sim/rod/README.md, S17)
+          advance(
+              l);  // the segments' ends meet a little further out where they bend (sim/rod/theory.md, S17)
           x += l / 2 * (1 + (1 - from.dot(tangent())) / 12) * (from + tangent());
         }
       }

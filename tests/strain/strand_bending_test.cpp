@@ -1,5 +1,5 @@
 // The conductor CARDINAL 54/7 at 40 kN against the published curve (Foti and Martinelli 2016).
-#include "strain/strand_bending.h"
+#include "tests/strain/strand_bending.h"
 
 #include <Eigen/LU>
 #include <cmath>

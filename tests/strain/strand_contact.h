@@ -1,5 +1,5 @@
 // Bending of a strand whose layers touch where their wires cross (README W24): the model of
-// strain/strand_bending.h with equilibrium along each wire and contacts that give before they slide.
+// tests/strain/strand_bending.h with equilibrium along each wire and contacts that give before they slide.
 //
 // All wires of a layer do the same, each at its own angle phi from the neutral axis, so a layer is one
 // function of phi. Let u be how far a wire is displaced along itself against the plane section, kappa_i = 2
@@ -23,7 +23,7 @@
 
 #include <vector>
 
-#include "strain/strand_bending.h"
+#include "tests/strain/strand_bending.h"
 
 namespace dresslife::strain {
 

@@ -13,14 +13,14 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double deciles = 1.2815515655446004;  // of a normal distribution, in its deviations
+constexpr double decile = 1.2815515655446004;  // of a normal distribution, in its deviations
 
 /// How many of its deviations a prediction lies short of what was seen, or beyond it; 0 where it agrees.
 double surprise(const LearnedTest& test) {
   const Observation& observation = test.observation;
   const double seen = observation.is_life() ? observed_life(observation) : test.measured;
   const auto off = [&](double side) {
-    return std::log(seen / test.before[1]) / (std::log(side / test.before[1]) / deciles);
+    return std::log(seen / test.before[1]) / (std::log(side / test.before[1]) / decile);
   };
   if (!(seen > 0) || !std::isfinite(test.before[2])) return 0;
   const bool both = !observation.is_life() || observation.outcome == ObservedEnd::broken;
@@ -49,7 +49,7 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
   std::vector<LearnedAxis> learned(uncertain_count);
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
-    learned[p].before = {parameter.value(-deciles), parameter.value(0), parameter.value(deciles)};
+    learned[p].before = {parameter.value(-decile), parameter.value(0), parameter.value(decile)};
     learned[p].after = learned[p].before;
   }
   for (Index i = 0; i < axes.size(); ++i) {

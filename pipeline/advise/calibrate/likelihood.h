@@ -45,12 +45,12 @@ double log_likelihood(const ObservedLife& observed, const Eigen::VectorXd& z);
 
 /// A measured number as a sum of quantities of the model: value = sum of factor x exp(log of quantity(z)).
 struct MeasuredNumber {
-  struct Part {
+  struct Term {
     std::size_t quantity;
     double factor;
   };
   double value = 0, deviation = 1;  ///< measured; standard deviation of its error, > 0
-  std::vector<Part> parts;
+  std::vector<Term> parts;
 };
 
 /// Numbers with normal errors, from quantities > 0 whose logarithms are emulated.

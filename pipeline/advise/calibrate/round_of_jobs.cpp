@@ -108,7 +108,7 @@ std::size_t RoundOfJobs::add(const ObservedTest& test, const ObservedTest::Varia
   for (const std::string& set : sets_at(std::vector<double>(z.begin(), z.end()))) sets.push_back(set);
   const auto job = std::make_shared<const Job>(job_from(variant.job, sets));
   const std::string settings =
-      part_text(*job, Part::sim) + part_text(*job, Part::strain) + part_text(*job, Part::fatigue);
+      part_text(*job, JobPart::sim) + part_text(*job, JobPart::strain) + part_text(*job, JobPart::fatigue);
   const auto [known, fresh] = known_.try_emplace(xxh3(settings), study_.jobs.size());
   constexpr std::size_t digits = 12;
   if (fresh) study_.jobs.push_back({variant.name + "_" + known->first.substr(0, digits), job, ""});

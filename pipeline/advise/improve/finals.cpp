@@ -9,7 +9,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t finalists = 6;  // that have pages
+constexpr std::size_t most_finalists = 6;  // that have pages
 
 /// The best candidates; with two objectives the whole front, without the original jobs, which are listed
 /// anyhow.
@@ -25,7 +25,7 @@ std::vector<std::size_t> finalists_of(const Improvement& found) {
   std::stable_sort(best.begin(), best.end(), [&](std::size_t a, std::size_t b) {
     return found.trials[a].worst.hours > found.trials[b].worst.hours;
   });
-  if (best.size() > finalists) best.resize(finalists);
+  if (best.size() > most_finalists) best.resize(most_finalists);
   return best;
 }
 

@@ -391,7 +391,7 @@ Node Freedom::usual(const Job& job) {
 
 Index Freedom::variables() const {
   Index sum = 0;
-  for (const Freed& freed : keys_) sum += freed.key->variables();
+  for (const FreeVariable& freed : keys_) sum += freed.key->variables();
   return sum;
 }
 
@@ -399,7 +399,7 @@ std::vector<std::string> Freedom::at_ends(const VectorXd& place) const {
   constexpr double end = 0.02;  // of a range: as near as a search of some dozen trials comes to it
   std::vector<std::string> told;
   Index at = 0;
-  for (const Freed& freed : keys_) {
+  for (const FreeVariable& freed : keys_) {
     std::string words;
     for (Index k = 0; k < freed.key->variables(); ++k) {
       const double u = place[at + k];
@@ -415,7 +415,7 @@ std::vector<std::string> Freedom::at_ends(const VectorXd& place) const {
 std::vector<std::string> Freedom::sets_at(const VectorXd& place) const {
   std::vector<std::string> sets;
   Index at = 0;
-  for (const Freed& freed : keys_) {
+  for (const FreeVariable& freed : keys_) {
     const Index size = freed.key->variables();
     sets.push_back(freed.path + "=" + set_text(freed.key->value_at(place.segment(at, size))));
     at += size;

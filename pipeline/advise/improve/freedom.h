@@ -38,7 +38,7 @@ class FreeKey {
 
 class Freedom {
  public:
-  struct Freed {
+  struct FreeVariable {
     std::string path;
     std::unique_ptr<FreeKey> key;
     std::string own;  ///< the jobs' value; empty: they name none, or not the same
@@ -53,7 +53,7 @@ class Freedom {
   static Node usual(const Job& job);
 
   Eigen::Index variables() const;
-  const std::vector<Freed>& keys() const { return keys_; }
+  const std::vector<FreeVariable>& keys() const { return keys_; }
 
   /// "KEY.PATH=VALUE" of every key.
   std::vector<std::string> sets_at(const Eigen::VectorXd& place) const;
@@ -63,7 +63,7 @@ class Freedom {
   std::optional<Eigen::VectorXd> place_of_job() const { return start_; }
 
  private:
-  std::vector<Freed> keys_;
+  std::vector<FreeVariable> keys_;
   std::optional<Eigen::VectorXd> start_;
 };
 

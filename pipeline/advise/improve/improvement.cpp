@@ -91,7 +91,7 @@ class Improver {
     freedom_ = Freedom::from(freed, jobs_);
     check_ranges();
     done_.name = study_name(request.file);
-    for (const Freedom::Freed& key : freedom_.keys()) {
+    for (const Freedom::FreeVariable& key : freedom_.keys()) {
       done_.freed.push_back(key.path);
       done_.own.push_back(key.own);
     }
@@ -121,7 +121,7 @@ class Improver {
       if (asked.empty()) break;  // it has given up
       std::vector<std::vector<std::string>> sets;
       for (const VectorXd& place : asked) sets.push_back(freedom_.sets_at(place));
-      std::vector<Look> looks;
+      std::vector<Candidate> looks;
       for (Trial& trial : tried(sets)) {
         trial.place = asked[looks.size()];
         looks.push_back(look_of(trial, trial.place));
@@ -189,16 +189,16 @@ class Improver {
   }
 
   /// (trial) of the job that is worst by geometry: how far beyond its limits it is, and what it passes.
-  struct Screened {
+  struct ScreeningResult {
     double violation = 0;
     bool rejected = false;
     std::vector<double> beyond;
     std::string words;
     double bracket = -HUGE_VAL;  ///< (V7) of the job that is worst by that
   };
-  std::vector<Screened> screened(const std::vector<std::vector<std::string>>& sets) const {
+  std::vector<ScreeningResult> screened(const std::vector<std::vector<std::string>>& sets) const {
     const std::string candidates = list_of_changes(sets);
-    std::vector<Screened> worst(sets.size());
+    std::vector<ScreeningResult> worst(sets.size());
     for (const auto& job : screened_) {
       const ScreenedList list =
           screening_of(*job, candidates, ScreenedBy::geometry, request_.longest_bracket, places_.folder);
@@ -226,11 +226,11 @@ class Improver {
 
   /// (place) the worst of all jobs' short runs. A trial that does not run is graded by geometry in one (V1)
   /// to (V5).
-  std::vector<Look> rehearsed(const std::vector<VectorXd>& places) {
+  std::vector<Candidate> rehearsed(const std::vector<VectorXd>& places) {
     std::vector<std::vector<std::string>> sets;
     for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
     const std::string candidates = list_of_changes(sets);
-    std::vector<Look> looks;
+    std::vector<Candidate> looks;
     for (const VectorXd& place : places) looks.push_back({place, true, {}, {}});
     std::vector<std::pair<double, std::string>> worst(places.size());  // how far beyond, by what
     for (const auto& job : screened_) {
@@ -252,7 +252,7 @@ class Improver {
     return looks;
   }
 
-  static void add_rehearsal(Look& look, const ScreenedList& list, const ScreenedCandidate& candidate) {
+  static void add_rehearsal(Candidate& look, const ScreenedList& list, const ScreenedCandidate& candidate) {
     const bool runs = candidate.refusal.empty();
     if (!runs && look.ran) look = {look.place, false, {}, {}};
     if (runs != look.ran) return;
@@ -268,7 +268,7 @@ class Improver {
     if (screened_.empty()) return beyond;
     std::vector<std::vector<std::string>> sets;
     for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
-    const std::vector<Screened> told = screened(sets);
+    const std::vector<ScreeningResult> told = screened(sets);
     for (std::size_t k = 0; k < places.size(); ++k) beyond[k] = told[k].rejected ? told[k].violation : 0;
     return beyond;
   }
@@ -305,7 +305,7 @@ class Improver {
     if (screened_.empty()) return;
     std::vector<std::vector<std::string>> sets;
     for (const Trial& trial : trials) sets.push_back(trial.sets);
-    const std::vector<Screened> told = screened(sets);
+    const std::vector<ScreeningResult> told = screened(sets);
     for (std::size_t k = 0; k < trials.size(); ++k) {
       Outcome& worst = trials[k].worst;
       if (worst.failure.empty()) {
@@ -317,8 +317,8 @@ class Improver {
     }
   }
 
-  Look look_of(const Trial& trial, const VectorXd& place) const {
-    Look look{place, trial.worst.failure.empty(), {}, trial.worst.beyond};
+  Candidate look_of(const Trial& trial, const VectorXd& place) const {
+    Candidate look{place, trial.worst.failure.empty(), {}, trial.worst.beyond};
     if (look.ran)
       look.aims.push_back(-std::log(std::clamp(trial.worst.hours, 1 / endless_hours, endless_hours)));
     if (look.ran && aims() == 2)
@@ -328,7 +328,7 @@ class Improver {
   }
 
   std::vector<std::size_t> best_trials() const {
-    std::vector<Look> looks;
+    std::vector<Candidate> looks;
     for (const Trial& trial : done_.trials) looks.push_back(look_of(trial, {}));
     const std::vector<std::size_t> best = front(looks);
     if (aims() == 1 && !best.empty()) return {best.front()};  // of equal lives the first

@@ -30,7 +30,7 @@ inline constexpr std::size_t bracket_limit = outcome_limits - 1;
 std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
                                         const std::vector<double>& beyond);
 
-/// Adds to the pieces of limits (Look::pieces) a short run's bends.
+/// Adds to the pieces of limits (Candidate::pieces) a short run's bends.
 void add_bends(std::vector<std::vector<double>>& pieces, const std::vector<double>& bends);
 
 struct Outcome {

@@ -98,7 +98,7 @@ GaussianProcess::Shape GaussianProcess::likeliest_shape(const MatrixXd& points, 
                    start, 0.5, evaluations);
 }
 
-GaussianProcess::ToldOfEach GaussianProcess::of_each(const VectorXd& place) const {
+GaussianProcess::Predictions GaussianProcess::of_each(const VectorXd& place) const {
   const VectorXd here = place.cwiseProduct(per_length_);
   VectorXd k(scaled_.rows());
   for (Index i = 0; i < k.size(); ++i) k[i] = correlation((scaled_.row(i).transpose() - here).squaredNorm());
@@ -106,8 +106,8 @@ GaussianProcess::ToldOfEach GaussianProcess::of_each(const VectorXd& place) cons
   return {mean_ + weights_.transpose() * k, std::sqrt(std::max(0.0, 1 - explained)) * deviation_};
 }
 
-GaussianProcess::Told GaussianProcess::at(const VectorXd& place) const {
-  const ToldOfEach told = of_each(place);
+GaussianProcess::Prediction GaussianProcess::at(const VectorXd& place) const {
+  const Predictions told = of_each(place);
   return {told.means[0], told.deviations[0]};
 }
 

@@ -36,14 +36,14 @@ class GaussianProcess {
   static Shape likeliest_shape(const Eigen::MatrixXd& points, const Eigen::MatrixXd& values,
                                const Shape& start, int evaluations);
 
-  struct Told {
+  struct Prediction {
     double mean = 0, deviation = 0;  ///< of the function at a place, without noise
   };
-  Told at(const Eigen::VectorXd& place) const;  ///< of the first function
-  struct ToldOfEach {
+  Prediction at(const Eigen::VectorXd& place) const;  ///< of the first function
+  struct Predictions {
     Eigen::VectorXd means, deviations;  ///< (function)
   };
-  ToldOfEach of_each(const Eigen::VectorXd& place) const;
+  Predictions of_each(const Eigen::VectorXd& place) const;
 
  private:
   Eigen::MatrixXd scaled_;  // (place, variable) / l

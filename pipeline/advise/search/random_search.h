@@ -11,7 +11,7 @@ class RandomSearch : public Search {
   /// screen: rejected candidates are replaced, a few times.
   RandomSearch(Eigen::Index variables, std::uint64_t seed, Screen screen);
   std::vector<Eigen::VectorXd> ask(int count) override;
-  void tell(const std::vector<Look>&) override {}
+  void tell(const std::vector<Candidate>&) override {}
 
  private:
   Eigen::VectorXd drawn();

@@ -4,13 +4,13 @@
 
 namespace dresslife::pipeline {
 
-double Look::violation() const {
+double Candidate::violation() const {
   double sum = 0;
   for (const double g : beyond) sum += std::max(0.0, g);
   return sum;
 }
 
-bool better(const Look& a, const Look& b) {
+bool better(const Candidate& a, const Candidate& b) {
   if (a.ran != b.ran) return a.ran;
   if (a.violation() != b.violation()) return a.violation() < b.violation();
   return a.ran && !a.aims.empty() && a.aims.front() < b.aims.front();
@@ -29,10 +29,10 @@ bool dominates(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-std::vector<std::size_t> front(const std::vector<Look>& looks) {
+std::vector<std::size_t> front(const std::vector<Candidate>& looks) {
   std::vector<std::size_t> best;
   for (std::size_t k = 0; k < looks.size(); ++k) {
-    const auto beats = [&](const Look& other) {
+    const auto beats = [&](const Candidate& other) {
       return other.feasible() && dominates(other.aims, looks[k].aims);
     };
     if (looks[k].feasible() && std::none_of(looks.begin(), looks.end(), beats)) best.push_back(k);

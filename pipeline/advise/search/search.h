@@ -11,7 +11,7 @@
 namespace dresslife::pipeline {
 
 /// Result of a candidate.
-struct Look {
+struct Candidate {
   Eigen::VectorXd place;       ///< (variable) 0 .. 1
   bool ran = false;            ///< false: only the place and the limits of the screen are valid
   std::vector<double> aims;    ///< (aim) objectives, to be minimised
@@ -26,24 +26,24 @@ struct Look {
 
 /// Whether a is better than b. First criterion: it ran. Second: smaller violation. Third: smaller first objective, if
 /// there is one.
-bool better(const Look& a, const Look& b);
+bool better(const Candidate& a, const Candidate& b);
 
 /// Indices of the Pareto-optimal feasible candidates, sorted by the first objective.
-std::vector<std::size_t> front(const std::vector<Look>& looks);
+std::vector<std::size_t> front(const std::vector<Candidate>& looks);
 
 /// (place) lower bound of the violation of each candidate without a run; 0: it may be feasible.
 using Screen = std::function<std::vector<double>(const std::vector<Eigen::VectorXd>&)>;
 
 /// (place) result of a low-fidelity evaluation: whether it runs, and approximate constraints in the order of
-/// Look::beyond; NaN: unknown. Without objectives. The same places give the same results.
-using Rehearse = std::function<std::vector<Look>(const std::vector<Eigen::VectorXd>&)>;
+/// Candidate::beyond; NaN: unknown. Without objectives. The same places give the same results.
+using Rehearse = std::function<std::vector<Candidate>(const std::vector<Eigen::VectorXd>&)>;
 
 class Search {
  public:
   virtual ~Search() = default;
   /// The next `count` candidates, all of them new. Empty: the search stops.
   virtual std::vector<Eigen::VectorXd> ask(int count) = 0;
-  virtual void tell(const std::vector<Look>& looks) = 0;
+  virtual void tell(const std::vector<Candidate>& looks) = 0;
 };
 
 }  // namespace dresslife::pipeline

@@ -34,7 +34,7 @@ constexpr double hopeless = 0.7;
 constexpr double least_gain = 1e-3;  // gain of a constraint that counts as progress
 constexpr double much_more = 1.3;    // data for a new fit of the shapes
 
-const Look& best_of(const std::vector<Look>& looks) {
+const Candidate& best_of(const std::vector<Candidate>& looks) {
   return *std::min_element(looks.begin(), looks.end(), better);
 }
 
@@ -42,15 +42,15 @@ const Look& best_of(const std::vector<Look>& looks) {
 using Merit = std::pair<double, double>;
 
 /// Order by predicted violation: first the mean, then the cautious bound.
-Merit nearness(const LookModels& models, const VectorXd& place) {
+Merit nearness(const CandidateModels& models, const VectorXd& place) {
   return {models.excess(place, 0), models.excess(place, cautious)};
 }
 bool clearly_less(const Merit& a, const Merit& b) {
   return a.first < b.first - least_gain || (a.first <= b.first && a.second < b.second - least_gain);
 }
 
-bool any_ran(const std::vector<Look>& looks) {
-  return std::any_of(looks.begin(), looks.end(), [](const Look& look) { return look.ran; });
+bool any_ran(const std::vector<Candidate>& looks) {
+  return std::any_of(looks.begin(), looks.end(), [](const Candidate& look) { return look.ran; });
 }
 
 SearchBox around(const VectorXd& centre, double width) {
@@ -96,14 +96,14 @@ VectorXd SurrogateSearch::first_look() {
 /// Squared distance to the nearest candidate with or without a result.
 double SurrogateSearch::distance_to_known(const VectorXd& place) const {
   double least = static_cast<double>(variables_);
-  for (const Look& look : looks_) least = std::min(least, (look.place - place).squaredNorm());
+  for (const Candidate& look : looks_) least = std::min(least, (look.place - place).squaredNorm());
   for (const VectorXd& other : pending_) least = std::min(least, (other - place).squaredNorm());
   return least;
 }
 
 bool SurrogateSearch::is_known(const VectorXd& place) const {
   const auto same = [&](const VectorXd& other) { return (other - place).cwiseAbs().maxCoeff() < near; };
-  return std::any_of(looks_.begin(), looks_.end(), [&](const Look& look) { return same(look.place); }) ||
+  return std::any_of(looks_.begin(), looks_.end(), [&](const Candidate& look) { return same(look.place); }) ||
          std::any_of(pending_.begin(), pending_.end(), same);
 }
 
@@ -133,8 +133,8 @@ VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
 }
 
 /// Places about the best one and results of local searches from them, sorted by violation, then by objective.
-std::vector<VectorXd> SurrogateSearch::ranked(const LookModels& models, const VectorXd& best, double width,
-                                              const Trust& trust) {
+std::vector<VectorXd> SurrogateSearch::ranked(const CandidateModels& models, const VectorXd& best,
+                                              double width, const Trust& trust) {
   const SearchBox whole{VectorXd::Zero(variables_), VectorXd::Ones(variables_)};
   const SearchBox box = trust.anywhere ? whole : around(best, width);
   const auto excess = [&](const VectorXd& place) { return models.excess(place, trust.of_limits); };
@@ -166,23 +166,23 @@ std::vector<VectorXd> SurrogateSearch::ranked(const LookModels& models, const Ve
 
 bool SurrogateSearch::is_rehearsed(const VectorXd& place) const {
   return std::any_of(rehearsals_.begin(), rehearsals_.end(),
-                     [&](const Look& one) { return (one.place - place).cwiseAbs().maxCoeff() < near; });
+                     [&](const Candidate& one) { return (one.place - place).cwiseAbs().maxCoeff() < near; });
 }
 
 void SurrogateSearch::rehearse(const std::vector<VectorXd>& places) {
-  for (Look& told : rehearse_(places)) rehearsals_.push_back(std::move(told));
+  for (Candidate& told : rehearse_(places)) rehearsals_.push_back(std::move(told));
 }
 
 /// Rehearses candidates that were evaluated without a rehearsal, so that the difference is known there.
-void SurrogateSearch::rehearse_looks(const std::vector<Look>& looks) {
+void SurrogateSearch::rehearse_looks(const std::vector<Candidate>& looks) {
   std::vector<VectorXd> places;
-  for (const Look& look : looks)
+  for (const Candidate& look : looks)
     if (!is_rehearsed(look.place)) places.push_back(look.place);
   if (!places.empty()) rehearse(places);
 }
 
 /// Rehearses the first few, then returns the best of all rehearsed places by the new models.
-VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<VectorXd>& by_merit,
+VectorXd SurrogateSearch::rehearsed_pick(CandidateModels& models, const std::vector<VectorXd>& by_merit,
                                          const Trust& trust) {
   std::vector<VectorXd> some;
   for (const VectorXd& place : by_merit)
@@ -191,8 +191,8 @@ VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<V
   rehearse(some);
   models.learn({rehearsals_.begin() + before, rehearsals_.end()});
   Merit least;
-  const Look* best = nullptr;
-  for (const Look& rehearsal : rehearsals_) {
+  const Candidate* best = nullptr;
+  for (const Candidate& rehearsal : rehearsals_) {
     if (is_known(rehearsal.place) || !rehearsal.ran || !models.holds(rehearsal.place)) continue;
     const Merit merit = models.any_feasible() ? Merit{models.excess(rehearsal.place, trust.of_limits),
                                                       models.aim_at(rehearsal.place, trust.of_aim)}
@@ -203,9 +203,9 @@ VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<V
 }
 
 /// Rehearsed places without a full evaluation, most likely feasible first.
-std::vector<VectorXd> SurrogateSearch::promising(const LookModels& models) const {
+std::vector<VectorXd> SurrogateSearch::promising(const CandidateModels& models) const {
   std::vector<VectorXd> places;
-  for (const Look& rehearsal : rehearsals_)
+  for (const Candidate& rehearsal : rehearsals_)
     if (rehearsal.ran && !is_known(rehearsal.place) && models.holds(rehearsal.place) &&
         models.excess(rehearsal.place, cautious) == 0)
       places.push_back(rehearsal.place);
@@ -213,11 +213,11 @@ std::vector<VectorXd> SurrogateSearch::promising(const LookModels& models) const
 }
 
 /// The rehearsal from `first` on that runs and has the smallest predicted violation. Precondition: one ran.
-VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models, std::size_t first) const {
+VectorXd SurrogateSearch::nearest_rehearsal(const CandidateModels& models, std::size_t first) const {
   Merit least;
-  const Look* nearest = nullptr;
+  const Candidate* nearest = nullptr;
   for (std::size_t k = first; k < rehearsals_.size(); ++k) {
-    const Look& rehearsal = rehearsals_[k];
+    const Candidate& rehearsal = rehearsals_[k];
     if (!rehearsal.ran || !models.holds(rehearsal.place)) continue;
     const Merit merit = nearness(models, rehearsal.place);
     if (!nearest || merit < least) least = merit, nearest = &rehearsal;
@@ -225,7 +225,7 @@ VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models, std::size_
   return nearest->place;
 }
 
-std::vector<Look> SurrogateSearch::rehearsals_from(std::size_t first) const {
+std::vector<Candidate> SurrogateSearch::rehearsals_from(std::size_t first) const {
   return {rehearsals_.begin() + static_cast<std::ptrdiff_t>(first), rehearsals_.end()};
 }
 
@@ -243,7 +243,7 @@ void SurrogateSearch::rehearse_spread(int count) {
 }
 
 /// Each at the smallest predicted violation, with the expected results of the ones before.
-std::vector<VectorXd> SurrogateSearch::next_rehearsals(LookModels& models, const VectorXd& centre,
+std::vector<VectorXd> SurrogateSearch::next_rehearsals(CandidateModels& models, const VectorXd& centre,
                                                        std::size_t count) {
   static constexpr Trust trusts[] = {{0, 0, false}, {0, cautious, false}, {0, -1, false}, {0, 0, true}};
   std::vector<VectorXd> batch;
@@ -260,7 +260,7 @@ std::vector<VectorXd> SurrogateSearch::next_rehearsals(LookModels& models, const
 
 /// Whether after a third of the rehearsals before the first look no result is near feasibility.
 bool SurrogateSearch::is_hopeless() const {
-  const auto misses = [](const Look& look) { return !look.ran || look.violation() > hopeless; };
+  const auto misses = [](const Candidate& look) { return !look.ran || look.violation() > hopeless; };
   return asked_ == 0 &&
          static_cast<int>(rehearsals_.size()) >= std::max(settings_.rehearsals / 3, settings_.first_looks) &&
          std::all_of(rehearsals_.begin(), rehearsals_.end(), misses) &&
@@ -285,7 +285,7 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
       has_nearest = false;
       continue;
     }
-    LookModels models = models_of(looks_, ahead_from_);
+    CandidateModels models = models_of(looks_, ahead_from_);
     if (models.any_feasible() || static_cast<int>(promising(models).size()) >= wanted) return;
     const VectorXd centre = nearest_rehearsal(models, ahead_from_);
     const Merit now = nearness(models, centre);
@@ -302,18 +302,18 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
 
 /// The looks with one objective made of two: the larger of both, each weighted and as a share of its range among the
 /// best, and a small part of their sum (J. Knowles, ParEGO, IEEE Trans. Evolutionary Computation 10 (2006) 50).
-std::vector<Look> SurrogateSearch::by_weight(double weight) const {
-  std::vector<Look> looks = looks_;
+std::vector<Candidate> SurrogateSearch::by_weight(double weight) const {
+  std::vector<Candidate> looks = looks_;
   if (settings_.aims == 1) return looks;
   const bool any_feasible =
-      std::any_of(looks.begin(), looks.end(), [](const Look& look) { return look.feasible(); });
+      std::any_of(looks.begin(), looks.end(), [](const Candidate& look) { return look.feasible(); });
   std::array<double, 2> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-  for (const Look& look : looks)
+  for (const Candidate& look : looks)
     for (std::size_t k = 0; look.ran && look.feasible() == any_feasible && k < 2; ++k) {
       low[k] = std::min(low[k], look.aims[k]);
       high[k] = std::max(high[k], look.aims[k]);
     }
-  for (Look& look : looks) {
+  for (Candidate& look : looks) {
     if (!look.ran) continue;
     const auto share = [&](std::size_t k) {
       return (look.aims[k] - low[k]) / std::max(high[k] - low[k], near);
@@ -327,10 +327,10 @@ std::vector<Look> SurrogateSearch::by_weight(double weight) const {
 
 /// Models of the looks, and of the rehearsals from `first` on near the best known place. Shapes are fitted again when
 /// there is much more data.
-LookModels SurrogateSearch::models_of(const std::vector<Look>& looks, std::size_t first) {
+CandidateModels SurrogateSearch::models_of(const std::vector<Candidate>& looks, std::size_t first) {
   const bool by_looks = !any_ran(rehearsals_) || (!looks.empty() && best_of(looks).feasible());
-  const std::vector<Look> those = by_looks ? looks : rehearsals_from(first);
-  LookModels models(looks, rehearsals_, best_of(those).place, shapes_);
+  const std::vector<Candidate> those = by_looks ? looks : rehearsals_from(first);
+  CandidateModels models(looks, rehearsals_, best_of(those).place, shapes_);
   const auto known = static_cast<double>(looks.size() + rehearsals_.size());
   if (looks.size() != shapes_of_looks_ || known > much_more * shapes_of_) {
     models.fit();
@@ -342,7 +342,7 @@ LookModels SurrogateSearch::models_of(const std::vector<Look>& looks, std::size_
 }
 
 /// A promising place, farthest from all candidates: the first few looks of a search with rehearsals.
-std::optional<VectorXd> SurrogateSearch::spread_look(const LookModels& models) const {
+std::optional<VectorXd> SurrogateSearch::spread_look(const CandidateModels& models) const {
   std::optional<VectorXd> farthest;
   double most = -1;
   for (const VectorXd& place : promising(models))
@@ -366,8 +366,8 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
   if (places.size() == wanted) return places;
 
   region_ = (region_ + 1) % regions_.size();
-  const std::vector<Look> looks = by_weight(regions_[region_].weight);
-  LookModels models = models_of(looks);
+  const std::vector<Candidate> looks = by_weight(regions_[region_].weight);
+  CandidateModels models = models_of(looks);
   for (const VectorXd& place : pending_) models.believe(place);
   const bool by_looks = models.any_feasible() || !any_ran(rehearsals_);
   const VectorXd best = by_looks ? best_of(looks).place : nearest_rehearsal(models);
@@ -386,17 +386,17 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
   return places;
 }
 
-void SurrogateSearch::tell(const std::vector<Look>& looks) {
+void SurrogateSearch::tell(const std::vector<Candidate>& looks) {
   Region& region = regions_[region_];
   const std::size_t before = looks_.size();
   looks_.insert(looks_.end(), looks.begin(), looks.end());
   pending_.clear();
   if (rehearse_) rehearse_looks(looks);
   if (picks_ == 0 || before == 0) return;
-  const std::vector<Look> now = by_weight(region.weight);
+  const std::vector<Candidate> now = by_weight(region.weight);
   const auto old_end = now.begin() + static_cast<std::ptrdiff_t>(before);
-  const Look& old = *std::min_element(now.begin(), old_end, better);
-  const bool hit = std::any_of(old_end, now.end(), [&](const Look& look) { return better(look, old); });
+  const Candidate& old = *std::min_element(now.begin(), old_end, better);
+  const bool hit = std::any_of(old_end, now.end(), [&](const Candidate& look) { return better(look, old); });
   region.hits = hit ? region.hits + 1 : 0;
   region.misses = hit ? 0 : region.misses + static_cast<int>(looks.size());
   if (region.hits == hits_to_widen) {

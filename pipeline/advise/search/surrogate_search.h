@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/advise/search/look_models.h"
+#include "pipeline/advise/search/candidate_models.h"
 #include "pipeline/advise/search/minimise.h"
 #include "pipeline/advise/search/search.h"
 #include "pipeline/base/random.h"
@@ -25,10 +25,10 @@ class SurrogateSearch : public Search {
   SurrogateSearch(Eigen::Index variables, const SurrogateSettings& settings, Screen screen,
                   Rehearse rehearse = {});
   std::vector<Eigen::VectorXd> ask(int count) override;
-  void tell(const std::vector<Look>& looks) override;
+  void tell(const std::vector<Candidate>& looks) override;
 
   /// In their order, without objectives.
-  const std::vector<Look>& rehearsals() const { return rehearsals_; }
+  const std::vector<Candidate>& rehearsals() const { return rehearsals_; }
 
  private:
   /// A trust region (Q2) about the best candidate for one weight of two objectives. One objective: one region.
@@ -45,35 +45,35 @@ class SurrogateSearch : public Search {
 
   Eigen::VectorXd first_look();
   double distance_to_known(const Eigen::VectorXd& place) const;
-  LookModels models_of(const std::vector<Look>& looks, std::size_t first = 0);
-  std::vector<Eigen::VectorXd> ranked(const LookModels& models, const Eigen::VectorXd& best, double width,
-                                      const Trust& trust);
-  std::vector<Eigen::VectorXd> promising(const LookModels& models) const;
-  std::optional<Eigen::VectorXd> spread_look(const LookModels& models) const;
-  Eigen::VectorXd rehearsed_pick(LookModels& models, const std::vector<Eigen::VectorXd>& by_merit,
+  CandidateModels models_of(const std::vector<Candidate>& looks, std::size_t first = 0);
+  std::vector<Eigen::VectorXd> ranked(const CandidateModels& models, const Eigen::VectorXd& best,
+                                      double width, const Trust& trust);
+  std::vector<Eigen::VectorXd> promising(const CandidateModels& models) const;
+  std::optional<Eigen::VectorXd> spread_look(const CandidateModels& models) const;
+  Eigen::VectorXd rehearsed_pick(CandidateModels& models, const std::vector<Eigen::VectorXd>& by_merit,
                                  const Trust& trust);
-  Eigen::VectorXd nearest_rehearsal(const LookModels& models, std::size_t first = 0) const;
-  std::vector<Look> rehearsals_from(std::size_t first) const;
+  Eigen::VectorXd nearest_rehearsal(const CandidateModels& models, std::size_t first = 0) const;
+  std::vector<Candidate> rehearsals_from(std::size_t first) const;
   void rehearse_spread(int count);
-  std::vector<Eigen::VectorXd> next_rehearsals(LookModels& models, const Eigen::VectorXd& centre,
+  std::vector<Eigen::VectorXd> next_rehearsals(CandidateModels& models, const Eigen::VectorXd& centre,
                                                std::size_t count);
   void rehearse_ahead(int wanted);
   bool is_hopeless() const;
-  void rehearse_looks(const std::vector<Look>& looks);
+  void rehearse_looks(const std::vector<Candidate>& looks);
   void rehearse(const std::vector<Eigen::VectorXd>& places);
   std::vector<Eigen::VectorXd> candidates(const SearchBox& box, const Eigen::VectorXd& centre, double share);
   Eigen::VectorXd allowed(const std::vector<Eigen::VectorXd>& by_merit);
   bool is_known(const Eigen::VectorXd& place) const;
   bool is_rehearsed(const Eigen::VectorXd& place) const;
-  std::vector<Look> by_weight(double weight) const;
+  std::vector<Candidate> by_weight(double weight) const;
 
   Eigen::Index variables_;
   SurrogateSettings settings_;
   Screen screen_;
   Rehearse rehearse_;
   RandomNumbers numbers_;
-  std::vector<Look> looks_;  // results received
-  std::vector<Look> rehearsals_;
+  std::vector<Candidate> looks_;  // results received
+  std::vector<Candidate> rehearsals_;
   std::vector<Eigen::VectorXd> pending_;        // candidates without results
   std::vector<GaussianProcess::Shape> shapes_;  // of the models, the last found
   std::size_t shapes_of_looks_ = 0;             // number of looks that the shapes were fitted to

@@ -22,7 +22,7 @@ extern const LooseKernels set;
 
 namespace {
 
-const LooseKernels& kernels_for(InstructionSet instructions) {
+const LooseKernels& kernels_for([[maybe_unused]] InstructionSet instructions) {
 #ifdef DRESSLIFE_WIDE_KERNELS
   if (instructions == InstructionSet::avx512) return avx512_loose::set;
   if (instructions == InstructionSet::avx2) return avx2_loose::set;

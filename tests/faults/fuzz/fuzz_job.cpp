@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   // Read outside the try block: an echo that is refused is our fault.
   const Job again = job_from(parse_yaml(echo, "job.yaml"));
   if (job_text(again) != echo) std::abort();
-  for (const Part part : {Part::sim, Part::strain, Part::fatigue}) part_text(again, part);
+  for (const JobPart part : {JobPart::sim, JobPart::strain, JobPart::fatigue}) part_text(again, part);
   files_beside(again);
   return 0;
 }

@@ -19,7 +19,7 @@ struct State {
 
 /// The glued component at the end of the nesting of levels, in the deformed and the undeformed construction.
 struct Nested {
-  Rod<double> now, rest;
+  ComponentState<double> now, rest;
   double strain() const { return now.stretch.at[0] / rest.stretch.at[0] - 1; }
 };
 
@@ -105,7 +105,7 @@ TEST_CASE("a fibre on a wire's surface agrees with a curve in space") {
     const double r = static_cast<double>(levels.back().radius) * random.between(0.1, 0.5);
     const double phi = random.between(0, 2 * std::numbers::pi);
     levels.push_back({r, 0, phi});
-    const auto length = [&](const space_curve::Curves& curve, const Rod<double>& rod) {
+    const auto length = [&](const space_curve::Curves& curve, const ComponentState<double>& rod) {
       const auto path = curve.stretch_of_last(), winding = static_cast<long double>(r * rod.twist.at[0]);
       return std::sqrt(path * path - winding * winding);
     };
@@ -201,7 +201,7 @@ TEST_CASE("the last level's values are those of the full recursion") {
     for (const Kinematics kinematics : {Kinematics::exact, Kinematics::thesis}) {
       const Nested parent = nest(state, {levels[0], levels[1]}, kinematics),
                    wire = nest(state, levels, kinematics);
-      Rod<double> at_order_one = parent.now;
+      ComponentState<double> at_order_one = parent.now;
       REQUIRE(parent.now.stretch.order >= (kinematics == Kinematics::exact ? 1 : 0));
       const auto values = wire_state(
           at_order_one, make_placement(kinematics, levels[2].radius, levels[2].lay_angle, levels[2].phase));

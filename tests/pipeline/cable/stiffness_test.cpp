@@ -173,15 +173,15 @@ TEST_CASE("stiffness: a job takes it, tells it in words, and simulates by the nu
   CHECK_THAT(job_text(taken), Contains("bending_stiffness_Nm2: from_construction"));
   const Job again = job_from(parse_yaml(job_text(taken), "job.yaml"));
   CHECK(again.dresspacks[0].dresspack.bending_stiffness == dresspack.bending_stiffness);
-  CHECK(part_text(again, Part::sim) == part_text(taken, Part::sim));
+  CHECK(part_text(again, JobPart::sim) == part_text(taken, JobPart::sim));
   const Job sliding = job_with({words, wall, profile, "dresspack.construction_state=sliding"});
   const Job number = job_with({fmt::format("dresspack.bending_stiffness_Nm2={:.17g}",
                                            sliding.dresspacks[0].dresspack.bending_stiffness),
                                wall, profile});
-  CHECK(part_text(number, Part::sim) == part_text(sliding, Part::sim));
-  CHECK(part_text(number, Part::sim) != part_text(taken, Part::sim));  // which bends with friction, too
-  CHECK(part_text(job_with({words, wall, profile, "dresspack.construction_state=stuck"}), Part::sim) !=
-        part_text(taken, Part::sim));
+  CHECK(part_text(number, JobPart::sim) == part_text(sliding, JobPart::sim));
+  CHECK(part_text(number, JobPart::sim) != part_text(taken, JobPart::sim));  // which bends with friction, too
+  CHECK(part_text(job_with({words, wall, profile, "dresspack.construction_state=stuck"}), JobPart::sim) !=
+        part_text(taken, JobPart::sim));
   CHECK_THAT(stiffness_text(dresspack), Contains("E I 1.") &&
                                             Contains("N m2 from construction (friction at 1 1/m)") &&
                                             Contains("G J 4 N m2 given"));
@@ -231,8 +231,9 @@ TEST_CASE("stiffness: a hose from its construction keeps its secant, and its lin
   CHECK(elastic_bending_stiffness(dresspack) == Approx(sliding).epsilon(0.01));
   const Job again = job_from(parse_yaml(job_text(job), "job.yaml"));
   CHECK(job_text(again) == job_text(job));
-  CHECK(part_text(again, Part::sim) == part_text(job, Part::sim));
-  CHECK_THAT(part_text(job, Part::sim), Contains("bending_friction") && Contains("construction_curvature"));
+  CHECK(part_text(again, JobPart::sim) == part_text(job, JobPart::sim));
+  CHECK_THAT(part_text(job, JobPart::sim),
+             Contains("bending_friction") && Contains("construction_curvature"));
   CHECK(job_with({words, loss, "dresspack.construction_state=sliding"}).dresspacks[0].dresspack.bending_friction.empty());
   const std::string list = "dresspack.bending_friction=[{stiffness_Nm2: 3, slides_at_1_per_m: 0.1}]";
   const Job given = job_with({"dresspack.bending_stiffness_Nm2=2", list});

@@ -20,22 +20,22 @@ std::vector<std::string> labels(const std::vector<Tick>& ticks) {
 using Words = std::vector<std::string>;
 
 TEST_CASE("plot: linear ticks stand at round values") {
-  CHECK(labels(Axis{"", 0, 1}.ticks(5)) == Words{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"});
-  CHECK(labels(Axis{"", 0, 180}.ticks(9)) ==
+  CHECK(labels(PlotAxis{"", 0, 1}.ticks(5)) == Words{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"});
+  CHECK(labels(PlotAxis{"", 0, 180}.ticks(9)) ==
         Words{"0", "20", "40", "60", "80", "100", "120", "140", "160", "180"});
-  CHECK(labels(Axis{"", 0, 40000}.ticks(4)) == Words{"0", "10,000", "20,000", "30,000", "40,000"});
-  CHECK(labels(Axis{"", -0.003, 0.0025}.ticks(6)) ==
+  CHECK(labels(PlotAxis{"", 0, 40000}.ticks(4)) == Words{"0", "10,000", "20,000", "30,000", "40,000"});
+  CHECK(labels(PlotAxis{"", -0.003, 0.0025}.ticks(6)) ==
         Words{"-0.003", "-0.002", "-0.001", "0.000", "0.001", "0.002"});
-  CHECK(labels(Axis{"", 0, 1.5e-5}.ticks(4)) == Words{"0", "0.5·10⁻⁵", "1.0·10⁻⁵", "1.5·10⁻⁵"});
-  CHECK(labels(Axis{"", 0, 3e7}.ticks(3)) == Words{"0", "1·10⁷", "2·10⁷", "3·10⁷"});
-  CHECK(labels(Axis{"", 3.1, 3.9}.ticks(3)) == Words{"3.5"});
+  CHECK(labels(PlotAxis{"", 0, 1.5e-5}.ticks(4)) == Words{"0", "0.5·10⁻⁵", "1.0·10⁻⁵", "1.5·10⁻⁵"});
+  CHECK(labels(PlotAxis{"", 0, 3e7}.ticks(3)) == Words{"0", "1·10⁷", "2·10⁷", "3·10⁷"});
+  CHECK(labels(PlotAxis{"", 3.1, 3.9}.ticks(3)) == Words{"3.5"});
 }
 
 TEST_CASE("plot: logarithmic ticks are decades, with 2 and 5 between them where there is room") {
-  CHECK(labels(Axis{"", 1, 1e4, true}.ticks(8)) == Words{"1", "10", "100", "1,000", "10,000"});
-  CHECK(labels(Axis{"", 0.02, 1, true}.ticks(8)) == Words{"0.02", "0.05", "0.1", "0.2", "0.5", "1"});
-  CHECK(labels(Axis{"", 1e-12, 1e-6, true}.ticks(3)) == Words{"10⁻¹²", "10⁻¹⁰", "10⁻⁸", "10⁻⁶"});
-  CHECK(labels(Axis{"", 2e-6, 6e-6, true}.ticks(3)) == Words{"2·10⁻⁶", "5·10⁻⁶"});
+  CHECK(labels(PlotAxis{"", 1, 1e4, true}.ticks(8)) == Words{"1", "10", "100", "1,000", "10,000"});
+  CHECK(labels(PlotAxis{"", 0.02, 1, true}.ticks(8)) == Words{"0.02", "0.05", "0.1", "0.2", "0.5", "1"});
+  CHECK(labels(PlotAxis{"", 1e-12, 1e-6, true}.ticks(3)) == Words{"10⁻¹²", "10⁻¹⁰", "10⁻⁸", "10⁻⁶"});
+  CHECK(labels(PlotAxis{"", 2e-6, 6e-6, true}.ticks(3)) == Words{"2·10⁻⁶", "5·10⁻⁶"});
   CHECK(power_of_ten(12) == "10¹²");
   CHECK(power_of_ten(-305) == "10⁻³⁰⁵");
 }
@@ -46,12 +46,12 @@ TEST_CASE("plot: ranges that a double cannot divide have no ticks, and end") {
   for (const auto& [low, high] : std::vector<std::pair<double, double>>{
            {0, 0}, {1, 1}, {nan, 1}, {0, nan}, {-1e308, 1e308}, {0, inf}, {1e9, 1e9 * (1 + 1e-15)}, {1, 0}}) {
     INFO(low << " .. " << high);
-    CHECK(Axis{"", low, high}.ticks(6).empty());
+    CHECK(PlotAxis{"", low, high}.ticks(6).empty());
   }
   for (const auto& [low, high] :
        std::vector<std::pair<double, double>>{{0, 1}, {-1, 1}, {nan, 1}, {1, inf}}) {
     INFO(low << " .. " << high);
-    CHECK(Axis{"", low, high, true}.ticks(6).empty());
+    CHECK(PlotAxis{"", low, high, true}.ticks(6).empty());
   }
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("plot: axes made for values hold them and end at ticks") {
   for (int trial = 0; trial < 2000; ++trial) {
     const double scale = std::pow(10, 8 * uniform(random)), a = scale * uniform(random),
                  b = a + scale * std::abs(uniform(random));
-    const Axis axis = linear_axis("", a, b);
+    const PlotAxis axis = linear_axis("", a, b);
     const double rounding = 1e-9 * (axis.high - axis.low);
     CHECK(axis.low <= a + rounding);
     CHECK(axis.high >= b - rounding);
@@ -82,8 +82,8 @@ TEST_CASE("plot: labels along an axis never overlap") {
   std::uniform_real_distribution<double> uniform(0, 1);
   for (int trial = 0; trial < 3000; ++trial) {
     const double scale = std::pow(10, 14 * uniform(random) - 7);
-    Axis axis = linear_axis("", scale * (uniform(random) - 0.5), scale);
-    if (trial % 2) axis = Axis{"", scale, scale * std::pow(10, 0.5 + 12 * uniform(random)), true};
+    PlotAxis axis = linear_axis("", scale * (uniform(random) - 0.5), scale);
+    if (trial % 2) axis = PlotAxis{"", scale, scale * std::pow(10, 0.5 + 12 * uniform(random)), true};
     const Panel panel{0, 0, 300 + 600 * uniform(random), 100, axis, {}};
     double last_end = -INFINITY;
     for (const Tick& tick : axis.ticks(static_cast<int>(panel.width / 90))) {

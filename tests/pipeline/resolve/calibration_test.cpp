@@ -60,10 +60,10 @@ TEST_CASE("calibration: the keys of a job that names one go to its medians") {
   const Job again = job_from(parse_yaml(job_text(job), "elsewhere.yaml"));
   CHECK(job_text(again) == job_text(job));
   CHECK(again.fatigue.strength_factor == job.fatigue.strength_factor);
-  const std::string before = part_text(job, Part::fatigue), sim = part_text(job, Part::sim);
+  const std::string before = part_text(job, JobPart::fatigue), sim = part_text(job, JobPart::sim);
   scratch.write("learned.yaml", replaced(two_learned(), "0.25", "0.26"));
-  CHECK(part_text(read_job(file), Part::fatigue) != before);
-  CHECK(part_text(read_job(file), Part::sim) == sim);
+  CHECK(part_text(read_job(file), JobPart::fatigue) != before);
+  CHECK(part_text(read_job(file), JobPart::sim) == sim);
 }
 
 TEST_CASE("calibration: draws are its own, of what it does not know the prior's") {

@@ -19,9 +19,9 @@ namespace {
 constexpr double straight = std::numeric_limits<double>::infinity();
 constexpr double pi = std::numbers::pi;
 
-int count_of(const std::vector<Ring>& rings) {
+int count_of(const std::vector<CoreRing>& rings) {
   int count = 0;
-  for (const Ring& ring : rings) count += ring.count;
+  for (const CoreRing& ring : rings) count += ring.count;
   return count;
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("no two parts of a bundle overlap, whatever their number and lay") {
         const auto rings = packed(count, 1, lay_length, fillers, {});
         CHECK(count_of(rings) == count);
         double inner = -1;
-        for (const Ring& ring : rings) {
+        for (const CoreRing& ring : rings) {
           CHECK(ring.radius >= inner + 1 - 1e-9);
           if (ring.count > 1) CHECK(neighbour_distance(ring.radius, ring.lay_angle, ring.count) >= 1 - 1e-8);
           if (!std::isinf(lay_length))

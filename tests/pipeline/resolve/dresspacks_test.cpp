@@ -71,7 +71,7 @@ TEST_CASE("dresspacks: the settings read back to the same job, for every stage")
     const std::string echo = job_text(job);
     const Job again = job_from(parse_yaml(echo, "echo"));
     CHECK(job_text(again) == echo);
-    for (const Part part : {Part::sim, Part::strain, Part::fatigue})
+    for (const JobPart part : {JobPart::sim, JobPart::strain, JobPart::fatigue})
       CHECK(part_text(again, part) == part_text(job, part));
   }
 }
@@ -81,14 +81,14 @@ TEST_CASE("dresspacks: two keys of the job are written as two keys, a list as a 
   CHECK(name_among(one, 0).empty());
   CHECK(name_among(list, 0).empty());  // the only one needs no name among others
   CHECK(dresspack_words(list, 0) == "dresspack");
-  for (const std::string& text : {job_text(one), part_text(one, Part::sim)}) {
+  for (const std::string& text : {job_text(one), part_text(one, JobPart::sim)}) {
     CHECK(text.find("\ndresspack:\n") != std::string::npos);
     CHECK(text.find("\nrouting:\n") != std::string::npos);
     CHECK(text.find("dresspacks") == std::string::npos);
   }
-  CHECK(part_text(one, Part::strain).starts_with("components:\n"));
-  CHECK(part_text(one, Part::fatigue).starts_with("materials:\n"));
-  for (const std::string& text : {job_text(list), part_text(list, Part::sim)})
+  CHECK(part_text(one, JobPart::strain).starts_with("components:\n"));
+  CHECK(part_text(one, JobPart::fatigue).starts_with("materials:\n"));
+  for (const std::string& text : {job_text(list), part_text(list, JobPart::sim)})
     CHECK(text.find("\ndresspacks:\n") != std::string::npos);
   CHECK(job_text(list).find("\nrouting:\n") == std::string::npos);
 }

@@ -318,9 +318,9 @@ TEST_CASE("job: a sleeve has a material with wear rates, which wires and the hos
   CHECK(find_material(dresspack, "polyurethane")->wear[0].rate == Approx(3e-14));  // 3e-5 mm3/(N m)
   CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
   const Job other = job_of_text(with("  sleeve: {thickness_mm: 3, material: polyurethane}\n"));
-  CHECK(part_text(job, Part::sim) == part_text(other, Part::sim));
-  CHECK(part_text(job, Part::strain) == part_text(other, Part::strain));
-  CHECK(part_text(job, Part::fatigue) != part_text(other, Part::fatigue));
+  CHECK(part_text(job, JobPart::sim) == part_text(other, JobPart::sim));
+  CHECK(part_text(job, JobPart::strain) == part_text(other, JobPart::strain));
+  CHECK(part_text(job, JobPart::fatigue) != part_text(other, JobPart::fatigue));
   const auto refused = [&](const std::string& keys, const std::string& words, const std::vector<std::string>& sets = {}) {
     CHECK_THAT(message_of([&] { job_of_text(with(keys), sets); }), Catch::Contains(words));
   };
@@ -344,8 +344,8 @@ TEST_CASE("job: the hose's wall has a material of its own and a factor or a prof
   CHECK(job.dresspacks[0].dresspack.hose_corrugation->height == Approx(0.0035));
   CHECK_FALSE(job.dresspacks[0].dresspack.hose_strain_factor);
   CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
-  CHECK(part_text(job, Part::strain) != part_text(job_of_text(with(bore)), Part::strain));
-  CHECK(part_text(job, Part::sim) == part_text(job_of_text(with(bore)), Part::sim));
+  CHECK(part_text(job, JobPart::strain) != part_text(job_of_text(with(bore)), JobPart::strain));
+  CHECK(part_text(job, JobPart::sim) == part_text(job_of_text(with(bore)), JobPart::sim));
 
   CHECK(is_hose_wall(job.dresspacks[0].dresspack, "hose 1"));
   CHECK(is_hose_wall(job.dresspacks[0].dresspack, "hose 16"));
@@ -466,8 +466,8 @@ TEST_CASE("job: clamp poses make robot and clamps needless, and a given clamp wr
 TEST_CASE("job: each stage depends on its own part of the job only") {
   const Job job = job_of_text(sample_job);
   const auto parts = [](const Job& of) {
-    return std::vector<std::string>{part_text(of, Part::sim), part_text(of, Part::strain),
-                                    part_text(of, Part::fatigue)};
+    return std::vector<std::string>{part_text(of, JobPart::sim), part_text(of, JobPart::strain),
+                                    part_text(of, JobPart::fatigue)};
   };
   const std::vector<std::string> before = parts(job);
   const auto changed = [&](const std::string& set) {
@@ -494,7 +494,8 @@ TEST_CASE(
     sets.push_back("dresspack.materials=[{name: copper, source: s, youngs_modulus_GPa: " + modulus + ", " +
                    constants + curve + "}]");
     const Job job = job_of_text(sample_job, sets);
-    return std::array{part_text(job, Part::strain), part_text(job, Part::fatigue), part_text(job, Part::sim)};
+    return std::array{part_text(job, JobPart::strain), part_text(job, JobPart::fatigue),
+                      part_text(job, JobPart::sim)};
   };
   const std::string one =
       "fatigue_strength_MPa: 400, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "

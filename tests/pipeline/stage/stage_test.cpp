@@ -216,7 +216,7 @@ TEST_CASE("stage: settings come from the input's job, from --job and --set, and 
   call.input = job_file;
   write_stamped(scratch / "in.h5", call, read_job(job_file), "");
   const FileReader input(scratch / "in.h5", small_format());
-  const std::vector<Part> before{Part::sim, Part::strain};
+  const std::vector<JobPart> before{JobPart::sim, JobPart::strain};
 
   StageCall later;
   later.info = info;
@@ -238,7 +238,7 @@ TEST_CASE("stage: settings come from the input's job, from --job and --set, and 
   CHECK(message_of([&] {
           job_of(later, input, before);
         }).find("other settings of dresspack.components or strain than") != std::string::npos);
-  CHECK(job_of(later, input, {Part::sim}).strain.gate == 0.01);
+  CHECK(job_of(later, input, {JobPart::sim}).strain.gate == 0.01);
 }
 
 TEST_CASE("stage: progress stays off what is no terminal, notes do not unless quiet") {

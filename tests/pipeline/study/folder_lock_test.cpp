@@ -15,7 +15,7 @@ TEST_CASE(
   { const FolderLock alone(folder); }
   const std::string first = read_text(folder / ".lock");
   CHECK(std::stol(first) == ::getpid());
-  { const FolderLock shard(folder, FolderLock::Held::with_shards); }
+  { const FolderLock shard(folder, FolderLock::Mode::with_shards); }
   const std::string second = read_text(folder / ".lock");
   CHECK(second.find_first_not_of(" \n") == std::string::npos);  // one of several
   CHECK(second.size() == first.size());

@@ -29,14 +29,14 @@ class Bench {
   }
   /// As `dresslife run` does. Returns how many stages ran.
   int run() {
-    Standing standing = expanded(request_);
+    StudyState standing = expanded(request_);
     write_build_graph(standing.study, standing.places, standing.states);
     remember(request_, standing);
     const BuildResult built = run_build_graph(standing.places, 2, {});
     close_run(standing.study, standing.places, built, standing.states);
     return built.executed;
   }
-  Standing standing() const { return standing_of(request_); }
+  StudyState standing() const { return standing_of(request_); }
   StudyRequest& request() { return request_; }
   const Scratch& scratch() const { return scratch_; }
 
@@ -45,7 +45,7 @@ class Bench {
   StudyRequest request_;
 };
 
-void check_same(const Standing& one, const Standing& other) {
+void check_same(const StudyState& one, const StudyState& other) {
   CHECK(one.study.name == other.study.name);
   REQUIRE(one.states.size() == other.states.size());
   for (std::size_t k = 0; k < one.states.size(); ++k) {
@@ -63,12 +63,12 @@ TEST_CASE("known study: what is remembered is what the study expands to, and how
   Bench bench;
   CHECK_FALSE(bench.standing().remembered);  // before the first run
   CHECK(bench.run() == 6);
-  const Standing known = bench.standing();
+  const StudyState known = bench.standing();
   REQUIRE(known.remembered);
   CHECK(known.all_done());
   check_same(known, expanded(bench.request()));
   fs::remove(known.places.life(known.study.jobs[1].name));
-  const Standing broken = bench.standing();
+  const StudyState broken = bench.standing();
   CHECK(broken.remembered);
   CHECK_FALSE(broken.all_done());
   check_same(broken, expanded(bench.request()));
@@ -88,7 +88,7 @@ TEST_CASE("known study: a touched file changes nothing, a changed one all that d
   scratch.write(files[2],
                 "from: copper\nname: own\nwalker_exponent: 0.4\n");  // no force of a cable depends on it
   fs::last_write_time(scratch / files[2], before);
-  const Standing changed = bench.standing();
+  const StudyState changed = bench.standing();
   CHECK_FALSE(changed.remembered);
   for (const JobState& state : changed.states) CHECK(state.next == 2);
   CHECK(bench.run() == 2);
@@ -133,7 +133,7 @@ TEST_CASE("known study: nothing is remembered of what could expand to something 
 TEST_CASE("known study: receipts tell what the life files say, bit by bit") {
   Bench bench;
   bench.run();
-  const Standing known = bench.standing();
+  const StudyState known = bench.standing();
   std::vector<RankingRow> by_receipts = ranking_of(known.study, known.places, known.states);
   std::vector<JobState> untold = known.states;
   for (JobState& state : untold) state.told.clear();

@@ -9,8 +9,8 @@ namespace dresslife::pipeline {
 namespace {
 
 /// Jobs of which every third has the same simulation; the last cannot be run.
-Standing standing_of_jobs(std::size_t count) {
-  Standing standing;
+StudyState standing_of_jobs(std::size_t count) {
+  StudyState standing;
   standing.study.name = "study";
   standing.study.keep = Keep::lives;
   for (std::size_t k = 0; k < count; ++k) {
@@ -28,7 +28,7 @@ TEST_CASE("shards: together they have every job once, whatever is done, with lik
       std::set<std::string> seen;
       std::size_t sum = 0, simulations = 0, most = 0;
       for (int index = 1; index <= count; ++index) {
-        Standing standing = standing_of_jobs(jobs);
+        StudyState standing = standing_of_jobs(jobs);
         if (index % 2 == 0) standing.states[0].next = stage_count;
         keep_shard(standing, {index, count});
         CHECK(standing.places.shard == fmt::format("{}_of_{}", index, count));
@@ -54,7 +54,7 @@ TEST_CASE("shards: as many as keep each within what may be started, of the jobs 
   CHECK(shards_needed(standing_of_jobs(11), 30) == 1);
   CHECK(shards_needed(standing_of_jobs(12), 30) == 2);
   CHECK(shards_needed(standing_of_jobs(11), 3) == 10);
-  Standing mostly_done = standing_of_jobs(101);
+  StudyState mostly_done = standing_of_jobs(101);
   for (std::size_t k = 0; k < 90; ++k) mostly_done.states[k].next = stage_count;
   CHECK(shards_needed(mostly_done, 30) == 1);
 }

@@ -126,7 +126,7 @@ TEST_CASE("an axis above a plate of many triangles meets it straight below and n
   const Mesh mesh(plate);
   const auto touching = mesh.near({-0.0213, 0.003, 0.03}, {0.0277, 0.011, 0.03}, 0.06);
   CHECK(touching.size() >= 2);  // both ends, at least
-  for (const Mesh::Touching& at : touching) {
+  for (const Mesh::MeshContact& at : touching) {
     CHECK((at.normal - Vector3::UnitZ()).norm() < 1e-9);
     CHECK(at.distance == Approx(0.03));
   }
@@ -135,7 +135,7 @@ TEST_CASE("an axis above a plate of many triangles meets it straight below and n
   for (const Triangle& t : box_triangles({{0, 0, -0.2}, Quaternion::Identity()}, {1, 1, 0.2}))
     groove.push_back(t);
   int down = 0, side = 0;
-  for (const Mesh::Touching& at : Mesh(groove).near({0.07, -0.02, -0.071}, {0.07, 0.02, -0.071}, 0.04)) {
+  for (const Mesh::MeshContact& at : Mesh(groove).near({0.07, -0.02, -0.071}, {0.07, 0.02, -0.071}, 0.04)) {
     down += at.normal.z() > 0.999;
     side += at.normal.x() < -0.999;
   }

@@ -33,7 +33,7 @@ struct Pulled {
 /// through it by 0.5 m: the pull at its other end, mean and ripple (largest less smallest over the mean).
 Pulled draw_through(double friction, double bend, int segments, double speed, double damping_time) {
   const double h = 0.002;
-  Slider unit;
+  SlidingClamp unit;
   unit.force = unit_force, unit.stroke = 0.7, unit.mass = 0.5, unit.damping = 20;
   RodProperties p = thin_hose(segments, 2, damping_time);
   p.slider = unit;

@@ -7,7 +7,7 @@ using namespace dresslife::sim::test;
 
 namespace {
 
-RodProperties pulled_hose(int segments, const Slider& slider) {
+RodProperties pulled_hose(int segments, const SlidingClamp& slider) {
   RodProperties p;
   p.segments = segments;
   p.length = 1.2;
@@ -52,7 +52,7 @@ RodState pull(const Rod& rod, double to, double h, double until,
 }  // namespace
 
 TEST_CASE("a retraction unit comes to rest where its spring balances the hose") {
-  Slider slider;
+  SlidingClamp slider;
   slider.force = 20, slider.spring = 100, slider.stroke = 0.5, slider.damping = 40;
   const Rod rod(pulled_hose(30, slider));
   const RodState state = pull(rod, 1.4, 0.005, 20, {});
@@ -65,7 +65,7 @@ TEST_CASE("a retraction unit comes to rest where its spring balances the hose") 
 }
 
 TEST_CASE("a retraction unit stays between its stops and reports when they hold it") {
-  Slider slider;
+  SlidingClamp slider;
   slider.stroke = 0.1, slider.force = 15, slider.damping = 10;
   const Rod rod(pulled_hose(30, slider));
   const auto within = [&](const RodState& s, double) {
@@ -83,7 +83,7 @@ TEST_CASE("a retraction unit stays between its stops and reports when they hold 
 }
 
 TEST_CASE("friction holds the sliding clamp up to its limit and takes energy when it slides") {
-  Slider slider;
+  SlidingClamp slider;
   slider.stroke = 0.5, slider.force = 20, slider.friction = 8;
   const Rod rod(pulled_hose(30, slider));
   double before = -1;
@@ -106,7 +106,7 @@ TEST_CASE("friction holds the sliding clamp up to its limit and takes energy whe
 
 TEST_CASE("a mass on a hose below a sliding clamp swings up and down as on a spring") {
   // m + M + hose on the spring alone: the hose hardly stretches.
-  Slider slider;
+  SlidingClamp slider;
   slider.mass = 2, slider.spring = 400, slider.stroke = 1;
   RodProperties p = unit_rod(10);
   p.tool_end = End::free;
@@ -140,7 +140,7 @@ TEST_CASE("a mass on a hose below a sliding clamp swings up and down as on a spr
 }
 
 TEST_CASE("a sliding clamp leaves the motion of second order in the step and feeds it no energy") {
-  Slider slider;
+  SlidingClamp slider;
   slider.spring = 60, slider.stroke = 1, slider.mass = 3, slider.damping = 5;
   RodProperties p = pulled_hose(20, slider);
   const double way = 0.2;  // out, and balanced there: nothing jerks at the start, which no order describes

@@ -20,7 +20,7 @@ struct Problem {
   std::function<std::vector<double>(const VectorXd&)> beyond;
 
   VectorXd at(const VectorXd& place) const { return low + place.cwiseProduct(high - low); }
-  Look look(const VectorXd& place) const {
+  Candidate look(const VectorXd& place) const {
     const VectorXd x = at(place);
     return {place, true, {aim(x)}, beyond(x)};
   }
@@ -92,7 +92,7 @@ Problem springs() {
 }
 
 /// Its low-fidelity evaluation: the first three limits, with a small error.
-Look rehearsal_of(const Problem& problem, const VectorXd& place) {
+Candidate rehearsal_of(const Problem& problem, const VectorXd& place) {
   std::vector<double> beyond = problem.beyond(problem.at(place));
   for (std::size_t k = 0; k < 3; ++k) beyond[k] += 0.03 * std::cos(5 * place[static_cast<Eigen::Index>(k)]) - 0.05;
   beyond[3] = std::nan("");
@@ -100,7 +100,7 @@ Look rehearsal_of(const Problem& problem, const VectorXd& place) {
 }
 
 const Rehearse rehearse_springs = [](const std::vector<VectorXd>& places) {
-  std::vector<Look> told;
+  std::vector<Candidate> told;
   for (const VectorXd& place : places) told.push_back(rehearsal_of(springs(), place));
   return told;
 };
@@ -109,10 +109,10 @@ const Screen nothing_rejected = [](const std::vector<VectorXd>& places) {
   return std::vector<double>(places.size(), 0.0);
 };
 
-std::vector<Look> searched(Search& search, const Problem& problem, int looks, int at_a_time) {
-  std::vector<Look> all;
+std::vector<Candidate> searched(Search& search, const Problem& problem, int looks, int at_a_time) {
+  std::vector<Candidate> all;
   while (static_cast<int>(all.size()) < looks) {
-    std::vector<Look> told;
+    std::vector<Candidate> told;
     for (const VectorXd& place : search.ask(at_a_time)) told.push_back(problem.look(place));
     search.tell(told);
     all.insert(all.end(), told.begin(), told.end());
@@ -120,7 +120,9 @@ std::vector<Look> searched(Search& search, const Problem& problem, int looks, in
   return all;
 }
 
-Look best_of(const std::vector<Look>& looks) { return *std::min_element(looks.begin(), looks.end(), better); }
+Candidate best_of(const std::vector<Candidate>& looks) {
+  return *std::min_element(looks.begin(), looks.end(), better);
+}
 
 SurrogateSearch surrogate(const Problem& problem, std::uint64_t seed) {
   SurrogateSettings settings;
@@ -134,7 +136,7 @@ double found_by_cobyla(const Problem& problem, const VectorXd& start, int evalua
   double best = HUGE_VAL;
   int count = 0;
   const auto seen = [&](const VectorXd& place) {
-    const Look look = problem.look(place);
+    const Candidate look = problem.look(place);
     constexpr double kept = 1e-6;
     if (++count <= evaluations && look.violation() <= kept) best = std::min(best, look.aims.front());
     return look;
@@ -163,8 +165,8 @@ TEST_CASE("the surrogate search ends where the best places of known problems are
   for (const Asked& asked : {Asked{tutorial(), 100, 1.7}, Asked{g24(), 100, 7}, Asked{g04(), 100, 7000}})
     for (const std::uint64_t seed : {1, 2, 3}) {
       SurrogateSearch search = surrogate(asked.problem, seed);
-      const std::vector<Look> looks = searched(search, asked.problem, asked.looks, 2);
-      const Look best = best_of(looks);
+      const std::vector<Candidate> looks = searched(search, asked.problem, asked.looks, 2);
+      const Candidate best = best_of(looks);
       INFO(asked.problem.name << ", seed " << seed);
       CHECK(best.feasible());
       CHECK(best.aims.front() >= asked.problem.least - share * asked.span);
@@ -180,9 +182,9 @@ TEST_CASE("with many valleys it mostly ends in the deepest, where chance does no
   int deepest = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SurrogateSearch search = surrogate(g08(), seed);
-    const Look best = best_of(searched(search, g08(), 100, 4));
+    const Candidate best = best_of(searched(search, g08(), 100, 4));
     RandomSearch chance(2, seed, nothing_rejected);
-    const Look by_chance = best_of(searched(chance, g08(), 100, 4));
+    const Candidate by_chance = best_of(searched(chance, g08(), 100, 4));
     INFO("seed " << seed);
     CHECK(best.feasible());
     CHECK((!by_chance.feasible() || by_chance.aims.front() > best.aims.front()));
@@ -195,11 +197,11 @@ TEST_CASE("looks that do not run lead to where they do") {
   // The tutorial's problem, of which only a part of the box can be evaluated: its best place lies at the part's edge.
   const Problem problem = tutorial();
   SurrogateSearch search = surrogate(problem, 1);
-  std::vector<Look> all;
+  std::vector<Candidate> all;
   while (all.size() < 80) {
-    std::vector<Look> told;
+    std::vector<Candidate> told;
     for (const VectorXd& place : search.ask(4)) {
-      Look look = problem.look(place);
+      Candidate look = problem.look(place);
       const double far = 0.5 - problem.at(place)[0];  // runs from x0 = 0.5 on
       if (far > 0) look = {place, false, {}, {far}};
       told.push_back(look);
@@ -207,7 +209,7 @@ TEST_CASE("looks that do not run lead to where they do") {
     search.tell(told);
     all.insert(all.end(), told.begin(), told.end());
   }
-  const Look best = best_of(all);
+  const Candidate best = best_of(all);
   REQUIRE(best.feasible());
   CHECK(best.aims.front() == Approx(1.0).margin(0.02));  // there x1 >= (2 x0)^3 = 1
 }
@@ -227,8 +229,9 @@ TEST_CASE("where a thousandth keeps all limits, rehearsals lead there within a f
     settings.seed = seed;
     SurrogateSearch search(6, settings, nothing_rejected, rehearse_springs);
     RandomSearch chance(6, seed, nothing_rejected);
-    const std::vector<Look> looks = searched(search, problem, 20, 4);
-    const auto first = std::find_if(looks.begin(), looks.end(), [](const Look& look) { return look.feasible(); });
+    const std::vector<Candidate> looks = searched(search, problem, 20, 4);
+    const auto first =
+        std::find_if(looks.begin(), looks.end(), [](const Candidate& look) { return look.feasible(); });
     CHECK(first - looks.begin() < 8);
     // At most the allowed number before the first candidate, and a few per candidate.
     CHECK(search.rehearsals().size() <= 150 + 20 * 12);
@@ -259,7 +262,7 @@ TEST_CASE("where a limit is the largest of many, its pieces lead to where it is 
   const auto rehearsals_until_one_is_within = [&](bool in_pieces, std::uint64_t seed) {
     int count = 0, first = 0;
     const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
-      std::vector<Look> told;
+      std::vector<Candidate> told;
       for (const VectorXd& place : places) {
         told.push_back({place, true, {}, {largest_at(place)}});
         if (in_pieces) told.back().pieces = {pieces_at(place)};
@@ -286,7 +289,7 @@ TEST_CASE("where a limit is the largest of many, its pieces lead to where it is 
 TEST_CASE("a search is a function of its seed and of what it is told") {
   const Problem problem = g24();
   SurrogateSearch whole = surrogate(problem, 7), first = surrogate(problem, 7);
-  const std::vector<Look> looks = searched(whole, problem, 40, 4);
+  const std::vector<Candidate> looks = searched(whole, problem, 40, 4);
   // One that is killed after five tellings and begun again from what was noted goes on as if nothing had been.
   SurrogateSearch again = surrogate(problem, 7);
   for (std::size_t k = 0; k < looks.size(); k += 4) {
@@ -301,7 +304,7 @@ TEST_CASE("a search is a function of its seed and of what it is told") {
 TEST_CASE("a search that rehearses goes on where it was killed, too") {
   SurrogateSettings settings;
   SurrogateSearch whole(6, settings, nothing_rejected, rehearse_springs), again(6, settings, nothing_rejected, rehearse_springs);
-  const std::vector<Look> looks = searched(whole, springs(), 12, 4);
+  const std::vector<Candidate> looks = searched(whole, springs(), 12, 4);
   for (std::size_t k = 0; k < looks.size(); k += 4) {
     const std::vector<VectorXd> places = again.ask(4);
     for (std::size_t j = 0; j < 4; ++j) CHECK(places[j] == looks[k + j].place);
@@ -316,7 +319,7 @@ TEST_CASE("of many rehearsals of which none keeps its limits the nearest are loo
     return 0.1 + std::abs(std::log(((place.array() - 0.2).abs().maxCoeff() + 0.05) / 0.3));
   };
   const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
-    std::vector<Look> told;
+    std::vector<Candidate> told;
     for (const VectorXd& place : places) told.push_back({place, true, {}, {beyond(place)}});
     return told;
   };
@@ -333,21 +336,21 @@ TEST_CASE("rehearsals that do not run, or tell nothing, do not lead astray") {
   const Problem problem = g24();
   const auto runs = [](const VectorXd& place) { return place[0] > 0.5; };
   const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
-    std::vector<Look> told;
+    std::vector<Candidate> told;
     for (const VectorXd& place : places)
       told.push_back({place, runs(place), {}, runs(place) ? std::vector<double>(2, std::nan("")) : std::vector<double>{0.5 - place[0]}});
     return told;
   };
   SurrogateSearch search(2, {}, nothing_rejected, rehearse);
-  std::vector<Look> all;
+  std::vector<Candidate> all;
   while (all.size() < 40) {
-    std::vector<Look> told;
+    std::vector<Candidate> told;
     for (const VectorXd& place : search.ask(4))
-      told.push_back(runs(place) ? problem.look(place) : Look{place, false, {}, {0.5 - place[0]}});
+      told.push_back(runs(place) ? problem.look(place) : Candidate{place, false, {}, {0.5 - place[0]}});
     search.tell(told);
     all.insert(all.end(), told.begin(), told.end());
   }
-  const Look best = best_of(all);
+  const Candidate best = best_of(all);
   CHECK(best.feasible());
   CHECK(best.aims.front() - problem.least < 0.05);  // its best place, x0 = 2.33, runs
 }
@@ -362,7 +365,7 @@ TEST_CASE("a search gives up after a third of its rehearsals where none runs or 
   };
   const auto all = [](bool run, double least) {
     return [run, least](const std::vector<VectorXd>& places) {
-      std::vector<Look> told;
+      std::vector<Candidate> told;
       for (const VectorXd& place : places) told.push_back({place, run, {}, {least + place[0]}});
       return told;
     };
@@ -387,21 +390,21 @@ TEST_CASE("places that are rejected beforehand are not asked for") {
   RandomSearch chance(2, 1, right_half);
   const Problem problem = g24();
   for (Search* of : {static_cast<Search*>(&search), static_cast<Search*>(&chance)})
-    for (const Look& look : searched(*of, problem, 40, 4)) CHECK(look.place[0] >= 0.5);
+    for (const Candidate& look : searched(*of, problem, 40, 4)) CHECK(look.place[0] >= 0.5);
 }
 
 TEST_CASE("two aims give the front between them") {
   // Distances from (0.2, 0.5) and (0.8, 0.5): the front is the line between, where they add up to 0.6.
   const auto look_at = [](const VectorXd& place) {
     const VectorXd a = vector_of({0.2, 0.5}), b = vector_of({0.8, 0.5});
-    return Look{place, true, {(place - a).norm(), (place - b).norm()}, {-1}};
+    return Candidate{place, true, {(place - a).norm(), (place - b).norm()}, {-1}};
   };
   SurrogateSettings settings;
   settings.aims = 2;
   SurrogateSearch search(2, settings, nothing_rejected);
-  std::vector<Look> all;
+  std::vector<Candidate> all;
   while (all.size() < 80) {
-    std::vector<Look> told;
+    std::vector<Candidate> told;
     for (const VectorXd& place : search.ask(4)) told.push_back(look_at(place));
     search.tell(told);
     all.insert(all.end(), told.begin(), told.end());
@@ -419,7 +422,7 @@ TEST_CASE("two aims give the front between them") {
 }
 
 TEST_CASE("what ran is better than what did not, what keeps its limits than what does not") {
-  const auto look = [](bool ran, double aim, double g) { return Look{vector_of({0}), ran, {aim}, {g}}; };
+  const auto look = [](bool ran, double aim, double g) { return Candidate{vector_of({0}), ran, {aim}, {g}}; };
   CHECK(better(look(true, 5, 1), look(false, 0, 0.1)));
   CHECK(better(look(true, 5, -1), look(true, 0, 0.1)));
   CHECK(better(look(true, 0, 0.1), look(true, 0, 0.2)));
@@ -436,10 +439,10 @@ TEST_CASE("functions of the same places are modelled as each by itself, with one
   const auto shape = GaussianProcess::likeliest_shape(points, values, GaussianProcess::usual_shape(2), 100);
   const GaussianProcess both(points, values, shape);
   for (const VectorXd& place : {vector_of({0.1, 0.8}), vector_of({0.5, 0.5}), vector_of({0.9, 0.9})}) {
-    const GaussianProcess::ToldOfEach told = both.of_each(place);
+    const GaussianProcess::Predictions told = both.of_each(place);
     for (Eigen::Index k = 0; k < 2; ++k) {
       const VectorXd own = values.col(k);
-      const GaussianProcess::Told alone = GaussianProcess(points, own, shape).at(place);
+      const GaussianProcess::Prediction alone = GaussianProcess(points, own, shape).at(place);
       CHECK(told.means[k] == Approx(alone.mean).epsilon(1e-12));
       CHECK(told.deviations[k] == Approx(alone.deviation).epsilon(1e-12).margin(1e-15));
     }

@@ -1,4 +1,4 @@
-// Bending moment of a stranded conductor under tension, M(curvature) with hysteresis (README W20): the slip
+// Bending moment of a stranded conductor under tension, M(curvature) with hysteresis (W20 of strain/theory.md): the slip
 // of W16 and W17 turned into a stiffness.
 //
 // Every wire feels R cos^2(alpha) kappa sin(theta) when glued; a slider at each angle holds of it what

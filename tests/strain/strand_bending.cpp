@@ -1,4 +1,4 @@
-#include "strain/strand_bending.h"
+#include "tests/strain/strand_bending.h"
 
 #include <cmath>
 #include <numbers>

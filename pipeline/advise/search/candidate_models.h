@@ -1,11 +1,11 @@
 // Surrogate models of the results so far: the objective, each constraint, and whether a candidate runs.
-// "Look" is a full evaluation, "rehearsal" a low-fidelity evaluation (a short run).
+// A result is of a full evaluation, a "rehearsal" of a low-fidelity evaluation (a short run).
 //
 // (Q5) A constraint that rehearsals compute is modelled in two parts, g(x) = r(x) + d(x): r from rehearsals near the
-//      centre of the search, d from the differences between looks and r. Both are independent Gaussian processes (Q4),
-//      so their variances add up (M. Kennedy and A. O'Hagan, Biometrika 87 (2000) 1, eq. 2 with rho = 1). r is known at
-//      rehearsed places. Before the first looks d has a standard deviation of about 0.1, in the units of the
-//      constraints. Other constraints and the objective are modelled from the looks alone.
+//      centre of the search, d from the differences between results and r. Both are independent Gaussian processes
+//      (Q4), so their variances add up (M. Kennedy and A. O'Hagan, Biometrika 87 (2000) 1, eq. 2 with rho = 1). r is
+//      known at rehearsed places. Before the first results d has a standard deviation of about 0.1, in the units of
+//      the constraints. Other constraints and the objective are modelled from the results alone.
 //
 // (Q7) If rehearsals give a constraint in pieces, each piece is modelled and r is the maximum. That has an edge
 //      where another piece takes over, which no smooth function follows; the pieces have none (composite Bayesian
@@ -24,14 +24,14 @@ namespace dresslife::pipeline {
 /// (Q3) sign(g) ln(1 + |g|). NaN stays NaN.
 double tamed(double g);
 
-class LookModels {
+class CandidateModels {
  public:
   using Shapes = std::vector<GaussianProcess::Shape>;
 
-  /// Precondition: at least one look or rehearsal ran. Of many rehearsals only the 250 nearest to `centre` count.
+  /// Precondition: at least one candidate or rehearsal ran. Of many rehearsals only the 250 nearest to `centre` count.
   /// shapes: shapes() of an earlier model; empty: default shapes.
-  LookModels(const std::vector<Look>& looks, const std::vector<Look>& rehearsals,
-             const Eigen::VectorXd& centre, Shapes shapes);
+  CandidateModels(const std::vector<Candidate>& looks, const std::vector<Candidate>& rehearsals,
+                  const Eigen::VectorXd& centre, Shapes shapes);
 
   /// Maximises the likelihood of the shapes.
   void fit();
@@ -40,22 +40,22 @@ class LookModels {
   /// Adds the expected result at the place, so that the next candidate lies elsewhere.
   void believe(const Eigen::VectorXd& place);
   void believe_rehearsal(const Eigen::VectorXd& place);
-  void learn(const std::vector<Look>& rehearsals);
+  void learn(const std::vector<Candidate>& rehearsals);
 
-  bool any_feasible() const { return any_feasible_; }  ///< whether a look is feasible
-  /// Whether the models contain a look or rehearsal at this place.
+  bool any_feasible() const { return any_feasible_; }  ///< whether a result is feasible
+  /// Whether the models contain a result or rehearsal at this place.
   bool holds(const Eigen::VectorXd& place) const;
   bool knows_aim() const { return aim_.model.has_value(); }
 
   /// (constraint that varies) mean + deviations x standard deviation, tamed. The last entry is <= 0 if it runs.
   Eigen::VectorXd beyond(const Eigen::VectorXd& place, double deviations) const;
   double excess(const Eigen::VectorXd& place, double deviations) const;  ///< sum of its positive entries
-  /// Objective: mean - deviations x standard deviation; 0 if no look ran.
+  /// Objective: mean - deviations x standard deviation; 0 if no candidate ran.
   double aim_at(const Eigen::VectorXd& place, double deviations) const;
 
  private:
   /// Data and model of a function, or of the pieces whose maximum it is.
-  struct Known {
+  struct FunctionModel {
     Eigen::MatrixXd places, values;  // (place, variable), (place, piece)
     std::optional<GaussianProcess> model{};
 
@@ -64,20 +64,20 @@ class LookModels {
     void build(const GaussianProcess::Shape& shape, const GaussianProcess::Scale& scale = {});
   };
   struct Limit {
-    Known rehearsed, looked;  // looked: values of g
-    Known difference{};
+    FunctionModel rehearsed, looked;  // looked: values of g
+    FunctionModel difference{};
     bool varies = false;
     /// Prediction of the piece with the largest bound.
-    GaussianProcess::Told at(const Eigen::VectorXd& place, double deviations) const;
+    GaussianProcess::Prediction at(const Eigen::VectorXd& place, double deviations) const;
   };
 
-  void add_rehearsal(const Look& rehearsal);
+  void add_rehearsal(const Candidate& rehearsal);
   void build_limits();
   void build_all();
 
   std::vector<Limit> limits_;
-  Known aim_, failed_;  // failed: -1: it ran; else 1 + the violation
-  Shapes shapes_;       // aim, failed, then rehearsed and difference of each limit
+  FunctionModel aim_, failed_;  // failed: -1: it ran; else 1 + the violation
+  Shapes shapes_;               // aim, failed, then rehearsed and difference of each limit
   bool any_failed_ = false, any_feasible_ = false;
 };
 

@@ -1,4 +1,4 @@
-#include "pipeline/advise/search/look_models.h"
+#include "pipeline/advise/search/candidate_models.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,16 +23,16 @@ constexpr GaussianProcess::Scale missed_by_rehearsals{0.1, 3};
 
 enum ShapeOf : std::size_t { of_aim, of_failure, of_limits };
 
-Shape& shape_of(LookModels::Shapes& shapes, std::size_t limit, bool difference) {
+Shape& shape_of(CandidateModels::Shapes& shapes, std::size_t limit, bool difference) {
   return shapes[of_limits + 2 * limit + (difference ? 1 : 0)];
 }
 
 /// Those at places of looks first, then the nearest to the centre.
-std::vector<const Look*> chosen(const std::vector<Look>& rehearsals, const std::vector<Look>& looks,
-                                const VectorXd& centre) {
-  std::vector<std::pair<double, const Look*>> some;
-  for (const Look& rehearsal : rehearsals) {
-    const auto is_here = [&](const Look& look) {
+std::vector<const Candidate*> chosen(const std::vector<Candidate>& rehearsals,
+                                     const std::vector<Candidate>& looks, const VectorXd& centre) {
+  std::vector<std::pair<double, const Candidate*>> some;
+  for (const Candidate& rehearsal : rehearsals) {
+    const auto is_here = [&](const Candidate& look) {
       return (look.place - rehearsal.place).cwiseAbs().maxCoeff() < same;
     };
     const bool looked_at = std::any_of(looks.begin(), looks.end(), is_here);
@@ -40,12 +40,12 @@ std::vector<const Look*> chosen(const std::vector<Look>& rehearsals, const std::
   }
   std::stable_sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   if (some.size() > most_rehearsals) some.resize(most_rehearsals);
-  std::vector<const Look*> of;
+  std::vector<const Candidate*> of;
   for (const auto& [distance, rehearsal] : some) of.push_back(rehearsal);
   return of;
 }
 
-VectorXd pieces_of(const Look& look, std::size_t limit) {
+VectorXd pieces_of(const Candidate& look, std::size_t limit) {
   if (limit >= look.pieces.size() || look.pieces[limit].empty())
     return VectorXd::Constant(1, tamed(look.beyond[limit]));
   const std::vector<double>& pieces = look.pieces[limit];
@@ -54,7 +54,7 @@ VectorXd pieces_of(const Look& look, std::size_t limit) {
   return of;
 }
 
-double failure_of(const Look& look) { return look.ran ? -1 : 1 + tamed(look.violation()); }
+double failure_of(const Candidate& look) { return look.ran ? -1 : 1 + tamed(look.violation()); }
 
 }  // namespace
 
@@ -64,7 +64,7 @@ double tamed(double g) {
   return std::copysign(std::log1p(std::abs(bounded)), bounded);
 }
 
-void LookModels::Known::add(const VectorXd& place, const VectorXd& pieces) {
+void CandidateModels::FunctionModel::add(const VectorXd& place, const VectorXd& pieces) {
   const Index row = places.rows();
   if (row > 0 && values.cols() != pieces.size())
     throw std::logic_error("a limit is told in pieces of another number");
@@ -74,37 +74,40 @@ void LookModels::Known::add(const VectorXd& place, const VectorXd& pieces) {
   values.row(row) = pieces.transpose();
 }
 
-void LookModels::Known::add(const VectorXd& place, double value) { add(place, VectorXd::Constant(1, value)); }
+void CandidateModels::FunctionModel::add(const VectorXd& place, double value) {
+  add(place, VectorXd::Constant(1, value));
+}
 
-void LookModels::Known::build(const Shape& shape, const GaussianProcess::Scale& scale) {
+void CandidateModels::FunctionModel::build(const Shape& shape, const GaussianProcess::Scale& scale) {
   if (places.rows() > 0) model.emplace(places, values, shape, scale);
 }
 
-GaussianProcess::Told LookModels::Limit::at(const VectorXd& place, double deviations) const {
-  GaussianProcess::Told told;
+GaussianProcess::Prediction CandidateModels::Limit::at(const VectorXd& place, double deviations) const {
+  GaussianProcess::Prediction told;
   if (rehearsed.model) {
-    const GaussianProcess::ToldOfEach each = rehearsed.model->of_each(place);
+    const GaussianProcess::Predictions each = rehearsed.model->of_each(place);
     Index largest = 0;
     (each.means + deviations * each.deviations).maxCoeff(&largest);
     told = {each.means[largest], each.deviations[largest]};
   }
   if (difference.model) {
-    const GaussianProcess::Told missed = difference.model->at(place);
+    const GaussianProcess::Prediction missed = difference.model->at(place);
     told = {told.mean + missed.mean, std::hypot(told.deviation, missed.deviation)};
   }
   return told;
 }
 
-LookModels::LookModels(const std::vector<Look>& looks, const std::vector<Look>& rehearsals,
-                       const VectorXd& centre, Shapes shapes)
+CandidateModels::CandidateModels(const std::vector<Candidate>& looks,
+                                 const std::vector<Candidate>& rehearsals, const VectorXd& centre,
+                                 Shapes shapes)
     : shapes_(std::move(shapes)) {
   std::size_t limits = 0;
-  for (const std::vector<Look>* list : {&looks, &rehearsals})
-    for (const Look& look : *list)
+  for (const std::vector<Candidate>* list : {&looks, &rehearsals})
+    for (const Candidate& look : *list)
       if (look.ran) limits = look.beyond.size();
   limits_.resize(limits);
   shapes_.resize(of_limits + 2 * limits, GaussianProcess::usual_shape(centre.size()));
-  for (const Look& look : looks) {
+  for (const Candidate& look : looks) {
     failed_.add(look.place, failure_of(look));
     any_failed_ = any_failed_ || !look.ran;
     any_feasible_ = any_feasible_ || look.feasible();
@@ -112,18 +115,18 @@ LookModels::LookModels(const std::vector<Look>& looks, const std::vector<Look>& 
     aim_.add(look.place, look.aims.front());
     for (std::size_t k = 0; k < limits; ++k) limits_[k].looked.add(look.place, tamed(look.beyond[k]));
   }
-  for (const Look* rehearsal : chosen(rehearsals, looks, centre)) add_rehearsal(*rehearsal);
+  for (const Candidate* rehearsal : chosen(rehearsals, looks, centre)) add_rehearsal(*rehearsal);
   build_all();
 }
 
-bool LookModels::holds(const VectorXd& place) const {
+bool CandidateModels::holds(const VectorXd& place) const {
   for (Index k = 0; k < failed_.places.rows(); ++k)
     if ((failed_.places.row(k).transpose() - place).cwiseAbs().maxCoeff() < same) return true;
   return false;
 }
 
 /// A look decides whether the place runs, if there is one.
-void LookModels::add_rehearsal(const Look& rehearsal) {
+void CandidateModels::add_rehearsal(const Candidate& rehearsal) {
   if (!holds(rehearsal.place)) {
     failed_.add(rehearsal.place, failure_of(rehearsal));
     any_failed_ = any_failed_ || !rehearsal.ran;
@@ -133,8 +136,8 @@ void LookModels::add_rehearsal(const Look& rehearsal) {
     if (!std::isnan(rehearsal.beyond[k])) limits_[k].rehearsed.add(rehearsal.place, pieces_of(rehearsal, k));
 }
 
-void LookModels::fit() {
-  const auto refit = [](Shape& shape, const Known& of, Index most) {
+void CandidateModels::fit() {
+  const auto refit = [](Shape& shape, const FunctionModel& of, Index most) {
     const Index n = std::min(most, of.places.rows());
     if (n > 1)
       shape = GaussianProcess::likeliest_shape(of.places.topRows(n), of.values.topRows(n), shape,
@@ -151,12 +154,12 @@ void LookModels::fit() {
   build_all();
 }
 
-void LookModels::build_all() {
+void CandidateModels::build_all() {
   aim_.build(shapes_[of_aim]);
   if (any_failed_) failed_.build(shapes_[of_failure]);
   for (Limit& limit : limits_) {
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (const Known* known : {&limit.rehearsed, &limit.looked})
+    for (const FunctionModel* known : {&limit.rehearsed, &limit.looked})
       if (known->places.rows() > 0) {
         const VectorXd largest = known->values.rowwise().maxCoeff();
         low = std::min(low, largest.minCoeff()), high = std::max(high, largest.maxCoeff());
@@ -166,7 +169,7 @@ void LookModels::build_all() {
   build_limits();
 }
 
-void LookModels::build_limits() {
+void CandidateModels::build_limits() {
   for (std::size_t k = 0; k < limits_.size(); ++k) {
     Limit& limit = limits_[k];
     if (!limit.varies) continue;
@@ -182,7 +185,7 @@ void LookModels::build_limits() {
   }
 }
 
-void LookModels::believe(const VectorXd& place) {
+void CandidateModels::believe(const VectorXd& place) {
   if (aim_.model) aim_.add(place, aim_at(place, 0));
   for (Limit& limit : limits_)
     if (limit.varies && limit.difference.model) limit.looked.add(place, limit.at(place, 0).mean);
@@ -190,7 +193,7 @@ void LookModels::believe(const VectorXd& place) {
   build_all();
 }
 
-void LookModels::believe_rehearsal(const VectorXd& place) {
+void CandidateModels::believe_rehearsal(const VectorXd& place) {
   for (Limit& limit : limits_)
     if (limit.varies && limit.rehearsed.model)
       limit.rehearsed.add(place, limit.rehearsed.model->of_each(place).means);
@@ -198,14 +201,14 @@ void LookModels::believe_rehearsal(const VectorXd& place) {
   build_all();
 }
 
-void LookModels::learn(const std::vector<Look>& rehearsals) {
-  for (const Look& rehearsal : rehearsals) add_rehearsal(rehearsal);
+void CandidateModels::learn(const std::vector<Candidate>& rehearsals) {
+  for (const Candidate& rehearsal : rehearsals) add_rehearsal(rehearsal);
   build_all();
 }
 
-VectorXd LookModels::beyond(const VectorXd& place, double deviations) const {
+VectorXd CandidateModels::beyond(const VectorXd& place, double deviations) const {
   std::vector<double> g;
-  const auto bound = [&](const GaussianProcess::Told& told) {
+  const auto bound = [&](const GaussianProcess::Prediction& told) {
     g.push_back(told.mean + deviations * told.deviation);
   };
   for (const Limit& limit : limits_)
@@ -214,13 +217,13 @@ VectorXd LookModels::beyond(const VectorXd& place, double deviations) const {
   return Eigen::Map<const VectorXd>(g.data(), static_cast<Index>(g.size()));
 }
 
-double LookModels::excess(const VectorXd& place, double deviations) const {
+double CandidateModels::excess(const VectorXd& place, double deviations) const {
   return beyond(place, deviations).cwiseMax(0.0).sum();
 }
 
-double LookModels::aim_at(const VectorXd& place, double deviations) const {
+double CandidateModels::aim_at(const VectorXd& place, double deviations) const {
   if (!aim_.model) return 0;
-  const GaussianProcess::Told told = aim_.model->at(place);
+  const GaussianProcess::Prediction told = aim_.model->at(place);
   return told.mean - deviations * told.deviation;
 }
 
