@@ -271,7 +271,7 @@ TEST_CASE("modes and their text lead to each other, also from a response alone, 
   CHECK_THROWS_AS(modes_from_text(one.text() + "mode second\n"), std::exception);
 }
 
-TEST_CASE("percentiles are straight between the middles of samples, shares of outliving count pairs") {
+TEST_CASE("percentiles are straight between the middles of samples, shares of outliving count pairs", "[new]") {
   std::vector<double> lives;
   for (int k = 19; k >= 0; --k) lives.push_back(k / 10.0);
   const LifePercentiles of = percentiles_of(lives);  // of 20 samples the second and third have 7.5 and 12.5 % below their middles
@@ -286,7 +286,7 @@ TEST_CASE("percentiles are straight between the middles of samples, shares of ou
   CHECK(share_outliving({2, 2, 1, 1, 1}, {1, 2, 3, 4, 5}) == Approx(0.3));
 }
 
-TEST_CASE("two modes of one dresspack share the part of their scatter that is given") {
+TEST_CASE("two modes of one dresspack share the part of their scatter that is given", "[new]") {
   for (const double shared : {1.0, 0.5, 0.0}) {
     LifeResponse one = straight(0, 0, 0), other = one;
     for (LifeResponse* mode : {&one, &other}) mode->knowledge.covariance.setZero(), mode->scatter_shared = shared;

@@ -125,7 +125,7 @@ struct RandomTable {
 
 }  // namespace
 
-TEST_CASE("a response has the values of its table at every combination of nodes") {
+TEST_CASE("a response has the values of its table at every combination of nodes", "[new]") {
   RandomTable table;
   const LifeResponse& of = table.response;
   for (int k = 0; k < 300; ++k) {
@@ -156,7 +156,7 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
     }
 }
 
-TEST_CASE("a response is straight along each axis between neighbouring nodes and beyond the last, as far as 3.5") {
+TEST_CASE("a response is straight along each axis between neighbouring nodes and beyond the last, as far as 3.5", "[new]") {
   RandomTable table;
   const LifeResponse& of = table.response;
   for (int k = 0; k < 40; ++k)
@@ -179,7 +179,7 @@ TEST_CASE("a response is straight along each axis between neighbouring nodes and
     }
 }
 
-TEST_CASE("a response depends on what its table varies over, and on nothing else of the strain and the material") {
+TEST_CASE("a response depends on what its table varies over, and on nothing else of the strain and the material", "[new]") {
   const LifeResponse full = RandomTable().response;
   for (const std::size_t varied : {friction, slack, play, strength, slope, scatter}) {
     LifeResponse response = full;

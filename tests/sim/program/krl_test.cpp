@@ -111,7 +111,7 @@ TEST_CASE("krl: SPL points lie on a smooth curve") {
   CHECK(r.move(5).where.line == 6);
 }
 
-TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas through three of them") {
+TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas through three of them", "[new]") {
   std::vector<Instruction> moves(7);
   const std::vector<Vector3> at{{0, 0, 0}, {0.1, 0, 0.02}, {0.3, 0.1, 0}, {0.35, 0.25, 0.05}, {0.2, 0.3, 0}};
   for (std::size_t k = 0; k < at.size(); ++k) {

@@ -391,7 +391,7 @@ TEST_CASE("legs: an axis that carries nothing takes its time and keeps to its li
   }
 }
 
-TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes', its tool's and its own") {
+TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes', its tool's and its own", "[new]") {
   const pipeline::Robot robot = arm(10, 100);  // the flange is 1 m from axis 1
   const VectorXd mean = VectorXd::Constant(6, 50);
   constexpr double chords = 2e-3;  // of arcs of 0.8 rad in 24 parts
@@ -426,7 +426,7 @@ TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes
   CHECK(0.8 / cruise + cruise / 50 == Approx(4));
 }
 
-TEST_CASE("legs: a tool's zone between two joint moves is as large a share of each as of its tool's way") {
+TEST_CASE("legs: a tool's zone between two joint moves is as large a share of each as of its tool's way", "[new]") {
   pipeline::MotionStep start, turn, lift;
   start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0}, lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
   for (const double zone : {0.05, 0.4}) {
@@ -441,7 +441,7 @@ TEST_CASE("legs: a tool's zone between two joint moves is as large a share of ea
   }
 }
 
-TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within their angular zone") {
+TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within their angular zone", "[new]") {
   pipeline::MotionStep start, turn, lift, line;
   start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0}, lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
   line.joints = {0.65, 0.35, 0, 0, 0.5, 0};
