@@ -383,6 +383,18 @@ TEST_CASE("histories without cycles do no damage") {
   CHECK(evaluate_cycles(std::vector<Reversal>{{0.1, 0}}, copper(), {}).empty());
 }
 
+TEST_CASE("two reversals that are counted once are half a cycle", "[new]") {
+  pipeline::Fatigue settings;
+  settings.counting = Counting::half_cycles;
+  const DamageCounter counter(copper(), settings);
+  DamageCounter::Workspace workspace;
+  const std::vector<float> strains{0.004f, -0.004f};
+  const std::vector<DamagingCycle> cycles = evaluate_cycles(find_reversals(std::vector<double>{0.004f, -0.004f}), copper(), settings);
+  REQUIRE(cycles.size() == 1);
+  CHECK(cycles[0].cycle.count == 0.5);
+  CHECK(counter(strains, workspace) == Approx(cycles[0].damage).epsilon(DamageCounter::table_error));
+}
+
 TEST_CASE("damage sums, life, hours and months") {
   // dpzhuX/ffpack (commit b90bdeca), miner rule: counts and cycles to failure
   const auto miner = [](const std::vector<std::pair<double, double>>& sets) {

@@ -14,6 +14,8 @@
 
 #include "fatigue/scatter.h"
 #include "fatigue/verdict.h"
+#include "pipeline/cable/believable.h"
+#include "pipeline/cable/cable_force.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/life_response.h"
 #include "pipeline/life/unvalidated_modes.h"
@@ -62,6 +64,13 @@ struct StrainFile {
   struct Rubbed {
     double position, work, time;  // [m], [J], [s]
   };
+  struct Cable {
+    std::int32_t span;
+    std::vector<double> place;     // base d1, d2, tool d1, d2 [m]
+    std::array<double, 3> strain;  // largest, at the base and at the tool clamp, at the last sample; rising evenly to there
+  };
+  std::vector<Cable> cables;        // of the job's first component
+  std::vector<double> hose_moment;  // (span) at the last sample, as the strains
   std::vector<Rubbed> rubbed;  // by link_4, 5 mm long, in one sector of 5 degrees; empty: no table
 };
 
@@ -141,6 +150,26 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
     file.append("/rubbing/obstacle", std::vector<std::string>{"link_4"});
     file.append("/rubbing/work", std::vector<double>{rubbed.work});
     file.append("/rubbing/time", std::vector<double>{rubbed.time});
+  }
+  if (!f.cables.empty()) {
+    file.set_axis("cable", f.cables.size());
+    file.set_axis("cable_span", f.hose_moment.size());
+    std::vector<double> strains, moments;
+    for (std::size_t k = 0; k < f.cables.size(); ++k) {
+      file.append("/cable/name", std::vector<std::string>{fmt::format("cable {}", k + 1)});
+      file.append("/cable/span", std::vector<std::int32_t>{f.cables[k].span});
+      file.append("/cable/dresspack", std::vector<std::int32_t>{0});
+      file.append("/cable/component", std::vector<std::int32_t>{0});
+      file.append("/cable/clamp_place", std::span<const double>(f.cables[k].place));
+    }
+    for (std::size_t t = 0; t < samples; ++t) {
+      const double risen = double(t) / (samples - 1);
+      for (const StrainFile::Cable& cable : f.cables)
+        for (const double strain : cable.strain) strains.push_back(risen * strain);
+      for (const double moment : f.hose_moment) moments.push_back(risen * moment);
+    }
+    file.append("/cable/strain", std::span<const double>(strains));
+    file.append("/cable_span/hose_moment", std::span<const double>(moments));
   }
   file.attribute("job", "made by a test");
   file.attribute("history", "");
@@ -287,6 +316,54 @@ TEST_CASE("life.h5: cycles, time, steps, segments and layers add up") {
         std::vector<std::string>{"cable/layer 1/wire", "cable/layer 2/wire"});
   CHECK(life.read<std::uint32_t>("/layer/worst_site") == std::vector<std::uint32_t>{3, 4});
   CHECK(life.read<double>("/layer/damage") == std::vector<double>{damage[3], damage[4]});
+}
+
+TEST_CASE("life.h5: forces of the cables by span, and the span where they ask most of the hose", "[new]") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;
+  dresspack.materials[0].tensile_strength = 230e6;
+  dresspack.components[0].radius = 5e-3;
+  dresspack.components[0].components.resize(1);
+  pipeline::Component& wires = dresspack.components[0].components[0];
+  wires.name = "wire", wires.material = "copper", wires.count = 100, wires.radius = 7.5e-5;
+  const pipeline::CableForce force(dresspack, dresspack.components[0]);
+  StrainFile f = example();
+  f.cables = {{1, {0.01, 0, 0, 0.01}, {1e-4, 8e-5, -5e-5}},
+              {0, {0.02, 0, 0.01, 0}, {-3e-4, -1e-4, -3e-4}},
+              {1, {0, -0.015, 0.003, 0.004}, {2e-4, 2e-4, 1e-4}}};
+  for (const double of_first : {1.0, 0.01}) {
+    f.hose_moment = {of_first, 0.1};
+    const Result result = run(folder, f, job);
+    const FileReader life(result.file, pipeline::life_format());
+    const auto tension = life.read<double>("/cable/tension");
+    REQUIRE(tension.size() == 3 * samples);
+    for (const std::size_t t : {std::size_t{0}, std::size_t{40}, samples - 1})
+      for (std::size_t k = 0; k < 3; ++k)
+        CHECK(tension[3 * t + k] == Approx(force.force(f.cables[k].strain[0] * double(t) / (samples - 1))));
+    // The first span: one cable, pulled more at the base clamp's lever or at the tool's.
+    const double first = std::max(0.02 * std::abs(force.force(-1e-4)), 0.01 * std::abs(force.force(-3e-4)));
+    const double base = std::hypot(0.01 * force.force(8e-5), 0.015 * force.force(2e-4)),
+                 tool = std::hypot(0.01 * force.force(-5e-5) + 0.004 * force.force(1e-4), 0.003 * force.force(1e-4));
+    const double second = std::max(base, tool);
+    const bool in_first = first / of_first > second / 0.1;
+    CHECK(in_first == (of_first < 1));  // the case has both
+    CHECK(life.number_attribute("clamp_moment_share") == Approx(in_first ? first / of_first : second / 0.1));
+    CHECK(life.read<double>("/clamp/cable_moment").back() == Approx(in_first ? first : second));
+    CHECK(life.read<double>("/clamp/hose_moment")[50] == Approx((in_first ? of_first : 0.1) / 2));
+    CHECK(life.number_attribute("largest_force_share") == Approx(std::abs(force.force(-3e-4)) / force.strength()));
+    const auto warns = [&](const std::string& words) {
+      return std::any_of(result.notes.warnings.begin(), result.notes.warnings.end(), [&](const pipeline::Warning& warning) {
+        return warning.line().find(words) != std::string::npos;
+      });
+    };
+    const double share = life.number_attribute("largest_force_share");
+    CHECK(warns("'cable 2' is compressed with") == (share > pipeline::believable_share));
+    CHECK(warns(in_first ? "'cable 2' presses most" : "'cable 3' pulls most") ==
+          (life.number_attribute("clamp_moment_share") > pipeline::believable_share));
+  }
+  f.cables[1].span = 2;
+  CHECK_THROWS_AS(run(folder, f, job), pipeline::InputError);
 }
 
 TEST_CASE("life.h5: the bounds are the lives of their own sites") {

@@ -1,9 +1,11 @@
 // The force of a cable from its strain: closed forms of one wire, and the thesis' cable by hand.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/cable_force.h"
+#include "pipeline/cable/cable_pulls.h"
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
@@ -77,4 +79,39 @@ TEST_CASE("a strength that one material lacks is not known") {
   pipeline::Dresspack dresspack = copper_only();
   dresspack.materials[0].tensile_strength.reset();
   CHECK(CableForce(dresspack, signal_cable).strength() == 0);
+}
+
+TEST_CASE("cables pull at both clamps with the moment of their forces about the hose's axis", "[new]") {
+  pipeline::Component wire = test_dresspacks::part("cable", 1, 5.3e-3, 0, 0);
+  wire.components = {test_dresspacks::wires("", 1, 75e-6, 0.5e-3, 0, pipeline::Hand::right)};
+  const CableForce force(copper_only(), wire);
+  const std::array<std::vector<double>, 3> strain{{{1e-4, -3e-3, 2e-4}, {1e-4, -2e-3, 1e-4}, {-5e-5, -1e-3, 2e-4}}},
+      other{{{2e-4, 1e-4, 4e-3}, {2e-4, 1e-4, 1e-3}, {1e-4, 1e-5, 3e-3}}};
+  const std::vector<pipeline::PulledCable> cables{{force, strain, {{{0.01, 0.002}, {-0.004, 0.007}}}},
+                                                  {force, other, {{{-0.01, 0.005}, {0.003, 0.008}}}}};
+  const pipeline::CablePulls pulls = pulls_of(cables, 3);
+  for (std::size_t t = 0; t < 3; ++t) {
+    double largest = 0;
+    for (std::size_t clamp = 0; clamp < 2; ++clamp) {
+      double about1 = 0, about2 = 0;
+      for (const pipeline::PulledCable& cable : cables) {
+        about1 += cable.place[clamp][1] * force.force(cable.strain[clamp + 1][t]);
+        about2 -= cable.place[clamp][0] * force.force(cable.strain[clamp + 1][t]);
+      }
+      largest = std::max(largest, std::hypot(about1, about2));
+    }
+    CHECK(pulls.moment[t] == Approx(largest));
+    CHECK(pulls.tension[0][t] == Approx(force.force(strain[0][t])));
+    CHECK(pulls.tension[1][t] == Approx(force.force(other[0][t])));
+  }
+  CHECK(pulls.force_share == Approx(force.force(4e-3) / force.strength()));
+  CHECK(pulls.of_cable == 1);
+  CHECK(pulls.at_sample == 2);
+  const pipeline::CablePulls first = pulls_of(std::span(cables).first(1), 3);
+  CHECK(first.force_share == Approx(force.force(3e-3) / force.strength()));  // a compression, by its size
+  CHECK(first.at_sample == 1);
+  const double most = *std::max_element(pulls.moment.begin(), pulls.moment.end());
+  CHECK(pipeline::moment_share(pulls, std::vector<double>{0.1, 0.5, 0.2}) == Approx(most / 0.5));
+  CHECK(pipeline::moment_share(pulls, std::vector<double>{0, 0, 0}) == 0);
+  CHECK(pipeline::moment_share({}, std::vector<double>{1}) == 0);
 }

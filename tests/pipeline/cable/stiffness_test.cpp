@@ -353,3 +353,35 @@ TEST_CASE("stiffness: a hose whose wall nobody named is warned of, with what it 
           fmt::format("{:.2g} %", 100 * 9.81 * dresspack.mass_per_length / 300)) &&
           Contains("lacks its wall (hose_material)") && Contains("Remedy: hose_material: hose_polyamide"));
 }
+
+TEST_CASE("stiffness: a given one is warned of beyond its limits, and not up to them", "[new]") {
+  Component cable = cable_of({wires(7, 3e-4, 1e-3, 10 * degree), wires(1, 3e-4, 0, 0)});
+  cable.polymer_bending_stiffness = 0.01;
+  Dresspack alone = of({cable}), bare = of(cable.components), hose, walled;
+  bare.diameter = 0.012;  // itself a cable, in a jacket
+  cable.count = 6, cable.helix_radius = 0.02;
+  hose = of({cable});
+  hose.diameter = 0.06, hose.inner_diameter = 0.052, hose.core_bending_stiffness = 3;
+  walled = hose;
+  walled.hose_material = "polyamide";
+  const auto bending = [](const Dresspack& dresspack, SlipState state) {
+    return stiffness_of_construction(dresspack, state, dresspack.construction_curvature).bending;
+  };
+  // A hose without a wall may have a solid bar's of 3.3 GPa; one that is known has at most twice what friction makes of it.
+  const double bar = 3.3e9 * pi / 64 * std::pow(0.06, 4);
+  const struct {
+    Dresspack dresspack;
+    double least, most;
+  } cases[]{{hose, std::max(bending(hose, SlipState::friction) / 2, bending(hose, SlipState::sliding)), bending(hose, SlipState::stuck) + bar},
+            {walled, std::max(bending(walled, SlipState::friction) / 2, bending(walled, SlipState::sliding)),
+             std::min(2 * bending(walled, SlipState::friction), bending(walled, SlipState::stuck))},
+            {alone, bending(alone, SlipState::sliding) - 0.01, bending(alone, SlipState::stuck)},
+            {bare, bending(bare, SlipState::sliding) - jacket_bending(0.006), bending(bare, SlipState::stuck)}};
+  for (const auto& [dresspack, least, most] : cases)
+    for (const auto& [given, warned] : {std::pair{0.999 * least, true}, {1.001 * least, false}, {0.999 * most, false}, {1.001 * most, true}}) {
+      Dresspack one = dresspack;
+      one.bending_stiffness = given;
+      CAPTURE(given, least, most);
+      CHECK(stiffness_warnings(one).size() == (warned ? 1 : 0));
+    }
+}

@@ -1,9 +1,12 @@
 #include "pipeline/life/first_failure.h"
 
-#include "tests/catch.h"
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
+
+#include "tests/catch.h"
 
 using namespace dresslife::pipeline;
 
@@ -268,10 +271,48 @@ TEST_CASE("modes and their text lead to each other, also from a response alone, 
   CHECK_THROWS_AS(modes_from_text(one.text() + "mode second\n"), std::exception);
 }
 
+TEST_CASE("percentiles are straight between the middles of samples, shares of outliving count pairs", "[new]") {
+  std::vector<double> lives;
+  for (int k = 19; k >= 0; --k) lives.push_back(k / 10.0);
+  const LifePercentiles of = percentiles_of(lives);  // of 20 samples the second and third have 7.5 and 12.5 % below their middles
+  CHECK(std::log10(of[0]) == Approx(0.15));
+  CHECK(std::log10(of[1]) == Approx(0.95));
+  CHECK(std::log10(of[2]) == Approx(1.75));
+  for (std::size_t k = 0; k < 5; ++k) lives[k] = std::numeric_limits<double>::infinity();
+  CHECK(percentiles_of(lives)[1] == Approx(of[1]));
+  CHECK(std::isinf(percentiles_of(lives)[2]));
+  CHECK(percentiles_of({3})[0] == Approx(1000));
+  CHECK(share_outliving({1, 2, 3, 4, 5}, {2, 2, 1, 1, 1}) == 0.7);
+  CHECK(share_outliving({2, 2, 1, 1, 1}, {1, 2, 3, 4, 5}) == Approx(0.3));
+}
+
+TEST_CASE("two modes of one dresspack share the part of their scatter that is given", "[new]") {
+  for (const double shared : {1.0, 0.5, 0.0}) {
+    LifeResponse one = straight(0, 0, 0), other = one;
+    for (LifeResponse* mode : {&one, &other}) mode->knowledge.covariance.setZero(), mode->scatter_shared = shared;
+    one.mode = "one", other.mode = "other";
+    // Of two normal lives with this correlation, both are above their median in this share of samples.
+    const double both = 0.25 + std::asin(shared) / (2 * std::acos(-1.0));
+    const std::vector<double> lives = first_failures({one, other}, "job");
+    const auto above = std::count_if(lives.begin(), lives.end(), [](double life) { return life > 5; });
+    CHECK(double(above) / double(lives.size()) == Approx(both).margin(sampling_error));
+    const LifePercentiles alone = percentiles_of(first_failures({one}, "job"));
+    CHECK(std::log10(alone[0]) == Approx(4.9).margin(sampling_error * 0.1));
+    CHECK(std::log10(alone[2]) == Approx(5.1).margin(sampling_error * 0.1));
+  }
+}
+
 TEST_CASE("shares as words are whole per cents that add up to 100") {
   std::array<double, uncertain_count + 1> share{};
   share[friction] = 0.407, share[strength] = 0.294, share[model] = 0.292, share[slack] = 0.007;
   CHECK(share_words(share) == "friction_inside 41 %; strength 29 %; model 29 %; other 1 %");
+  share = {};
+  share[friction] = 0.3349, share[strength] = 0.3331, share[model] = 0.332;
+  CHECK(share_words(share) == "friction_inside 34 %; strength 33 %; model 33 %");
+  CHECK(largest_share(share) == friction);
+  share = {};
+  share[slack] = 0.01, share[uncertain_count] = 0.99;
+  CHECK(share_words(share) == "scatter of wires 99 %; slack 1 %");
   share = {};
   share[uncertain_count] = 1;
   CHECK(share_words(share) == "scatter of wires 100 %");

@@ -1,6 +1,9 @@
 #include "pipeline/life/life_response.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <random>
 #include <stdexcept>
 
 #include "tests/catch.h"
@@ -70,6 +73,130 @@ TEST_CASE("a parameter by itself adds to the crossed ones, whatever they are") {
   ParameterPoint z = at(friction, 1);
   z[slack] = -1, z[index_of(Uncertain::play)] = 0.5;
   CHECK(response.change(z) == Approx(-0.6 + 0.2 + 0.1));
+}
+
+namespace {
+
+constexpr std::size_t play = index_of(Uncertain::play), slope = index_of(Uncertain::slope);
+
+/// Random values at every point of a response whose nodes are unequal on every axis.
+struct RandomTable {
+  std::mt19937 engine{7};
+  std::map<std::size_t, std::vector<double>> nodes{
+      {friction, {-1.5, 0, 1, 2.5}}, {slack, {-2, 0, 1}}, {play, {0, 0.5, 2}}, {strength, {-2, -0.5, 0, 1}}, {slope, {-1, 0, 3}},
+      {scatter, {-1, 0, 0.5}}};
+  LifeResponse response = straight(0, 0, 0);
+
+  double random() { return std::uniform_real_distribution<double>(4, 6)(engine); }
+  void add(Inside inside, double f, double s, double p) {
+    response.points.push_back({}), response.inside.push_back(inside);
+    response.points.back()[friction] = f, response.points.back()[slack] = s, response.points.back()[play] = p;
+  }
+  explicit RandomTable(bool crossed = true) {
+    response.points.clear(), response.inside.clear(), response.worst_life.clear(), response.planned.clear();
+    response.strength = nodes[strength], response.slope = nodes[slope], response.scatter = nodes[scatter];
+    add(Inside::as_is, 0, 0, 0);
+    for (const double p : {2.0, 0.5}) add(Inside::as_is, 0, 0, p);
+    for (const double s : nodes[slack]) add(Inside::glued, 0, s, 0);
+    for (const double f : {2.5, 1.0, -1.5, 0.0})
+      for (const double s : {1.0, 0.0, -2.0})
+        if ((f != 0 || s != 0) && (crossed || f == 0 || s == 0)) add(Inside::as_is, f, s, 0);
+    response.worst_life.resize(response.points.size() * 12);
+    for (double& life : response.worst_life) life = random();
+    response.planned.resize(3);
+    for (auto& lives : response.planned) lives = {random() - 3, random(), random() + 3};
+    response.bound = {LifeResponse::endless, 3.7, 8};
+  }
+  /// W at nodes.
+  double worst(Inside inside, double f, double s, double p, double of_strength, double of_slope) const {
+    const auto at = [](const std::vector<double>& list, double z) { return std::find(list.begin(), list.end(), z) - list.begin(); };
+    for (std::size_t k = 0; k < response.points.size(); ++k)
+      if (response.inside[k] == inside && response.points[k][friction] == f && response.points[k][slack] == s &&
+          response.points[k][play] == p)
+        return response.worst_life[k * 12 + std::size_t(at(response.strength, of_strength) * 3 + at(response.slope, of_slope))];
+    throw std::out_of_range("no such point");
+  }
+  ParameterPoint random_node() {
+    ParameterPoint z{};
+    for (const auto& [parameter, values] : nodes) z[parameter] = values[engine() % values.size()];
+    return z;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a response has the values of its table at every combination of nodes", "[new]") {
+  RandomTable table;
+  const LifeResponse& of = table.response;
+  for (int k = 0; k < 300; ++k) {
+    const ParameterPoint z = table.random_node();
+    const auto worst = [&](Inside inside, double f, double s, double p) {
+      return table.worst(inside, f, s, p, z[strength], z[slope]);
+    };
+    const double alone = worst(Inside::as_is, 0, 0, z[play]) - worst(Inside::as_is, 0, 0, 0);
+    const double at_zero = table.worst(Inside::as_is, 0, 0, 0, 0, 0), glued_at_zero = table.worst(Inside::glued, 0, 0, 0, 0, 0);
+    const double change = worst(Inside::as_is, z[friction], z[slack], 0) + alone - at_zero;
+    CHECK(of.change(z) == Approx(change).margin(rounding));
+    CHECK(of.change(z, Inside::glued) ==
+          Approx(3.7 + worst(Inside::glued, 0, z[slack], 0) - glued_at_zero + alone - at_zero).margin(rounding));
+    // Where nothing was computed without friction, it is the job's own, shifted.
+    CHECK(of.change(z, Inside::free) == Approx(8 - at_zero + worst(Inside::as_is, 0, z[slack], 0) + alone - at_zero).margin(rounding));
+    const auto scatter_at = std::size_t(z[scatter] < 0 ? 0 : z[scatter] > 0 ? 2 : 1);
+    for (const int tenths : {-1, 0, 1})
+      CHECK(of.log10_life(z, tenths * 1.2815515655446004) == Approx(of.planned[scatter_at][std::size_t(tenths + 1)] + change));
+  }
+  // Without the combinations, friction and slack add.
+  RandomTable apart(false);
+  for (const double f : {-1.5, 1.0})
+    for (const double s : {-2.0, 1.0}) {
+      ParameterPoint z = at(friction, f);
+      z[slack] = s;
+      CHECK(apart.response.change(z) ==
+            Approx(apart.response.change(at(friction, f)) + apart.response.change(at(slack, s))).margin(rounding));
+    }
+}
+
+TEST_CASE("a response is straight along each axis between neighbouring nodes and beyond the last, as far as 3.5", "[new]") {
+  RandomTable table;
+  const LifeResponse& of = table.response;
+  for (int k = 0; k < 40; ++k)
+    for (const auto& [parameter, values] : table.nodes) {
+      const ParameterPoint z = table.random_node();
+      const auto life = [&](double at) {
+        ParameterPoint moved = z;
+        moved[parameter] = at;
+        return of.log10_life(moved, 0);
+      };
+      for (std::size_t node = 0; node + 1 < values.size(); ++node) {
+        const double low = values[node], high = values[node + 1];
+        CHECK(life(0.75 * low + 0.25 * high) == Approx(0.75 * life(low) + 0.25 * life(high)));
+        if (node == 0) CHECK(life(low - 0.3) == Approx(life(low) + 0.3 * (life(low) - life(high)) / (high - low)));
+        if (node + 2 == values.size())
+          CHECK(life(high + 0.3) == Approx(life(high) + 0.3 * (life(high) - life(low)) / (high - low)));
+      }
+      if (parameter != scatter) CHECK(life(9) == Approx(life(3.5)));
+      if (parameter != scatter) CHECK(life(-9) == Approx(life(-3.5)));
+    }
+}
+
+TEST_CASE("a response depends on what its table varies over, and on nothing else of the strain and the material", "[new]") {
+  const LifeResponse full = RandomTable().response;
+  for (const std::size_t varied : {friction, slack, play, strength, slope, scatter}) {
+    LifeResponse response = full;
+    for (std::size_t k = 0; k < full.worst_life.size(); ++k) {
+      const auto& point = full.points[k / 12];
+      ParameterPoint z{};
+      std::copy(point.begin(), point.end(), z.begin());
+      z[strength] = double(k % 12 / 3), z[slope] = double(k % 3);
+      response.worst_life[k] = varied == scatter || full.inside[k / 12] != Inside::as_is ? 5 : 5 + 0.1 * z[varied];
+    }
+    for (auto& lives : response.planned) lives = {4, 5, varied == scatter && &lives == &response.planned[1] ? 6.0 : 5.5};
+    const LifeSurface surface(response);
+    for (std::size_t p = 0; p < uncertain_count; ++p) {
+      CAPTURE(varied, p);
+      CHECK(surface.depends_on(p) == (p == varied || p == model || p == index_of(Uncertain::motion)));
+    }
+  }
 }
 
 TEST_CASE("what is never damaged lives without end, whatever the model's factor is") {

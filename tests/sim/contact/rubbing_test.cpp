@@ -62,6 +62,44 @@ TEST_CASE("a hose dragged over the floor is rubbed evenly along its underside, a
   }
 }
 
+TEST_CASE("a contact's work lies evenly over a segment's length about where it was before the step, in its sector", "[new]") {
+  const RodProperties p = hose(10, 1);
+  const Rod rod(p);
+  const double h = 0.01, length = 0.1;
+  const int cells = int(std::lround(length / std::max(1e-3, p.diameter / 12)));
+  const double cell = length / cells;
+  for (const int moved : {0, 3})       // cells in the step
+    for (const int at : {0, 2, 17, 100, 10 * cells})  // from the base, in half cells: the last is the middle
+      for (const double degrees : {102.0, -31.0}) {
+        CAPTURE(moved, at, degrees);
+        const double place = at * cell / 2, angle = degrees * pi / 180;
+        RodState state = rod.straight({});
+        for (Vector3& velocity : state.velocity) velocity = {0, 0, moved * cell / h};
+        const Vector3 toward(std::cos(angle), std::sin(angle), 0);
+        Contact contact;
+        contact.obstacle = 0, contact.segment = std::min(int(place / length), 9), contact.other = -1;
+        contact.point = p.diameter / 2 * toward + Vector3(0, 0, place - moved * cell);
+        contact.normal = -toward, contact.normal_force = 10, contact.sliding_speed = 0.1;
+        Rubbing rubbing(rod);
+        rubbing.add({contact}, state, h);
+        double work = 0, mean = 0, least = 10, most = 0;
+        for (const RubbedPatch& patch : rubbing.patches(Touch(10, {"bench", "floor"}))) {
+          CHECK(patch.length == Approx(cell));
+          CHECK(patch.angle == Approx((degrees > 0 ? 102.5 : 327.5) * pi / 180));
+          CHECK(patch.width == Approx(5 * pi / 180));
+          CHECK(patch.work <= 0.01 / cells * (1 + 1e-9));
+          work += patch.work, mean += patch.work * patch.position / 0.01;
+          least = std::min(least, patch.position - cell / 2), most = std::max(most, patch.position + cell / 2);
+        }
+        CHECK(work == Approx(0.01));
+        const double middle = std::max(place, length / 2);  // not beyond the end
+        // Half cells at both ends count at their middles, which cancels.
+        CHECK(mean == Approx(middle));
+        CHECK(least >= middle - length / 2 - cell / 2 - 1e-9);
+        CHECK(most <= middle + length / 2 + cell / 2 + 1e-9);
+      }
+}
+
 TEST_CASE("a contact rubs the side that faces the obstacle, and with a ring the place that it touches") {
   RodProperties p = hose(10, 1);
   const Rod rod(p);
@@ -77,8 +115,8 @@ TEST_CASE("a contact rubs the side that faces the obstacle, and with a ring the 
   rubbing.end_sample(2);
   const auto patches = rubbing.patches(Touch(10, {"bench"}, 1));
   REQUIRE(patches.size() == 1);
-  CHECK(std::abs(patches[0].position - 0.475) <= patches[0].length);
-  CHECK(std::abs(patches[0].angle - pi / 2) <= patches[0].width);
+  CHECK(std::abs(patches[0].position - 0.475) <= patches[0].length / 2 * (1 + 1e-9));
+  CHECK(std::abs(patches[0].angle - pi / 2) <= patches[0].width / 2 * (1 + 1e-9));
   CHECK(patches[0].work == Approx(0.015));
   CHECK(patches[0].time == 1);
   CHECK(patches[0].obstacle == 4);  // bench, floor, dresspack, cell, ring 1

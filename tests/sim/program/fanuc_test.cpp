@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
+#include "sim/program/fanuc_run.h"
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
@@ -104,4 +106,58 @@ TEST_CASE("fanuc: inputs are asked for, missing frames and programs named") {
   options.assume["5"] = Assumption::then_branch;
   CHECK(run(" 1: IF DI[3]=ON,JMP LBL[1] ;\n 2:J P[7] 5% FINE ;\n 3: LBL[1] ;\n 4:J P[1] 5% FINE ;\n", options)
             .program.instructions.size() == 1);
+}
+
+TEST_CASE("fanuc: every unit of speed under an override, every way to end a move", "[new]") {
+  const Reading r = run(
+      "   1:  OVERRIDE=50% ;\n   2:J P[1] 40% CNT150 ACC200 ;\n   3:L P[2] 500mm/sec CD20 ;\n   4:L P[2] 90cm/min CR30 ;\n"
+      "   5:L P[2] 60inch/min FINE ;\n   6:L P[2] 90deg/sec FINE ;\n   7:J P[1] 1500msec FINE ;\n   8:J P[1] 3sec CNT0 ACC0 ;\n"
+      "   9:J P[1] 250% FINE ;\n");
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 8);
+  CHECK(r.move(0).speed.axis_percent.value() == Approx(20));
+  CHECK(r.move(0).zone.percent == 100);
+  CHECK(r.move(0).acceleration_percent == 150);
+  CHECK(r.move(1).speed.tool.value() == Approx(0.25));
+  CHECK(r.move(1).zone.distance == Approx(0.02));
+  CHECK(r.move(2).speed.tool.value() == Approx(0.9 / 60 / 2));
+  CHECK(r.move(2).zone.distance == Approx(0.03));
+  CHECK(r.move(3).speed.tool.value() == Approx(60 * 0.0254 / 60 / 2));
+  CHECK(r.move(4).speed.orientation.value() == Approx(45 * degree));
+  CHECK(r.move(5).speed.duration.value() == Approx(3));
+  CHECK(r.move(6).speed.duration.value() == Approx(6));
+  CHECK(r.move(6).acceleration_percent == 1);
+  CHECK(r.move(7).speed.axis_percent.value() == Approx(50));
+}
+
+TEST_CASE("fanuc: frames as six numbers and back, also where the second turn is a right angle", "[new]") {
+  for (const double p : {-90.0, -35.0, 0.0, 80.0, 90.0})
+    for (const double w : {-150.0, 20.0, 120.0})
+      for (const double r : {-100.0, 0.0, 170.0}) {
+        const Frame frame = frame_of_fanuc({100, -20, 3, w, p, r});
+        const std::vector<double> numbers = fanuc_values_of(frame);
+        const Frame again = frame_of_fanuc(numbers);
+        CAPTURE(w, p, r);
+        CHECK((again.position - frame.position).norm() < rounding);
+        CHECK(std::abs(again.orientation.dot(frame.orientation)) == Approx(1).epsilon(rounding));
+        CHECK((frame.position - Vector3(0.1, -0.02, 0.003)).norm() < rounding);
+        constexpr double near_pole = 1e-5;  // [deg] atan2 of a cosine of 1e-16
+        CHECK(numbers[4] == Approx(p).margin(near_pole));
+        if (std::abs(p) < 90) CHECK(numbers[3] == Approx(w).margin(near_pole));
+        if (std::abs(p) < 90) CHECK(numbers[5] == Approx(r).margin(near_pole));
+      }
+}
+
+TEST_CASE("fanuc: joint angles are offset one by one, and only by joint angles", "[new]") {
+  const auto moved = [](const std::string& offset) {
+    ImportOptions options;
+    options.values["PR[1]"] = offset;
+    return run("   1:J P[1] 40% FINE Offset,PR[1] ;\n", options);
+  };
+  const Reading r = moved("J1 1 J2 2 J3 3 J4 4 J5 5 J6 6");
+  REQUIRE(r.problem() == "no such problem");
+  const std::vector<double> expected{11, 22, -5, 4, 55, 6};  // q3 = J3 + J2
+  for (std::size_t i = 0; i < 6; ++i) CHECK(r.move(0).target.joints[i] == Approx(expected[i] * degree));
+  CHECK(moved("X 0 Y 0 Z 0 W 0 P 0 R 0").move(0).target.joints[1] == Approx(20 * degree));
+  CHECK(moved("X 1 Y 0 Z 0 W 0 P 0 R 0").problems.at(0).what == "is offset in space from joint angles");
 }

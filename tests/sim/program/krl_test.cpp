@@ -1,3 +1,6 @@
+#include "sim/program/krl_spline.h"
+
+#include <cmath>
 #include <numbers>
 
 #include "tests/catch.h"
@@ -106,6 +109,60 @@ TEST_CASE("krl: SPL points lie on a smooth curve") {
   CHECK(r.move(5).kind == Instruction::Kind::linear);
   CHECK(r.move(5).zone.percent == 100);
   CHECK(r.move(5).where.line == 6);
+}
+
+TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas through three of them", "[new]") {
+  std::vector<Instruction> moves(7);
+  const std::vector<Vector3> at{{0, 0, 0}, {0.1, 0, 0.02}, {0.3, 0.1, 0}, {0.35, 0.25, 0.05}, {0.2, 0.3, 0}};
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    moves[k].kind = Instruction::Kind::linear;
+    moves[k].target.pose = {at[k], rotation({0, 0, 0.3 * double(k)})};
+    moves[k].zone = {0.01 * double(k), 0};
+  }
+  moves[5] = moves[4], moves[5].kind = Instruction::Kind::dwell;  // a curve ends there
+  moves[6] = moves[4], moves[6].target.pose.position.x() += 0.1;
+  Program program;
+  program.instructions = moves;
+  bend_splines({1, 2, 3, 4, 6}, program);
+  const std::vector<Instruction>& bent = program.instructions;
+  // Chords' lengths as parameter; the parabola through three points by Lagrange. At the ends the slope of the next point,
+  // mirrored at the chord's middle.
+  const auto chord = [&](std::size_t k) { return Vector3(at[k + 1] - at[k]); };
+  const auto slope = [&](std::size_t k) {
+    const double a = chord(k - 1).norm(), b = chord(k).norm();
+    return Vector3(-b / (a * (a + b)) * at[k - 1] + (b - a) / (a * b) * at[k] + a / (b * (a + b)) * at[k + 1]).normalized();
+  };
+  const auto mirrored = [&](const Vector3& of, std::size_t k) {
+    const Vector3 along = chord(k).normalized();
+    return Vector3(2 * along.dot(of) * along - of);
+  };
+  std::size_t next = 1;
+  for (std::size_t k = 0; k + 1 < at.size(); ++k) {
+    const double length = chord(k).norm();
+    const Vector3 begin = length * (k == 0 ? mirrored(slope(1), 0) : slope(k)),
+                  finish = length * (k == 3 ? mirrored(slope(3), 3) : slope(k + 1));
+    const int steps = int(length / 0.02);
+    for (int step = 1; step <= steps; ++step, ++next) {
+      const double u = double(step) / steps;
+      // The cubic as a Bezier curve.
+      const Vector3 b1 = at[k] + begin / 3, b2 = at[k + 1] - finish / 3;
+      const Vector3 here = std::pow(1 - u, 3) * at[k] + 3 * u * (1 - u) * (1 - u) * b1 + 3 * u * u * (1 - u) * b2 + u * u * u * at[k + 1];
+      REQUIRE(next < bent.size());
+      CHECK((bent[next].target.pose.position - here).norm() < rounding);
+      CHECK(rotation_vector(bent[next].target.pose.orientation).z() == Approx(0.3 * (double(k) + u)));
+      CHECK(bent[next].zone.percent == (step < steps ? 100 : 0));
+      CHECK(bent[next].zone.distance == (step < steps ? 0 : moves[k + 1].zone.distance));
+    }
+  }
+  CHECK(bent.size() == next + 2);  // behind the dwell there is no place to begin at
+  // Two points are a line; a point in another frame begins no curve.
+  program.instructions = {moves[0], moves[1]};
+  bend_splines({1}, program);
+  CHECK(program.instructions.size() == 2);
+  program.instructions = {moves[0], moves[1], moves[2], moves[3]};
+  program.instructions[2].tool = program.instructions[3].tool = 0;
+  bend_splines({1, 2, 3}, program);
+  CHECK(program.instructions.size() == 4);
 }
 
 TEST_CASE("krl: jumps over moves and back to a label, and an endless one is one pass") {

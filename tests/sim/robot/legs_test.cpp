@@ -391,6 +391,83 @@ TEST_CASE("legs: an axis that carries nothing takes its time and keeps to its li
   }
 }
 
+TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes', its tool's and its own", "[new]") {
+  const pipeline::Robot robot = arm(10, 100);  // the flange is 1 m from axis 1
+  const VectorXd mean = VectorXd::Constant(6, 50);
+  constexpr double chords = 2e-3;  // of arcs of 0.8 rad in 24 parts
+  const auto leg = [&](const auto& change) {
+    pipeline::MotionStep start, turn;
+    start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.8, 0.4, 0, 0, 0.5, 0};
+    change(turn);
+    if (turn.tool_speed || turn.turn_speed || turn.tool_acceleration) turn.joints[1] = 0;
+    pipeline::Motion program = motion({start, turn});
+    program.speed_percent = 40;
+    const Legs made = legs_of(program, robot, mean);
+    REQUIRE(made.legs.size() == 1);
+    CHECK(made.legs[0].length == 0.8);
+    CHECK(made.legs[0].straight);
+    return made.legs[0];
+  };
+  using Step = pipeline::MotionStep;
+  CHECK(leg([](Step&) {}).cruise == Approx(4));
+  CHECK(leg([](Step&) {}).acceleration == Approx(50 * leg([](Step&) {}).slowing));
+  CHECK(leg([](Step& s) { s.speed_percent = 25; }).cruise == Approx(2.5));
+  CHECK(leg([](Step& s) { s.speed = 0.2, s.speed_percent = 1; }).cruise == Approx(0.2));
+  CHECK(leg([](Step& s) { s.tool_speed = 0.5; }).cruise == Approx(0.5).epsilon(chords));
+  CHECK(leg([](Step& s) { s.turn_speed = 0.3; }).cruise == Approx(0.3).epsilon(chords));
+  CHECK(leg([](Step& s) { s.turn_speed = 0.3, s.tool_speed = 0.2; }).cruise == Approx(0.2).epsilon(chords));
+  CHECK(leg([](Step& s) { s.tool_speed = 9, s.speed_percent = 50; }).cruise == Approx(5));
+  CHECK(leg([](Step& s) { s.tool_acceleration = 0.25, s.tool_speed = 1; }).acceleration == Approx(0.25).epsilon(chords));
+  CHECK(leg([](Step& s) { s.acceleration = 0.7; }).acceleration == Approx(0.7));
+  const Leg half = leg([](Step& s) { s.acceleration_percent = 50; });
+  CHECK(half.acceleration == Approx(25 * half.slowing));
+  // From rest to rest in 4 s: L/v + v/A = 4.
+  const double cruise = leg([](Step& s) { s.duration = 4; }).cruise;
+  CHECK(0.8 / cruise + cruise / 50 == Approx(4));
+}
+
+TEST_CASE("legs: a tool's zone between two joint moves is as large a share of each as of its tool's way", "[new]") {
+  pipeline::MotionStep start, turn, lift;
+  start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0}, lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
+  for (const double zone : {0.05, 0.4}) {
+    turn.tool_zone = zone;
+    const Legs made = legs_of(motion({start, turn, lift}), arm(), VectorXd::Constant(6, 8));
+    REQUIRE(made.legs.size() == 2);
+    // The flange goes along chords of 0.6 rad at 1 m and of 0.3 rad at 1.414 m, at most half of each is blended.
+    const double way = 2 * std::sin(0.3), way_behind = 2 * std::sqrt(2.0) * std::sin(0.15);
+    CHECK(made.legs[0].zone == Approx(0.6 * std::min(0.5, zone / way)));
+    CHECK(made.legs[0].zone_behind == Approx(0.3 * std::min(0.5, zone / way_behind)));
+    CHECK(made.legs[1].zone == 0);
+  }
+}
+
+TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within their angular zone", "[new]") {
+  pipeline::MotionStep start, turn, lift, line;
+  start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0}, lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
+  line.joints = {0.65, 0.35, 0, 0, 0.5, 0};
+  line.path = PathKind::linear;
+  turn.zone = 0.1, lift.tool_zone = 0.02;
+  const Legs made = legs_of(motion({start, turn, lift, line}), arm(), VectorXd::Constant(6, 8));
+  int on_curve = 0, before = 0;
+  VectorXd place = made.legs[0].from;
+  for (const Leg& leg : made.legs) {
+    CHECK((leg.from - place).norm() < rounding);  // no gap
+    place = leg.from + leg.length * leg.direction;
+    CHECK(leg.path == 1);
+    if (leg.from[0] < 0.5 - rounding || place[1] > 0.1 + rounding) continue;
+    // Ends at 0.5, 0 and 0.6, 0.1: the second angle is 0.1 u^2.
+    const double u = std::sqrt(place[1] / 0.1), first = 0.5 * (1 - u) * (1 - u) + 1.2 * u * (1 - u) + 0.6 * u * u;
+    CHECK(place[0] == Approx(first).epsilon(1e-9));
+    CHECK(leg.step == (u <= 0.5 + rounding ? 1 : 2));
+    ++on_curve, before += u <= 0.5 + rounding;
+  }
+  // Points at most 10 mm apart on 0.1 / 0.6 and 0.1 / 0.3 of the tool's ways.
+  const double way = 2 * std::sin(0.3) / 6 + 2 * std::sqrt(2.0) * std::sin(0.15) / 3;
+  CHECK(on_curve == int(std::ceil(way / 0.01)));
+  CHECK(before == on_curve / 2);
+  CHECK((place - Eigen::Map<const VectorXd>(line.joints.data(), 6)).norm() < 1e-7);  // acos near its ends
+}
+
 TEST_CASE("legs: targets out of reach are told together, with their lines") {
   auto far = to(PathKind::linear, {5, 0, 1}, 1, 0), wrong = to(PathKind::joint, corner, 1, 0);
   far.where = {"main.mod", 12, 3};
