@@ -66,6 +66,12 @@ std::string duty_words(const std::vector<DutyResult>& results) {
                           readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time, 100 * duty.lives.share[k],
                           shown_hours(duty.robot_life_hours, duty.lives.without[k][0]), shown_hours(duty.robot_life_hours, duty.lives.as_twice[k][0]));
     text += fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
+    if (duty.worn_hours_p10 < duty.robot_life_hours)
+      text += wrapped(fmt::format("Abrasion is not validated and not in these hours. By the model 1 of 10 is worn through after {} at the "
+                                  "soonest.",
+                                  hours_text(duty.worn_hours_p10)),
+                      118, "  ");
+    if (!duty.not_evaluated.empty()) text += wrapped(fmt::format("Not evaluated: {}.", duty.not_evaluated), 118, "  ");
     for (std::size_t m = 0; m < duty.modes.size(); ++m)
       if (duty.damage.same_place[m] < 0.99)
         text += wrapped(fmt::format("The programs wear different places: the damage of '{}' is {:.2f} of the sum of their worst places.",

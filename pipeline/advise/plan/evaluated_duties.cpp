@@ -122,6 +122,15 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
   return rates;
 }
 
+/// Wear adds up like damage. The wear rate is the same for all programs, so that percentiles add up, too.
+double worn_hours(const std::vector<DutyPart>& parts, const Duty& duty, const Programs& programs) {
+  double per_hour = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (const UnvalidatedMode* const mode = programs.row(duty.programs[k]).unvalidated_mode(UnvalidatedMode::abrasion))
+      per_hour += parts[k].share_of_time / mode->hours[0];
+  return per_hour > 0 ? 1 / per_hour : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 void check_programs(const DutyFile& file, const Study& study) {
@@ -154,6 +163,8 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
     result.name = duty.name;
     result.hours_per_week = duty.hours_per_week;
     const std::vector<Rate> rates = rates_of(duty, programs, result.parts);
+    result.worn_hours_p10 = worn_hours(result.parts, duty, programs);
+    result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
     for (const DutyProgram& program : duty.programs)
       if (const RankingRow& row = programs.row(program); !is_believable(row))
         result.doubtful.push_back(fmt::format("{} ({})", row.job, warning_kinds(row)));

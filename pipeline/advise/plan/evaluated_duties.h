@@ -29,6 +29,8 @@ struct DutyResult {
   DutyDamage damage;
   DutyLives lives;
   double past_hours = 0;  ///< 0: no history
+  double worn_hours_p10 = 0;          ///< by then 1 of 10 is worn through at the soonest, if all programs rub one place
+  std::string not_evaluated;          ///< parts and modes without a life
   std::vector<std::string> doubtful;  ///< "hard (bend radius)": programs with warnings that spoil a plan
 };
 
