@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "sim/route/quick_checks.h"
+#include "sim/run/quick_checks.h"
 #include "sim/run/simulate.h"
 #include "tests/catch.h"
 #include "tests/sim/simple_job.h"

@@ -1,0 +1,412 @@
+#include "sim/run/quick_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "pipeline/base/warning_words.h"
+#include "pipeline/files/check_names.h"
+#include "pipeline/job/setup.h"
+#include "sim/run/cures.h"
+#include "sim/run/equilibrium.h"
+#include "sim/run/routing.h"
+#include "sim/run/simulate.h"
+
+namespace dresslife::sim {
+namespace {
+
+namespace check_name = pipeline::check_name;
+using pipeline::WarningKind;
+
+constexpr double degree = EIGEN_PI / 180;
+constexpr int most_moments = 100'000;  // of the program; a run looks at every step
+constexpr int rest_moments = 1000;     // of the program; a span rests in those between which it has moved enough
+constexpr int mounting_moments = 100;  // of the way from the mounting pose to the program
+// Between two rests: far below the half turn at which the shorter way around is the other one.
+constexpr double rest_turn = 20 * degree;
+constexpr double rest_way = 0.05;  // the same for displacements, of the length: a hose sags by as much
+constexpr double same_shape = 0.5;   // of the diameter: shapes that lie nearer are one
+constexpr double same_radius = 0.05;  // of a bend radius: what few segments leave of doubt
+
+pipeline::Setup with_few_segments(pipeline::Setup setup) {
+  setup.simulation.segments = std::min(setup.simulation.segments, short_run_segments);
+  setup.simulation.most_repeats = 1;
+  return setup;
+}
+
+/// A span at rest at a clamp whose roll is found.
+struct Shape {
+  RodState state;
+  double roll = 0;  // [rad]
+};
+
+/// Its course over the program.
+struct Rests {
+  std::vector<Check> checks;
+  RodState begin;                 // at the first target
+  double roll = 0;                // of its tool clamp [rad]
+  std::optional<double> unfound;  // time at which no rest is found [s]; absent: all are found
+};
+
+double distance(const RodState& a, const RodState& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.position.size(); ++i) most = std::max(most, (a.position[i] - b.position[i]).norm());
+  return most;
+}
+
+/// Stable shapes under gravity, each reached from where it is held up or to a side, as an installer may (mounting.h).
+std::vector<Shape> shapes_of(const RodProperties& p, const ClampFrames& clamps, bool twist_free,
+                             const EquilibriumSettings& settings) {
+  const Rod rod(p);
+  const Vector3 g = p.gravity, chord = clamps.tool.position - clamps.base.position;
+  Vector3 side = chord.cross(g);
+  if (side.norm() > 0) side *= g.norm() / side.norm();
+  std::vector<Shape> shapes;
+  for (const Vector3& gravity : {g, Vector3(-g), side, Vector3(-side)}) {
+    RodProperties held = p;
+    held.gravity = gravity;
+    const TwistFreeClamp clamped = twist_free ? twist_free_roll(Rod(held), clamps, settings)
+                                              : TwistFreeClamp{0, find_equilibrium(Rod(held), clamps, settings)};
+    if (clamped.equilibrium.status != EquilibriumStatus::converged) continue;
+    const RodState& from = clamped.equilibrium.state;
+    const Equilibrium rest = find_equilibrium(rod, from.clamps, from, {}, settings);
+    if (rest.status != EquilibriumStatus::converged) continue;
+    const bool known = std::any_of(shapes.begin(), shapes.end(), [&](const Shape& shape) {
+      return distance(shape.state, rest.state) < same_shape * p.diameter;
+    });
+    if (!known) shapes.push_back({rest.state, clamped.roll});
+  }
+  return shapes;
+}
+
+class QuickChecks {
+ public:
+  explicit QuickChecks(const pipeline::Setup& setup)
+      : setup_(setup),
+        rod_(rod_of(setup)),
+        short_rod_(rod_of(with_few_segments(setup))),
+        path_(path_of(setup)),
+        robot_(dynamic_cast<const RobotPath*>(path_.get())) {}
+
+  QuickFindings findings() {
+    QuickFindings found;
+    found.run = short_run(setup_);
+    add_slack(found.checks);
+    if (robot_) found.others = robot_->doubts();
+    add_rests(found);
+    for (const Check& check : found.run.checks)
+      if (check.name == check_name::bend_radius) found.checks.push_back(check);
+    add_winding(found.others);
+    found.others = pipeline::joined(std::move(found.others), one_link_warnings(setup_));
+    return found;
+  }
+
+  QuickWarnings warnings() {
+    QuickFindings found = findings();
+    const CheckedMotion motion{setup_, [&](double time) { return moment(time); }, &rod_, path_.get()};
+    std::vector<Check> said;  // a bend that is there at rest is no other one in motion
+    for (const Check& check : found.checks)
+      if (check.name != check_name::bend_radius ||
+          std::none_of(found.checks.begin(), found.checks.end(), [&](const Check& other) {
+            return other.name == check_name::bend_radius_at_rest && other.warning && other.dresspack == check.dresspack;
+          }))
+        said.push_back(check);
+    std::vector<pipeline::Warning> cured = check_warnings(motion, said);
+    if (found.run.taut_at) cured.push_back(taut_warning(motion, found.run));
+    return {pipeline::joined(std::move(found.others), cured), std::move(found.notes)};
+  }
+
+ private:
+  std::string moment(double time) const {
+    const int step = path_->step(time);
+    return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1,
+                       path_->step_texts()[static_cast<std::size_t>(step)]);
+  }
+  const RodProperties& properties(std::size_t span) const { return rod_.spans()[span].properties; }
+  bool is_free(std::size_t span) const { return properties(span).tool_end == End::free; }
+  /// Of a place in the middle of a span, -1 of the only one.
+  double middle(std::size_t span) const {
+    const Span& of = rod_.spans()[span];
+    const int count = rod_.first_span(of.dresspack + 1) - rod_.first_span(of.dresspack);
+    return count == 1 ? -1 : of.first_arc + of.properties.length / 2;
+  }
+
+  /// Longest straight way of each span over the program, step by step as a run sees it.
+  void add_slack(std::vector<Check>& checks) {
+    const std::size_t spans = rod_.spans().size();
+    longest_.assign(spans, 0.0);
+    when_.assign(spans, 0.0);
+    const double step = std::max(setup_.simulation.time_step, path_->duration() / most_moments);
+    const auto steps = static_cast<int>(std::ceil(path_->duration() / step));
+    for (int k = 0; k <= steps; ++k) {
+      const double time = std::min(k * step, path_->duration());
+      const Pose pose = path_->at(time);
+      const std::vector<double> ways = shortest_ways(setup_, rod_, pose.clamps, pose.rings);
+      for (std::size_t span = 0; span < spans; ++span)
+        if (!is_free(span) && ways[span] > longest_[span]) longest_[span] = ways[span], when_[span] = time;
+    }
+    for (int d = 0; d < rod_.dresspacks(); ++d) {
+      const auto first = static_cast<std::size_t>(rod_.first_span(d)), end = static_cast<std::size_t>(rod_.first_span(d + 1));
+      const auto share = [&](std::size_t span) { return 1 - longest_[span] / properties(span).length; };
+      std::size_t tight = end, loose = end;
+      for (std::size_t span = first; span < end; ++span) {
+        if (is_free(span)) continue;
+        if (tight == end || share(span) < share(tight)) tight = span;
+        if (loose == end || share(span) > share(loose)) loose = span;
+      }
+      if (tight == end || properties(tight).slider) continue;  // what is pulled out is known to a run only
+      const auto add = [&](const char* name, std::size_t span, double limit, bool broken) {
+        checks.push_back({WarningKind::slack, name, "m", share(span) * properties(span).length, limit, broken, when_[span],
+                          middle(span), d});
+      };
+      add(check_name::too_short, tight, least_slack_share * properties(tight).length, share(tight) < least_slack_share);
+      add(check_name::too_long, loose, most_slack_share * properties(loose).length, share(loose) > most_slack_share);
+    }
+  }
+
+  /// The clamps of a span at a moment u: from -1 (mounting pose) over 0 to 1 (end of the program).
+  ClampFrames clamps_at(std::size_t span, double u) const {
+    Pose pose;
+    if (u >= 0) {
+      pose = path_->at(u * path_->duration());
+    } else {
+      const Eigen::VectorXd from = robot_->mounting_pose();
+      pose = robot_->pose(from + (1 + u) * (robot_->motion().position(0) - from));
+    }
+    return {pose.clamps.end(static_cast<int>(2 * span)), pose.clamps.end(static_cast<int>(2 * span) + 1)};
+  }
+
+  /// In order: the mounting pose, where it is not the program's first one, and the program.
+  std::vector<double> moments() const {
+    std::vector<double> all;
+    if (robot_ && robot_->mounting_pose() != robot_->motion().position(0))
+      for (int k = 0; k < mounting_moments; ++k) all.push_back(-1 + static_cast<double>(k) / mounting_moments);
+    for (int k = 0; k <= rest_moments; ++k) all.push_back(static_cast<double>(k) / rest_moments);
+    return all;
+  }
+
+  /// A state whose segments follow the clamps, each by its share of the length.
+  static RodState moved_along(RodState state, const ClampFrames& to) {
+    const Quaternion base = to.base.orientation * state.clamps.base.orientation.conjugate();
+    const Quaternion tool = to.tool.orientation * state.clamps.tool.orientation.conjugate();
+    const std::size_t segments = state.position.size();
+    for (std::size_t i = 0; i < segments; ++i) {
+      const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(segments);
+      const Vector3 with_base = to.base.position + base * (state.position[i] - state.clamps.base.position);
+      const Vector3 with_tool = to.tool.position + tool * (state.position[i] - state.clamps.tool.position);
+      state.position[i] = (1 - share) * with_base + share * with_tool;
+      state.orientation[i] = (base.slerp(share, tool) * state.orientation[i]).normalized();
+    }
+    state.clamps = to;
+    return state;
+  }
+
+  static bool moved(const ClampFrames& from, const ClampFrames& to, double length) {
+    const Quaternion base = to.base.orientation * from.base.orientation.conjugate();
+    const Quaternion tool = to.tool.orientation * from.tool.orientation.conjugate();
+    const Vector3 way = to.tool.position - to.base.position - base * (from.tool.position - from.base.position);
+    return base.angularDistance(tool) > rest_turn || base.angularDistance(Quaternion::Identity()) > rest_turn ||
+           way.norm() > rest_way * length;
+  }
+
+  /// What is at rest of a span.
+  struct Resting {
+    RodProperties properties;
+    std::size_t span;
+    double base_roll;  // of its base clamp [rad]
+    double pre_twist;  // of its tool clamp [rad]
+    MotionLimits limits;
+  };
+
+  static EquilibriumSettings rest_settings() {
+    EquilibriumSettings settings;
+    settings.tolerance = 1e-4;  // of the forces: a picture's worth
+    return settings;
+  }
+
+  ClampFrames rolled_clamps(const Resting& of, double moment, double roll) const {
+    const ClampFrames clamps = clamps_at(of.span, moment);
+    return {rolled(clamps.base, of.base_roll), rolled(clamps.tool, roll)};
+  }
+
+  /// A span at rest in pose after pose, each found from the one before, so that whole turns of the hose count as in a run
+  /// (R7).
+  Rests rests(const Resting& of, const Shape& start, const std::vector<double>& all) const {
+    const Rod rod(of.properties);
+    MotionChecks checks(rod, {of.limits});
+    Rests result;
+    result.roll = start.roll;
+    RodState found = start.state;
+    const auto follow = [&](const ClampFrames& clamps) {
+      Equilibrium next = find_equilibrium(rod, clamps, moved_along(found, clamps), {}, rest_settings());
+      if (next.status != EquilibriumStatus::converged) return false;
+      found = std::move(next.state);
+      return true;
+    };
+    bool resting = true;
+    const int parts = static_cast<int>(std::ceil(std::abs(of.pre_twist) / rest_turn));
+    for (int part = 1; part <= parts && resting; ++part)
+      resting = follow(rolled_clamps(of, all.front(), result.roll = start.roll + of.pre_twist * part / parts));
+    const auto look = [&](std::size_t k) {
+      if (all[k] < 0) return;
+      if (all[k] == 0) result.begin = found;
+      checks.see(found, {}, all[k] * path_->duration());
+    };
+    if (resting) look(0);
+    else result.unfound = 0;
+    for (std::size_t now = 0; resting && now + 1 < all.size();) {
+      const ClampFrames here = rolled_clamps(of, all[now], result.roll);
+      std::size_t next = now + 1;
+      while (next + 1 < all.size() && all[next] != 0 && !moved(here, rolled_clamps(of, all[next], result.roll), of.properties.length))
+        ++next;
+      while (!(resting = follow(rolled_clamps(of, all[next], result.roll))) && next > now + 1) next = now + (next - now) / 2;
+      if (resting) look(now = next);
+      else result.unfound = std::max(0.0, all[next]) * path_->duration();
+    }
+    if (!result.unfound) result.checks = checks.table();
+    return result;
+  }
+
+  /// Of all shapes of a span, that first which is nearest to where a run begins.
+  std::vector<Rests> all_rests(std::size_t span, double base_roll, const std::optional<RodState>& begin) const {
+    const Span& of = rod_.spans()[span];
+    const pipeline::MountedDresspack& mounted = setup_.dresspacks[static_cast<std::size_t>(of.dresspack)];
+    const auto between = span - static_cast<std::size_t>(rod_.first_span(of.dresspack));
+    const bool last = between == mounted.routing.clamps.size();
+    const bool twist_free =
+        robot_ && !(last ? *mounted.routing.tool_clamp : mounted.routing.clamps[between].clamp).roll;
+    const Span& few = short_rod_.spans()[span];
+    const Resting resting{few.properties, span, base_roll, last ? mounted.routing.pre_twist : 0, limits_of(mounted.dresspack)};
+    const std::vector<double> all = moments();
+    std::vector<Rests> found;
+    for (const Shape& shape : shapes_of(few.properties, rolled_clamps(resting, all.front(), 0), twist_free, rest_settings()))
+      found.push_back(rests(resting, shape, all));
+    if (found.empty()) found.push_back({{}, {}, 0, 0.0});
+    if (!begin) return found;
+    const auto from_begin = [&](const Rests& of_shape) {
+      double most = 0;
+      if (of_shape.begin.position.empty()) return std::numeric_limits<double>::infinity();
+      for (int i = 0; i < few.segments(); ++i)
+        most = std::max(most, (of_shape.begin.position[static_cast<std::size_t>(i)] -
+                               begin->position[static_cast<std::size_t>(few.first_segment + i)]).norm());
+      return most;
+    };
+    std::swap(found.front(), *std::min_element(found.begin(), found.end(), [&](const Rests& a, const Rests& b) {
+                return from_begin(a) < from_begin(b);
+              }));
+    return found;
+  }
+
+  /// Of each dresspack's worst spans at rest. Spans with rings or a retraction unit are left to a run.
+  void add_rests(QuickFindings& result) {
+    const std::vector<RoutedRing> rings = routed_rings(setup_);
+    for (int d = 0; d < rod_.dresspacks(); ++d) {
+      std::optional<Check> bend, twist, net;
+      double roll = 0;
+      for (auto span = static_cast<std::size_t>(rod_.first_span(d)); span < static_cast<std::size_t>(rod_.first_span(d + 1)); ++span) {
+        const bool ringed = std::any_of(rings.begin(), rings.end(), [&](const RoutedRing& ring) {
+          return ring.span == static_cast<int>(span);
+        });
+        const double base_roll = std::exchange(roll, 0);
+        if (is_free(span) || ringed || properties(span).slider || longest_[span] >= properties(span).length) continue;
+        const std::vector<Rests> shapes = all_rests(span, base_roll, result.run.begin);
+        roll = shapes.front().roll;
+        // What a short run has followed in time is no fault, although no rest is found.
+        if (shapes.front().unfound && !result.run.refusal.empty()) result.others.push_back(no_rest(d, *shapes.front().unfound));
+        add_shapes_note(d, shapes, result.notes);
+        std::optional<Check> net_here;
+        for (Check check : shapes.front().checks) {
+          check.dresspack = d;
+          check.position = middle(span);
+          if (check.name == check_name::net_twist) net_here = check;
+          if (check.name == check_name::bend_radius && (!bend || check.value < bend->value)) bend = check;
+          if (check.name == check_name::twist && (!twist || std::abs(check.value) > std::abs(twist->value)))
+            twist = check, net.reset();
+        }
+        if (!net) net = net_here;
+      }
+      if (bend) bend->name = check_name::bend_radius_at_rest, result.checks.push_back(*bend);
+      if (twist) twist->name = "largest twist at rest", result.checks.push_back(*twist);
+      if (net) result.checks.push_back(*net);
+    }
+  }
+
+  void add_shapes_note(int dresspack, const std::vector<Rests>& shapes, std::vector<std::string>& notes) const {
+    std::vector<double> radii;
+    for (const Rests& shape : shapes)
+      for (const Check& check : shape.checks)
+        if (check.name == check_name::bend_radius &&
+            std::none_of(radii.begin(), radii.end(), [&](double r) { return std::abs(r - check.value) <= same_radius * r; }))
+          radii.push_back(check.value);
+    if (radii.size() < 2) return;
+    std::string others;
+    for (std::size_t k = 1; k < radii.size(); ++k) others += fmt::format("{}{:.0f}", k == 1 ? "" : ", ", 1e3 * radii[k]);
+    const double limit =
+        limits_of(setup_.dresspacks[static_cast<std::size_t>(dresspack)].dresspack).least_bend_radius;
+    notes.push_back(fmt::format(
+        "Between these clamps {} has {} stable shapes at rest. In the shape with which a run begins its smallest bend radius "
+        "over the program is {:.0f} mm, in the other{} {} mm (limit {:.0f} mm). Clamp it as the preview of the run shows",
+        pipeline::dresspack_words(setup_, dresspack), radii.size(), 1e3 * radii.front(), radii.size() > 2 ? "s" : "", others,
+        1e3 * limit));
+  }
+
+  pipeline::Warning no_rest(int dresspack, double time) const {
+    return pipeline::warning_of(
+        WarningKind::bend_radius, "",
+        fmt::format("{} has no shape at rest that was found, {}", pipeline::dresspack_words(setup_, dresspack), moment(time)),
+        "its clamps turn it so far that it snaps, or it is too short for its way around the robot",
+        fmt::format("`dresslife run`, which follows its motion in time; or more {}",
+                    setup_.dresspacks.size() > 1 ? "free length" : "routing.free_length_m"));
+  }
+
+  /// A turn of an axis between the pose in which the dresspack was clamped and the program's first one is in the
+  /// dresspack for the whole program.
+  void add_winding(std::vector<pipeline::Warning>& all) const {
+    if (!robot_) return;
+    const Eigen::VectorXd start = robot_->motion().position(0), mounting = robot_->mounting_pose();
+    for (std::size_t axis = 0; axis < setup_.robot.joints.size() && static_cast<long>(axis) < start.size(); ++axis) {
+      const double turn = start[static_cast<long>(axis)] - mounting[static_cast<long>(axis)];
+      if (std::abs(turn) <= 180 * degree) continue;
+      all.push_back(pipeline::warning_of(
+          WarningKind::twist, "",
+          fmt::format("{} turns by {:.0f} deg (limit 180 deg) from routing.mounting_pose_deg to the first target of the program",
+                      setup_.robot.joints[axis].name, turn / degree),
+          "the pose in which the dresspack was clamped is a turn away from the program",
+          fmt::format("routing.mounting_pose_deg with {:.1f} for {}, or leave it out: then the first target counts",
+                      start[static_cast<long>(axis)] / degree, setup_.robot.joints[axis].name)));
+    }
+  }
+
+  const pipeline::Setup& setup_;
+  Rod rod_, short_rod_;
+  std::unique_ptr<ClampPath> path_;
+  const RobotPath* robot_;
+  std::vector<double> longest_, when_;  // (span) [m], [s]
+};
+
+}  // namespace
+
+ShortRun short_run(pipeline::Setup setup) {
+  ShortRun result;
+  try {
+    const Simulation simulation(with_few_segments(std::move(setup)));
+    result.begin = simulation.start();
+    result.checks = simulation.run({[](const Sample&) {}}).checks;
+  } catch (const RoutingRefusal& refusal) {
+    result.refusal = refusal.problem;
+    result.dresspack = refusal.dresspack;
+    if (result.begin) result.taut_at = refusal.time;
+  } catch (const pipeline::InputError& problem) {
+    result.refusal = problem.what();
+  }
+  return result;
+}
+
+QuickFindings quick_findings(const pipeline::Setup& setup) { return QuickChecks(setup).findings(); }
+QuickWarnings quick_warnings(const pipeline::Setup& setup) { return QuickChecks(setup).warnings(); }
+
+}  // namespace dresslife::sim
