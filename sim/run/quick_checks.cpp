@@ -29,7 +29,6 @@ constexpr int mounting_moments = 100;  // of the way from the mounting pose to t
 // Between two rests: far below the half turn at which the shorter way around is the other one.
 constexpr double rest_turn = 20 * degree;
 constexpr double rest_way = 0.05;  // the same for displacements, of the length: a hose sags by as much
-constexpr double same_shape = 0.5;   // of the diameter: shapes that lie nearer are one
 constexpr double same_radius = 0.05;  // of a bend radius: what few segments leave of doubt
 
 pipeline::Setup with_few_segments(pipeline::Setup setup) {
@@ -38,50 +37,13 @@ pipeline::Setup with_few_segments(pipeline::Setup setup) {
   return setup;
 }
 
-/// A span at rest at a clamp whose roll is found.
-struct Shape {
-  RodState state;
-  double roll = 0;  // [rad]
-};
-
-/// Its course over the program.
+/// A span at rest over the program.
 struct Rests {
   std::vector<Check> checks;
   RodState begin;                 // at the first target
   double roll = 0;                // of its tool clamp [rad]
   std::optional<double> unfound;  // time at which no rest is found [s]; absent: all are found
 };
-
-double distance(const RodState& a, const RodState& b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.position.size(); ++i) most = std::max(most, (a.position[i] - b.position[i]).norm());
-  return most;
-}
-
-/// Stable shapes under gravity, each reached from where it is held up or to a side, as an installer may (mounting.h).
-std::vector<Shape> shapes_of(const RodProperties& p, const ClampFrames& clamps, bool twist_free,
-                             const EquilibriumSettings& settings) {
-  const Rod rod(p);
-  const Vector3 g = p.gravity, chord = clamps.tool.position - clamps.base.position;
-  Vector3 side = chord.cross(g);
-  if (side.norm() > 0) side *= g.norm() / side.norm();
-  std::vector<Shape> shapes;
-  for (const Vector3& gravity : {g, Vector3(-g), side, Vector3(-side)}) {
-    RodProperties held = p;
-    held.gravity = gravity;
-    const TwistFreeClamp clamped = twist_free ? twist_free_roll(Rod(held), clamps, settings)
-                                              : TwistFreeClamp{0, find_equilibrium(Rod(held), clamps, settings)};
-    if (clamped.equilibrium.status != EquilibriumStatus::converged) continue;
-    const RodState& from = clamped.equilibrium.state;
-    const Equilibrium rest = find_equilibrium(rod, from.clamps, from, {}, settings);
-    if (rest.status != EquilibriumStatus::converged) continue;
-    const bool known = std::any_of(shapes.begin(), shapes.end(), [&](const Shape& shape) {
-      return distance(shape.state, rest.state) < same_shape * p.diameter;
-    });
-    if (!known) shapes.push_back({rest.state, clamped.roll});
-  }
-  return shapes;
-}
 
 class QuickChecks {
  public:
@@ -235,12 +197,12 @@ class QuickChecks {
 
   /// A span at rest in pose after pose, each found from the one before, so that whole turns of the hose count as in a run
   /// (R7).
-  Rests rests(const Resting& of, const Shape& start, const std::vector<double>& all) const {
+  Rests rests(const Resting& of, const TwistFreeClamp& start, const std::vector<double>& all) const {
     const Rod rod(of.properties);
     MotionChecks checks(rod, {of.limits});
     Rests result;
     result.roll = start.roll;
-    RodState found = start.state;
+    RodState found = start.equilibrium.state;
     const auto follow = [&](const ClampFrames& clamps) {
       Equilibrium next = find_equilibrium(rod, clamps, moved_along(found, clamps), {}, rest_settings());
       if (next.status != EquilibriumStatus::converged) return false;
@@ -283,7 +245,7 @@ class QuickChecks {
     const Resting resting{few.properties, span, base_roll, last ? mounted.routing.pre_twist : 0, limits_of(mounted.dresspack)};
     const std::vector<double> all = moments();
     std::vector<Rests> found;
-    for (const Shape& shape : shapes_of(few.properties, rolled_clamps(resting, all.front(), 0), twist_free, rest_settings()))
+    for (const TwistFreeClamp& shape : rest_shapes(few.properties, rolled_clamps(resting, all.front(), 0), twist_free, rest_settings()))
       found.push_back(rests(resting, shape, all));
     if (found.empty()) found.push_back({{}, {}, 0, 0.0});
     if (!begin) return found;
