@@ -132,11 +132,13 @@ bool is_among(const Kinds& kinds, const Check& check) {
   return check.kind && std::find(kinds.begin(), kinds.end(), *check.kind) != kinds.end();
 }
 
-/// Whether a changed job keeps the limits of these kinds, and passes no other one than the job does now.
-bool cures(const pipeline::Setup& changed, const Kinds& kinds, int dresspack, const std::vector<Check>& now) {
-  const QuickFindings found = quick_findings(changed);
+/// Whether a changed job keeps the limits of these kinds, and passes no other one than the job does now. Most that do not
+/// are found with few segments.
+bool cures(const pipeline::Setup& changed, const Kinds& kinds, int dresspack, const std::vector<Check>& now,
+           int segments = rest_segments) {
+  const QuickFindings found = quick_findings(changed, segments);
   if (!found.run.refusal.empty()) return false;
-  return std::all_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
+  const bool cured = std::all_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
     if (check.dresspack != dresspack) return true;
     const bool asked = is_among(kinds, check);
     if (asked && check.name == check_name::bend_radius && check.value < margin * check.limit) return false;
@@ -144,6 +146,8 @@ bool cures(const pipeline::Setup& changed, const Kinds& kinds, int dresspack, co
       return before.warning && before.kind == check.kind && before.dresspack == dresspack;
     }));
   });
+  const bool coarse = segments < std::min(short_run_segments, changed.simulation.segments);
+  return cured && (!coarse || cures(changed, kinds, dresspack, now, short_run_segments));
 }
 
 /// A routing between the same links.

@@ -31,9 +31,8 @@ constexpr double rest_turn = 20 * degree;
 constexpr double rest_way = 0.05;  // the same for displacements, of the length: a hose sags by as much
 constexpr double same_radius = 0.05;  // of a bend radius: what few segments leave of doubt
 
-pipeline::Setup with_few_segments(pipeline::Setup setup) {
-  setup.simulation.segments = std::min(setup.simulation.segments, short_run_segments);
-  setup.simulation.most_repeats = 1;
+pipeline::Setup with_segments(pipeline::Setup setup, int most) {
+  setup.simulation.segments = std::min(setup.simulation.segments, most);
   return setup;
 }
 
@@ -47,16 +46,18 @@ struct Rests {
 
 class QuickChecks {
  public:
-  explicit QuickChecks(const pipeline::Setup& setup)
+  QuickChecks(const pipeline::Setup& setup, int segments)
       : setup_(setup),
+        segments_(segments),
         rod_(rod_of(setup)),
-        short_rod_(rod_of(with_few_segments(setup))),
+        short_rod_(rod_of(with_segments(setup, segments))),
+        rest_rod_(rod_of(with_segments(setup, rest_segments))),
         path_(path_of(setup)),
         robot_(dynamic_cast<const RobotPath*>(path_.get())) {}
 
   QuickFindings findings() {
     QuickFindings found;
-    found.run = short_run(setup_);
+    found.run = short_run(setup_, segments_);
     add_slack(found.checks);
     if (robot_) found.others = robot_->doubts();
     add_rests(found);
@@ -241,7 +242,7 @@ class QuickChecks {
     const bool last = between == mounted.routing.clamps.size();
     const bool twist_free =
         robot_ && !(last ? *mounted.routing.tool_clamp : mounted.routing.clamps[between].clamp).roll;
-    const Span& few = short_rod_.spans()[span];
+    const Span &few = rest_rod_.spans()[span], &run = short_rod_.spans()[span];
     const Resting resting{few.properties, span, base_roll, last ? mounted.routing.pre_twist : 0, limits_of(mounted.dresspack)};
     const std::vector<double> all = moments();
     std::vector<Rests> found;
@@ -252,9 +253,11 @@ class QuickChecks {
     const auto from_begin = [&](const Rests& of_shape) {
       double most = 0;
       if (of_shape.begin.position.empty()) return std::numeric_limits<double>::infinity();
-      for (int i = 0; i < few.segments(); ++i)
+      for (int i = 0; i < few.segments(); ++i) {
+        const int beside = static_cast<int>((i + 0.5) * run.segments() / few.segments());
         most = std::max(most, (of_shape.begin.position[static_cast<std::size_t>(i)] -
-                               begin->position[static_cast<std::size_t>(few.first_segment + i)]).norm());
+                               begin->position[static_cast<std::size_t>(run.first_segment + beside)]).norm());
+      }
       return most;
     };
     std::swap(found.front(), *std::min_element(found.begin(), found.end(), [&](const Rests& a, const Rests& b) {
@@ -344,7 +347,8 @@ class QuickChecks {
   }
 
   const pipeline::Setup& setup_;
-  Rod rod_, short_rod_;
+  int segments_;
+  Rod rod_, short_rod_, rest_rod_;
   std::unique_ptr<ClampPath> path_;
   const RobotPath* robot_;
   std::vector<double> longest_, when_;  // (span) [m], [s]
@@ -352,10 +356,11 @@ class QuickChecks {
 
 }  // namespace
 
-ShortRun short_run(pipeline::Setup setup) {
+ShortRun short_run(pipeline::Setup setup, int segments) {
   ShortRun result;
+  setup.simulation.most_repeats = 1;
   try {
-    const Simulation simulation(with_few_segments(std::move(setup)));
+    const Simulation simulation(with_segments(std::move(setup), segments));
     result.begin = simulation.start();
     result.checks = simulation.run({[](const Sample&) {}}).checks;
   } catch (const RoutingRefusal& refusal) {
@@ -368,7 +373,7 @@ ShortRun short_run(pipeline::Setup setup) {
   return result;
 }
 
-QuickFindings quick_findings(const pipeline::Setup& setup) { return QuickChecks(setup).findings(); }
-QuickWarnings quick_warnings(const pipeline::Setup& setup) { return QuickChecks(setup).warnings(); }
+QuickFindings quick_findings(const pipeline::Setup& setup, int segments) { return QuickChecks(setup, segments).findings(); }
+QuickWarnings quick_warnings(const pipeline::Setup& setup) { return QuickChecks(setup, short_run_segments).warnings(); }
 
 }  // namespace dresslife::sim

@@ -19,7 +19,7 @@ struct Setup;
 
 namespace dresslife::sim {
 
-/// One run of a motion, from rest, with few segments.
+/// One run of a motion, from rest.
 struct ShortRun {
   std::vector<Check> checks;
   std::string refusal;               ///< why it does not run; empty: it does
@@ -28,10 +28,11 @@ struct ShortRun {
   std::optional<RodState> begin;     ///< absent: it did not begin
 };
 
-/// Of a hose at rest; a run with so few bends a little less than one with more.
-inline constexpr int short_run_segments = 32;
+/// Segments of each dresspack: at rest, where so few bend within a few percent of more; and at most in the short run, where
+/// fewer may lead a hose another way around the robot.
+inline constexpr int rest_segments = 32, short_run_segments = 64;
 
-ShortRun short_run(pipeline::Setup setup);
+ShortRun short_run(pipeline::Setup setup, int segments);
 
 struct QuickFindings {
   std::vector<Check> checks;              ///< with limits; at rest but for "smallest bend radius", which is the short run's
@@ -40,8 +41,8 @@ struct QuickFindings {
   ShortRun run;
 };
 
-/// Errors: InputError for a motion that the robot cannot run.
-QuickFindings quick_findings(const pipeline::Setup& setup);
+/// segments: of the short run. Errors: InputError for a motion that the robot cannot run.
+QuickFindings quick_findings(const pipeline::Setup& setup, int segments = short_run_segments);
 
 /// The same as warnings, with their cures; and notes.
 struct QuickWarnings {
