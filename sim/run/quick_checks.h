@@ -19,7 +19,7 @@ struct Setup;
 
 namespace dresslife::sim {
 
-/// One run of a motion, from rest.
+/// One run of a motion: as a run begins it, with two repeats at most.
 struct ShortRun {
   std::vector<Check> checks;
   std::string refusal;               ///< why it does not run; empty: it does
