@@ -61,8 +61,13 @@ class QuickChecks {
     add_slack(found.checks);
     if (robot_) found.others = robot_->doubts();
     add_rests(found);
-    for (const Check& check : found.run.checks)
-      if (check.name == check_name::bend_radius) found.checks.push_back(check);
+    for (const Check& check : found.run.checks) {
+      if (check.name != check_name::bend_radius) continue;
+      // At rest the hose hangs free of the robot, on which it may lie: a bend that the short run has not is none.
+      for (Check& other : found.checks)
+        if (other.name == check_name::bend_radius_at_rest && other.dresspack == check.dresspack) other.warning &= check.warning;
+      found.checks.push_back(check);
+    }
     add_winding(found.others);
     found.others = pipeline::joined(std::move(found.others), one_link_warnings(setup_));
     return found;

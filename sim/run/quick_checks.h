@@ -1,6 +1,7 @@
 // What is wrong with a job, found in seconds: slack over the whole program, as a run finds it; bend radius and twist of the
-// dresspack at rest, pose after pose of the program; its bend radius in one short run among the robot's links; clamps that do
-// not move against each other; axes that wind the dresspack up before the program begins.
+// dresspack at rest without contact, pose after pose of the program; its bend radius in one short run among the robot's links;
+// clamps on one link; axes that wind the dresspack up before the program begins. The short run decides whether a bend passes
+// its limit; the shapes at rest say why.
 //
 // A hose that is clamped on a robot may have several shapes at rest. Each that is found is followed through the
 // program. The checks take the one that is nearest to where a run begins.
