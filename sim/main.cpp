@@ -10,6 +10,7 @@
 #include "sim/route/preview.h"
 #include "sim/route/proposal.h"
 #include "sim/route/screening_file.h"
+#include "sim/run/cures.h"
 #include "sim/run/memory.h"
 #include "sim/run/motion_file.h"
 #include "sim/run/prescribed.h"
@@ -123,6 +124,11 @@ int main(int argc, char** argv) {
             "with --propose: short runs that they are tried in and bettered by",
             &request.proposals.rehearsals,
             {.range = {{0, 100'000}}}},
+           {"--further",
+            "COUNT",
+            "with --propose: short runs once enough keep all limits, for those that bend and twist less",
+            &request.proposals.further,
+            {.range = {{0, 100'000}}}},
            {"--seed",
             "NUMBER",
             "with --propose: of the search's chances",
@@ -141,6 +147,11 @@ int main(int argc, char** argv) {
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
         pipeline::Job job = pipeline::read_job(call.input, call.sets);
         if (told_at_rest(request, call, job, progress)) return;
-        return job.motion.is_prescribed() ? prescribe(call, job, progress) : simulate(call, job, progress);
+        if (job.motion.is_prescribed()) return prescribe(call, job, progress);
+        try {
+          simulate(call, job, progress);
+        } catch (const sim::RoutingRefusal& refusal) {
+          throw pipeline::InputError(refusal.where, refusal.problem, sim::refusal_remedy(job, refusal));
+        }
       });
 }

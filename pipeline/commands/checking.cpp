@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <sstream>
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/excess.h"
@@ -43,7 +44,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
   check.limits = "Not checked: limits of the deformation, strains and forces of the cables. A run may also warn of them.";
   if (job.motion.is_prescribed()) return check;
   check.limits =
-      "The dresspack was checked at rest. A run may also warn of its swing, of tension, and of strains and forces of its "
+      "The dresspack was checked at rest and in a short run. A run may also warn of tension, and of strains and forces of its "
       "cables.";
   const PassingFile told("preview.h5");
   if (tell_preview(file, sets, {}, told.path()) != 0)
@@ -53,6 +54,8 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
     const FileReader preview(told.path(), preview_format(), FileReader::Scope::attributes);
     check.warnings = joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings")));
     check.notes = length_words(told.path());
+    std::istringstream notes(preview.text_attribute("notes"));
+    for (std::string note; std::getline(notes, note);) check.notes.push_back("note: " + note);
   } catch (const InputError&) {  // it was written just now: no fault of the job
     throw DiskError(told.path().string(), EIO);
   }

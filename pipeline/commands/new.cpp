@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
+
 #include "pipeline/advise/improve/draft.h"
 #include "pipeline/advise/improve/screened.h"
 #include "pipeline/base/errors.h"
@@ -130,7 +132,7 @@ Choice proposed(const Draft& draft) {
   const PassingFile job("draft.yaml"), told("screening.h5");
   write_text_if_changed(job.path(), with_mark(draft_text(draft, job.path().parent_path()), Mark::yaml));
   std::vector<std::string> arguments{
-      job.path().string(),  "--propose", "1", "--tried", "300", "--rehearsals", "40", "-o",
+      job.path().string(),  "--propose", "1", "--tried", "300", "--rehearsals", "80", "--further", "16", "-o",
       told.path().string(), "--quiet"};
   if (draft.exercise) arguments.emplace_back("--exercise");
   if (run_stage_program("dresslife-sim", arguments) != 0)
@@ -172,9 +174,10 @@ std::string job_of_urdf(const Options& options, std::size_t axes) {
 Choice routing_for(const Draft& draft, const Options& options) {
   std::optional<Choice> known = shipped_routing(options.robot, options.dresspack);
   if (known && !draft.exercise) judge(draft, "", *known);
-  if (known && !known->refused) return *known;
+  if (known && !known->refused && known->faults.empty()) return *known;
   Choice made = proposed(draft);
-  return known && made.refused ? *known : made;
+  const auto badness = [](const Choice& of) { return std::pair(of.refused, of.faults.size()); };
+  return known && badness(*known) <= badness(made) ? *known : made;
 }
 
 std::string flow(const Node& node) {
@@ -263,7 +266,8 @@ int make(Options options) {
     print(shown("Fill in its clamps: " + choice.faults.front() + "\n"));
   else if (!choice.faults.empty())
     print(shown(
-        fmt::format("dresslife check {} warns {}.\n", options.job,
+        fmt::format("No routing of those that were tried keeps all limits: dresslife check {0} warns {1}. dresslife route {0} "
+                    "searches longer.\n", options.job,
                     choice.faults.size() == 1 ? "once" : fmt::format("{} times", choice.faults.size()))));
   return 0;
 }

@@ -18,6 +18,7 @@
 #include "pipeline/base/digest.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/commands/making.h"
@@ -39,7 +40,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int trials = 3;  // routings of one search that are run through the whole chain
+constexpr int trials = 3;    // routings of one search that are run through the whole chain
+constexpr int further = 40;  // short runs for less bending and twisting: a third as long again as a usual search
 
 struct Options : RunOptions {
   RouteRequest request;
@@ -59,6 +61,7 @@ struct Trial {
   std::optional<std::size_t>
       best;  // that ran: feasible and of the longest life within the tolerance, else least beyond its limits
   std::vector<ImprovementStory::Nudge> nudges{};  // of the best
+  std::optional<std::size_t> start{};             // the job's own routing, if it has one
 
   bool feasible() const { return best && outcomes[*best].feasible(); }
 };
@@ -82,6 +85,8 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
                                      std::to_string(options.tried),
                                      "--rehearsals",
                                      std::to_string(options.rehearsals),
+                                     "--further",
+                                     std::to_string(further),
                                      "--seed",
                                      std::to_string(options.seed),
                                      "-o",
@@ -143,16 +148,36 @@ void judge(Trial& trial, const Draft& draft, const Options& options, const Study
   trial.nudges = judged[best].nudges;
 }
 
-/// Those that kept all limits in their rehearsal; with a tolerance all of them, as it decides, else until one keeps all
+/// The routing of the job that is named, as YAML; absent: it has none that is complete.
+std::optional<std::string> own_routing(const Draft& draft) {
+  const Node* const routing = draft.document.find("routing");
+  if (draft.exercise || !routing) return {};
+  try {
+    job_from(draft.document);
+  } catch (const InputError&) {  // what is missing is what is searched for
+    return {};
+  }
+  return to_yaml(*routing);
+}
+
+/// Those that kept all limits in their rehearsal, and the job's own; with a tolerance all of them, as it decides, else until one keeps all
 /// limits in the whole chain.
 Trial tried(const Draft& draft, const Options& options, double factor, const StudyPlaces& places) {
   Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}, {}};
+  if (const std::optional<std::string> own = own_routing(draft); own && factor == 1) {
+    trial.start = trial.proposals.candidates.size();
+    ScreenedCandidate& candidate = trial.proposals.candidates.emplace_back();
+    candidate.changes = *own;
+    candidate.beyond.assign(trial.proposals.limits.size(), 0.0);
+  }
   trial.outcomes.resize(trial.proposals.candidates.size());
   trial.rows.resize(trial.proposals.candidates.size());
   const bool tolerance = options.off_mm > 0;
-  for (std::size_t k = 0; k < trial.outcomes.size() && (tolerance || !trial.feasible()); ++k)
+  const std::size_t found = trial.start.value_or(trial.outcomes.size());
+  for (std::size_t k = 0; k < found && (tolerance || !trial.feasible()); ++k)
     if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
       run(trial, k, draft, options, places);
+  if (trial.start) run(trial, *trial.start, draft, options, places);
   if (tolerance && trial.feasible()) judge(trial, draft, options, places);
   return trial;
 }
@@ -240,6 +265,16 @@ void write_page(const fs::path& job, const fs::path& page) {
     write_text_if_changed(page, preview_page(told.path(), job.stem().string(), xxh3(shell_digest())));
 }
 
+/// The winner beside the routing that the job has.
+std::string comparison_words(const Trial& trial) {
+  if (!trial.start) return "";
+  const Outcome &own = trial.outcomes[*trial.start], &best = trial.outcomes[*trial.best];
+  if (*trial.best == *trial.start) return "It is the job's own routing: none that was found is better.\n";
+  if (!own.failure.empty()) return fmt::format("The job's own routing does not run: {}\n", own.failure);
+  const std::string limits = own.feasible() ? "keeps all limits" : own.words();
+  return fmt::format("p10: {} (job's own routing: {}; {})\n", hours_text(best.hours), hours_text(own.hours), limits);
+}
+
 std::string words_of(const Trial& trial, const Draft& draft, double off) {
   const Outcome& best = trial.outcomes[*trial.best];
   const Dresspack& dresspack = draft.job.dresspacks.front().dresspack;
@@ -257,7 +292,7 @@ std::string words_of(const Trial& trial, const Draft& draft, double off) {
     text += fmt::format("It runs, but no routing was found that keeps all limits ({}): {}. Remedy: {}\n",
                         best.words(), by.by, by.remedy);
   }
-  text += tolerance_words(trial.nudges, off);
+  text += comparison_words(trial) + tolerance_words(trial.nudges, off);
   const RankingRow& row = trial.rows[*trial.best];
   for (const std::string& words :
        {action_words(row), uncertainty_words(row), failure_words(row), unvalidated_words(row)})

@@ -500,7 +500,8 @@ Format make_preview_format() {
     {"refusal", text, always, "why the simulation refuses the job; empty: it accepts it"},
     {"refusal_time", f64, maybe, "time of the refusal, s; absent: it has none"},
     {"warnings", text, maybe,
-     "warnings of geometry and statics, one per line: kind, place and words, separated by tabs"},
+     "warnings of geometry, statics and a short run, one per line: kind, place and words, separated by tabs"},
+    {"notes", text, maybe, "several shapes at rest, one per line"},
   });
   return format;
 }

@@ -9,7 +9,7 @@
 
 #include "pipeline/job/setup.h"
 #include "sim/rod/start_curve.h"
-#include "sim/route/quick_checks.h"
+#include "sim/run/quick_checks.h"
 #include "sim/run/cures.h"
 #include "sim/run/routing.h"
 #include "sim/run/simulate.h"
@@ -63,7 +63,9 @@ class Previewer {
     write_spans(file);
     write_scan(file);
     write_refusal(file);
-    file.attribute("warnings", pipeline::warnings_text(quick_warnings(setup_)));
+    const QuickWarnings quick = quick_warnings(setup_);
+    file.attribute("warnings", pipeline::warnings_text(quick.warnings));
+    file.attribute("notes", fmt::format("{}", fmt::join(quick.notes, "\n")));
   }
 
  private:
@@ -253,6 +255,8 @@ class Previewer {
     std::string refusal;
     try {
       const Simulation simulation(setup_);
+    } catch (const RoutingRefusal& problem) {
+      refusal = pipeline::InputError(problem.where, problem.problem, refusal_remedy(setup_, problem)).what();
     } catch (const pipeline::InputError& problem) {
       refusal = problem.what();
     }

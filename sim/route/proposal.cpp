@@ -8,11 +8,13 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <utility>
 
 #include "pipeline/base/threads.h"
 #include "sim/robot/robot.h"
 #include "sim/route/rehearsal.h"
 #include "sim/run/clamp_path.h"
+#include "sim/run/quick_checks.h"
 
 namespace dresslife::sim {
 namespace {
@@ -129,7 +131,8 @@ class Search {
     double size = 1;
     int left = settings_.rehearsals;
     const auto whole_ones = [&] { return std::count_if(kept.begin(), kept.end(), is_found); };
-    while (left > 0 && whole_ones() < settings_.count) {
+    int further = settings_.further;
+    while (left > 0 && (whole_ones() < settings_.count || further > 0)) {
       const int done = settings_.rehearsals - left;
       tell(geometry_share + (1 - geometry_share) * done / settings_.rehearsals,
            fmt::format("short run {} of at most {}{}", done + 1, settings_.rehearsals,
@@ -142,10 +145,11 @@ class Search {
         if (begins) beginnings.pop_back();
       }
       left -= static_cast<int>(next.size());
+      if (whole_ones() >= settings_.count) further -= static_cast<int>(next.size());
       rehearse(next, rehearsed_segments, rehearsed_repeats, wished_in_run);
-      const double before = kept.empty() ? never : kept.front().missing_in_run;
+      const std::pair<double, double> before = kept.empty() ? std::pair(never, never) : badness(kept.front());
       for (Candidate& candidate : next) keep(kept, std::move(candidate), parents);
-      const bool better = kept.front().missing_in_run < before;
+      const bool better = badness(kept.front()) < before;
       if (!begins) size = std::clamp(size * (better ? 1.3 : 0.9), 0.05, 2.0);
       while (look_at_first_whole(kept)) --left;
       if (3 * left < 2 * settings_.rehearsals && kept.front().missing_in_run > hopeless) break;
@@ -183,6 +187,9 @@ class Search {
     if (settings_.progress) settings_.progress(share, words);
   }
 
+  /// Of a rehearsed candidate: limits first.
+  static std::pair<double, double> badness(const Candidate& of) { return {of.missing_in_run, of.rehearsal.swing}; }
+
   static bool is_found(const Candidate& candidate) {
     return candidate.whole && candidate.missing_in_run == 0;
   }
@@ -190,23 +197,37 @@ class Search {
   static void keep(std::vector<Candidate>& kept, Candidate&& next, std::size_t most) {
     const auto place = std::upper_bound(
         kept.begin(), kept.end(), next,
-        [](const Candidate& a, const Candidate& b) { return a.missing_in_run < b.missing_in_run; });
+        [](const Candidate& a, const Candidate& b) { return badness(a) < badness(b); });
     kept.insert(place, std::move(next));
     if (kept.size() > most) kept.pop_back();
   }
 
-  /// Whether there was one that keeps all wishes and had not been looked at whole.
+  /// Whether there was one among the first that keeps all wishes and had not been looked at whole.
   bool look_at_first_whole(std::vector<Candidate>& kept) const {
-    const auto first = std::find_if(kept.begin(), kept.end(),
+    const auto wanted = kept.begin() + std::min<std::ptrdiff_t>(settings_.count, std::ssize(kept));
+    const auto first = std::find_if(kept.begin(), wanted,
                                     [](const Candidate& of) { return !of.whole && of.missing_in_run == 0; });
-    if (first == kept.end()) return false;
+    if (first == wanted) return false;
     std::vector<Candidate> one{*first};
     kept.erase(first);
     constexpr int as_the_job = std::numeric_limits<int>::max();
     rehearse(one, as_the_job, as_the_job, wished_of_whole);
     one.front().whole = true;
+    if (one.front().missing_in_run == 0) one.front().missing_in_run = missing_in_checks(one.front());
     keep(kept, std::move(one.front()), kept.size() + 1);
     return true;
+  }
+
+  /// What the checks before a run would warn of.
+  double missing_in_checks(const Candidate& candidate) const {
+    constexpr double refused = 3;  // worse than what runs
+    pipeline::Setup setup = setup_;
+    setup.dresspacks.front().routing = candidate.routing;
+    const QuickFindings found = quick_findings(setup);
+    double sum = found.run.refusal.empty() ? 0 : refused;
+    for (const Check& check : found.checks)
+      if (check.warning) sum += std::abs(std::log(std::abs(check.value) / check.limit));
+    return sum;
   }
 
   void rehearse(std::vector<Candidate>& candidates, int segments, int repeats,

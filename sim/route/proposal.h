@@ -7,7 +7,9 @@
 // of what was tried are then changed a little, again and again (an evolution strategy without recombination;
 // it needs no derivatives, of which the screening has none). Goodness is the sum of what misses a wished
 // margin to each limit, the hose at rest under its weight. Then, if wanted, the best are changed likewise by
-// how they do in short runs (rehearsal.h). Equal seeds, equal proposals.
+// how they do in short runs (rehearsal.h): first by their limits, and among those that keep all by how little the hose bends
+// and twists to and fro, as no life is known here. What keeps all limits is looked at as the job itself runs, and as
+// `dresslife check` looks at it. Equal seeds, equal proposals.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +29,7 @@ struct ProposalSettings {
   int tried = 1200;  ///< routings that are screened, by all searches: some milliseconds each
   int rehearsals =
       0;  ///< runs with few segments, a tenth of a second each, that try the best and better them; 0: none
+  int further = 0;  ///< rehearsals once `count` proposals keep all limits: for those that bend and twist less
   std::uint64_t seed = 1;
   std::string ring_link;  ///< a guide ring on it; empty: none
   /// Share of the most work that there may be, and what is tried; may be empty.

@@ -42,7 +42,11 @@ class Bends {
     begin();
   }
 
-  void begin() { sharpest_.assign(least_radius_.size() * bend_moments * bend_stretches, 0.0); }
+  void begin() {
+    sharpest_.assign(least_radius_.size() * bend_moments * bend_stretches, 0.0);
+    lowest_.assign(static_cast<std::size_t>(rod_.links()), Vector3::Constant(std::numeric_limits<double>::infinity()));
+    highest_.assign(lowest_.size(), Vector3::Constant(-std::numeric_limits<double>::infinity()));
+  }
 
   void see(const Sample& sample) {
     const int moment = duration_ > 0 ? part_of(sample.time / duration_, bend_moments) : 0;
@@ -50,7 +54,12 @@ class Bends {
       const Span& span = rod_.span_of_link(j);
       const int stretch = part_of(rod_.link_arc(j) / length_of(span.dresspack), bend_stretches);
       double& sharpest = sharpest_[(span.dresspack * bend_moments + moment) * bend_stretches + stretch];
-      sharpest = std::max(sharpest, rod_.curvature(rod_.link_state(sample.state, j).turn, j));
+      const Vector3 turn = rod_.link_state(sample.state, j).turn;
+      sharpest = std::max(sharpest, rod_.curvature(turn, j));
+      const Vector3 bend = turn / rod_.bending_length(j);
+      const auto link = static_cast<std::size_t>(j);
+      lowest_[link] = lowest_[link].cwiseMin(bend);
+      highest_[link] = highest_[link].cwiseMax(bend);
     }
   }
 
@@ -61,6 +70,12 @@ class Bends {
       g.push_back(
           std::log(least_radius_[k / (bend_moments * bend_stretches)] * std::max(sharpest_[k], straight)));
     return g;
+  }
+
+  double swing() const {
+    double most = 0;
+    for (std::size_t j = 0; j < lowest_.size(); ++j) most = std::max(most, (highest_[j] - lowest_[j]).norm());
+    return most;
   }
 
  private:
@@ -74,6 +89,7 @@ class Bends {
   const Rod& rod_;
   double duration_;
   std::vector<double> least_radius_, sharpest_;
+  std::vector<Vector3> lowest_, highest_;  // (link) of both curvatures and the twist [1/m]
 };
 
 }  // namespace
@@ -90,6 +106,7 @@ Rehearsal rehearsed(pipeline::Setup setup, int segments, int repeats) {
     const RunSummary summary =
         simulation.run({[&](const Sample& sample) { bends.see(sample); }, [&](int) { bends.begin(); }});
     rehearsal.bends = bends.beyond();
+    rehearsal.swing = bends.swing();
     for (const Check& check : summary.checks) see(rehearsal.seen, check);
   } catch (const pipeline::InputError& problem) {
     rehearsal.refusal = problem.what();

@@ -6,6 +6,7 @@
 // much.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct Rehearsal {
   /// which has an edge wherever another posture or another place of the hose takes over. At the samples, so
   /// that the largest may miss a little of the run's.
   std::vector<double> bends;
+  /// Largest change of a link's bend and twist over the last repeat, which a life falls with: the root of the sum of the
+  /// squared ranges of both curvatures and of the twist [1/m]. Infinite: it does not run.
+  double swing = std::numeric_limits<double>::infinity();
 };
 
 /// Few enough that all are modelled at the cost of one matrix (pipeline/advise/search), and many enough that a part

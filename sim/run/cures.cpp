@@ -1,18 +1,19 @@
 #include "sim/run/cures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/job/setup.h"
 #include "sim/run/equilibrium.h"
-#include "sim/run/routing.h"
 
 namespace dresslife::sim {
 namespace {
@@ -23,7 +24,8 @@ using pipeline::WarningKind;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double degree = EIGEN_PI / 180;
 constexpr int tried_lengths = 8, tried_poses = 8;  // 256 equilibria with four pairs of directions: a second
-constexpr double margin = 1.05;  // of a limit at rest: a program at work adds to it
+constexpr double margin = 1.05;  // of a limit at rest and in a short run: a program at work adds to it
+constexpr std::array<std::size_t, 4> most_tried{4, 3, 3, 3};  // by the checks, of each pair of directions: a second each
 constexpr int most_segments = 32;  // of a trial: a bend radius within a few percent
 
 std::string in_words(double value, const std::string& unit) {
@@ -32,9 +34,8 @@ std::string in_words(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
-/// Upward and downward to millimetres, as words in metres.
+/// Upward to millimetres, as words in metres.
 std::string at_least_metres(double value) { return fmt::format("{:.3f}", std::ceil(1e3 * value) / 1e3); }
-std::string at_most_metres(double value) { return fmt::format("{:.3f}", std::floor(1e3 * value) / 1e3); }
 
 std::string key_of(const pipeline::Setup& setup, int dresspack, const std::string& key) {
   const bool list = setup.dresspacks.size() > 1 || !setup.dresspacks.front().name.empty();
@@ -98,7 +99,6 @@ class RestTrials {
   /// Of a clamp that points along the mean of its chords, in its own frame as it is now.
   Vector3 chord_direction(int end) const { return chord_turn_[end] * Vector3::UnitZ(); }
   double length() const { return properties_.length; }
-  int span() const { return span_; }
 
  private:
   double way_at(const CheckedMotion& motion, double time) const {
@@ -119,39 +119,141 @@ class RestTrials {
   double longest_ = 0;
 };
 
-/// "tool_clamp.direction: [0.1, 0.2, 0.97]"
-std::string direction_words(const CheckedMotion& motion, const Check& broken, const RestTrials& trials, int end) {
-  const pipeline::Routing& routing = mounted_of(motion, broken).routing;
-  const std::optional<pipeline::Clamp>& clamp = end == 0 ? routing.base_clamp : routing.tool_clamp;
-  const Vector3 direction = clamp_frame(*clamp).orientation * trials.chord_direction(end);
-  return key_of(motion.setup, broken.dresspack,
-                fmt::format("routing.{}.direction: {}", end == 0 ? "base_clamp" : "tool_clamp", vector_words(direction)));
-}
-
 std::string radius_words(double curvature) { return in_words(1 / curvature, "m"); }
 
-struct Trial {
-  double length = 0, curvature = infinite;
-  std::array<bool, 2> turned{};
+std::string no_other_words(const std::string& limit) {
+  return fmt::format("no length and no direction of these two clamps keeps the limit{}, so that a clamp must move: "
+                     "`dresslife route` finds other clamps",
+                     limit);
+}
+
+using Kinds = std::vector<WarningKind>;
+bool is_among(const Kinds& kinds, const Check& check) {
+  return check.kind && std::find(kinds.begin(), kinds.end(), *check.kind) != kinds.end();
+}
+
+/// Whether a changed job keeps the limits of these kinds, and passes no other one than the job does now. Most that do not
+/// are found with few segments.
+bool cures(const pipeline::Setup& changed, const Kinds& kinds, int dresspack, const std::vector<Check>& now,
+           int segments = rest_segments) {
+  const QuickFindings found = quick_findings(changed, segments);
+  if (!found.run.refusal.empty()) return false;
+  const bool cured = std::all_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
+    if (check.dresspack != dresspack) return true;
+    const bool asked = is_among(kinds, check);
+    if (asked && check.name == check_name::bend_radius && check.value < margin * check.limit) return false;
+    return !check.warning || (!asked && std::any_of(now.begin(), now.end(), [&](const Check& before) {
+      return before.warning && before.kind == check.kind && before.dresspack == dresspack;
+    }));
+  });
+  const bool coarse = segments < std::min(short_run_segments, changed.simulation.segments);
+  return cured && (!coarse || cures(changed, kinds, dresspack, now, short_run_segments));
+}
+
+/// A routing between the same links.
+struct Change {
+  double length = 0, pre_twist = 0;  // [m], [rad]
+  std::array<bool, 2> turned{};      // (end)
+  double curvature = infinite;       // at rest [1/m]
 };
 
-/// The first that keeps the limit with a margin, else the least bent of all: lengths with the clamps as they are, then
-/// with one or both of them turned.
-Trial best_trial(const RestTrials& trials, double limit, bool may_turn) {
-  const WorkingLength range = working_length(trials.longest());
-  Trial best;
-  constexpr std::array<std::array<bool, 2>, 4> turns{{{false, false}, {false, true}, {true, false}, {true, true}}};
-  for (const auto& turned : turns) {
-    if ((turned[0] || turned[1]) && !may_turn) break;
-    for (int k = 0; k < tried_lengths; ++k) {
-      const double length =
-          range.least * std::pow(range.most / range.least, static_cast<double>(k) / (tried_lengths - 1));
-      const double curvature = trials.curvature(length, turned);
-      if (curvature < best.curvature) best = {length, curvature, turned};
+/// Looks for a routing that keeps the limits of bend and slack.
+class RemedySearch {
+ public:
+  RemedySearch(const CheckedMotion& motion, const std::vector<Check>& checks, const RestTrials& trials, int dresspack)
+      : motion_(motion), checks_(checks), trials_(trials), dresspack_(dresspack) {}
+
+  /// Words of the first that keeps them; empty: none that was tried does.
+  std::string words() {
+    const Check* net = find(checks_, check_name::net_twist, dresspack_);
+    constexpr double little = 10 * degree;  // a pre-twist below it changes no shape that a user sees
+    if (net && std::abs(net->centre) > little) {
+      Change change{routing().free_length, std::round((routing().pre_twist - net->centre) / degree) * degree};
+      change.curvature = trials_.curvature(change.length);
+      if (works(change)) return words_of(change);
     }
-    if (best.curvature * limit * margin <= 1) return best;
+    constexpr std::array<std::array<bool, 2>, 4> turns{{{false, false}, {false, true}, {true, false}, {true, true}}};
+    for (std::size_t turn = 0; turn < turns.size(); ++turn) {
+      std::size_t tried = 0;
+      for (const double length : lengths()) {
+        Change change{length, routing().pre_twist, turns[turn]};
+        change.curvature = trials_.curvature(length, change.turned);
+        if (change.curvature < best_.curvature) best_ = change;
+        if (change.curvature * limit() * margin > 1 || tried == most_tried[turn]) continue;
+        ++tried;
+        if (works(change)) return words_of(change);
+      }
+    }
+    return "";
   }
-  return best;
+  /// Least bent at rest of those that were looked at.
+  const Change& best() const { return best_; }
+
+ private:
+  const pipeline::MountedDresspack& mounted() const {
+    return motion_.setup.dresspacks[static_cast<std::size_t>(dresspack_)];
+  }
+  const pipeline::Routing& routing() const { return mounted().routing; }
+  double limit() const { return limits_of(mounted().dresspack).least_bend_radius; }
+
+  /// Nearest to the present one first.
+  std::vector<double> lengths() const {
+    const WorkingLength range = working_length(trials_.longest());
+    const double least = std::ceil(1e3 * range.least) / 1e3, most = std::floor(1e3 * range.most) / 1e3;
+    const double now = routing().free_length;
+    std::vector<double> all;
+    if (now >= range.least && now <= range.most) all.push_back(now);
+    for (int k = 0; k < tried_lengths; ++k)
+      all.push_back(std::round(1e3 * least * std::pow(most / least, static_cast<double>(k) / (tried_lengths - 1))) / 1e3);
+    std::stable_sort(all.begin(), all.end(), [&](double a, double b) {
+      return std::abs(std::log(a / now)) < std::abs(std::log(b / now));
+    });
+    return all;
+  }
+
+  const pipeline::Clamp& clamp(int end) const { return end == 0 ? *routing().base_clamp : *routing().tool_clamp; }
+  /// As it is written, in hundredths.
+  Vector3 direction(int end) const {
+    const Vector3 of = clamp_frame(clamp(end)).orientation * trials_.chord_direction(end);
+    return (1e2 * of).array().round() / 1e2;
+  }
+
+  bool works(const Change& change) const {
+    const bool same = change.length == routing().free_length && change.pre_twist == routing().pre_twist;
+    if (same && !change.turned[0] && !change.turned[1]) return false;
+    pipeline::Setup changed = motion_.setup;
+    pipeline::Routing& to = changed.dresspacks[static_cast<std::size_t>(dresspack_)].routing;
+    to.free_length = change.length;
+    to.pre_twist = change.pre_twist;
+    if (change.turned[0]) to.base_clamp->direction = direction(0);
+    if (change.turned[1]) to.tool_clamp->direction = direction(1);
+    return cures(changed, {WarningKind::bend_radius, WarningKind::slack}, dresspack_, checks_);
+  }
+
+  std::string words_of(const Change& change) const {
+    std::vector<std::string> keys;
+    const auto add = [&](const std::string& key) { keys.push_back(key_of(motion_.setup, dresspack_, "routing." + key)); };
+    if (change.length != routing().free_length) add(fmt::format("free_length_m: {:.3f}", change.length));
+    if (change.pre_twist != routing().pre_twist) add(fmt::format("pre_twist_deg: {:.0f}", change.pre_twist / degree));
+    for (int end = 0; end < 2; ++end)
+      if (change.turned[static_cast<std::size_t>(end)])
+        add(fmt::format("{}_clamp.direction: {}", end == 0 ? "base" : "tool", vector_words(direction(end))));
+    return fmt::format("{} (at rest {}; tried in a short run)", fmt::join(keys, " and "), radius_words(change.curvature));
+  }
+
+  const CheckedMotion& motion_;
+  const std::vector<Check>& checks_;
+  const RestTrials& trials_;
+  int dresspack_;
+  Change best_;
+};
+
+/// Whether its length and the directions of its clamps can be tried: one span between two clamps of a robot, without rings
+/// or a retraction unit.
+bool can_be_tried(const CheckedMotion& motion, int dresspack) {
+  const pipeline::Routing& routing = motion.setup.dresspacks[static_cast<std::size_t>(dresspack)].routing;
+  return motion.rod && routing.base_clamp && routing.tool_clamp && routing.clamps.empty() && routing.rings.empty() &&
+         !routing.retraction;
 }
 
 std::string limit_remark(const CheckedMotion& motion, const Check& broken) {
@@ -162,68 +264,69 @@ std::string limit_remark(const CheckedMotion& motion, const Check& broken) {
                      dresspack.hose_corrugation && !dresspack.components.empty() ? " of the parts in the hose" : "");
 }
 
+/// The acceleration that keeps the limit, if one is found; 0: none.
+double slower(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken, double k_rest) {
+  constexpr int most = 3;
+  constexpr double less = 0.8;  // of the one before
+  const double percent = motion.setup.motion.acceleration_percent;
+  double next = std::floor(percent * (1 / broken.limit - k_rest) / (1 / broken.value - k_rest));
+  for (int k = 0; k < most && next >= 1; ++k, next = std::floor(less * next)) {
+    pipeline::Setup changed = motion.setup;
+    changed.motion.acceleration_percent = next;
+    if (cures(changed, {WarningKind::bend_radius}, broken.dresspack, checks)) return next;
+  }
+  return 0;
+}
+
 Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
   const std::string remark = limit_remark(motion, broken);
   if (!motion.rod)
     return {"the prescribed deformation bends it so", "a larger radius in motion.rig or motion.deformation" + remark};
-  const int span = span_at(*motion.rod, broken);
-  const RodProperties& p = motion.rod->spans()[static_cast<std::size_t>(span)].properties;
-  const std::vector<RoutedRing> rings = routed_rings(motion.setup);
-  const bool ringed =
-      std::any_of(rings.begin(), rings.end(), [&](const RoutedRing& ring) { return ring.span == span; });
   const pipeline::Routing& routing = mounted_of(motion, broken).routing;
-  if (p.tool_end == End::free || ringed || p.slider)
-    return {ringed ? "it turns around the edge of a guide ring" : "its length and its clamps do not suit the motion",
-            fmt::format("{}: as `dresslife improve` finds it{}",
-                        key_of(motion.setup, broken.dresspack, ringed ? "routing.rings" : "routing.free_length_m"), remark)};
+  if (!can_be_tried(motion, broken.dresspack))
+    return {!routing.rings.empty() ? "it turns around the edge of a guide ring, or its length and its clamps do not suit the motion"
+                                   : "its length and its clamps do not suit the motion",
+            fmt::format("the {} that `dresslife improve` finds{}",
+                        !routing.rings.empty() ? "routing.rings" : "lengths and clamps", remark)};
   const RestTrials trials(motion, broken);
-  const double limit = broken.limit, k_rest = trials.curvature(trials.length()), k = 1 / broken.value;
-  if (std::isinf(k_rest))
-    return {"its length and its clamps do not suit the motion; no shape at rest was found for the clamps as they are",
-            "the clamps or the length that `dresslife improve` finds" + remark};
-  if (k_rest * limit < 1 && broken.name == check_name::bend_radius_at_rest) {
-    const Check* net = find(checks, check_name::net_twist, broken.dresspack);
-    const double centre = net ? net->centre : 0;
-    constexpr double little = 10 * degree;  // a pre-twist below it changes no shape that a user sees
-    return {fmt::format("the shape into which the program leads it: free of twist its smallest bend radius at rest is {}",
-                        radius_words(k_rest)),
-            (std::abs(centre) > little ? fmt::format("{}: {:.0f}, or ", key_of(motion.setup, broken.dresspack, "routing.pre_twist_deg"),
-                                                     (routing.pre_twist - centre) / degree)
-                                       : std::string()) +
-                "the clamps or the length that `dresslife improve` finds" + remark};
-  }
-  if (k_rest * limit < 1) {
+  const double k_rest = trials.curvature(trials.length());
+  const bool at_rest = k_rest * broken.limit >= 1, swings = !at_rest && broken.name == check_name::bend_radius;
+  RemedySearch search(motion, checks, trials, broken.dresspack);
+  std::string remedy = search.words();
+  std::string cause;
+  if (std::isinf(k_rest)) {
+    cause = "its length and its clamps do not suit the motion; no shape at rest was found for the clamps as they are";
+  } else if (at_rest) {
+    cause = fmt::format("{} (already at rest {} over the program)",
+                        remedy.empty()                                         ? "distance and direction of the clamps"
+                        : remedy.find(".direction: ") != std::string::npos ? "directions of the clamps"
+                                                                               : "the free length",
+                        radius_words(k_rest));
+  } else if (swings) {
     const Check* touch = find(checks, check_name::contact_force, broken.dresspack);
     const bool pressed = touch && touch->value > 0 && std::abs(touch->time - broken.time) < 0.2;
-    const double percent = motion.setup.motion.acceleration_percent;
-    return {fmt::format("a swing{}: at rest the smallest bend radius over the program is {}",
-                        pressed ? " or a contact" : "", radius_words(k_rest)),
-            fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f})",
-                        std::max(1.0, std::floor(percent * (1 / limit - k_rest) / (k - k_rest))), percent) +
-                remark};
+    cause = fmt::format("a swing{}: at rest and free of twist the smallest bend radius over the program is {}",
+                        pressed ? " or a contact" : " or its winding around the robot", radius_words(k_rest));
+  } else {
+    cause = fmt::format("the shape into which the program leads it: free of twist its smallest bend radius at rest is {}",
+                        radius_words(k_rest));
   }
-  const bool one_span = motion.rod->first_span(broken.dresspack + 1) == motion.rod->first_span(broken.dresspack) + 1;
-  const bool may_turn = one_span && routing.base_clamp && routing.tool_clamp;
-  const Trial best = best_trial(trials, limit, may_turn);
-  const bool turned = best.turned[0] || best.turned[1];
-  const std::string length =
-      one_span ? fmt::format("{}: {:.3f}", key_of(motion.setup, broken.dresspack, "routing.free_length_m"), best.length)
-               : fmt::format("{:.3f} m between these two clamps", best.length);
-  const std::string now = fmt::format("already at rest {} over the program", radius_words(k_rest));
-  if (best.curvature * limit > 1)
-    return {fmt::format("distance and direction of the clamps ({})", now),
-            fmt::format("{}: {:.0f} if the maker allows it; no length and no direction of these two clamps keeps the limit "
-                        "at rest (best: {} m, {}), so that a clamp must move: `dresslife improve` or `dresslife route`",
-                        key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"),
-                        std::floor(1e3 * broken.value), at_least_metres(best.length), radius_words(best.curvature)) +
-                remark};
-  std::string remedy = length;
-  for (int end = 0; end < 2; ++end)
-    if (best.turned[end]) remedy += " and " + direction_words(motion, broken, trials, end);
-  return {fmt::format("{} ({})", turned ? "directions of the clamps" : "the free length", now),
-          fmt::format("{} (at rest {}; `dresslife preview` shows whether it clears the robot)", remedy,
-                      radius_words(best.curvature)) +
-              remark};
+  if (remedy.empty() && swings)
+    if (const double percent = slower(motion, checks, broken, k_rest); percent > 0)
+      remedy = fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}; tried in a short run)", percent,
+                           motion.setup.motion.acceleration_percent);
+  if (remedy.empty()) {
+    double least = broken.value;  // a limit that both the checks at rest and the short run keep
+    for (const Check& check : checks)
+      if (check.kind == WarningKind::bend_radius && check.dresspack == broken.dresspack) least = std::min(least, check.value);
+    remedy = fmt::format("{}: {:.0f} if the maker allows it; {}",
+                         key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), std::floor(1e3 * least),
+                         no_other_words(std::isinf(search.best().curvature)
+                                            ? ""
+                                            : fmt::format(" (best at rest: {} m, {})", at_least_metres(search.best().length),
+                                                          radius_words(search.best().curvature))));
+  }
+  return {cause, remedy + remark};
 }
 
 /// L of a span with least slack.
@@ -242,7 +345,17 @@ Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
   const double half_range = most - std::abs(centre), length = routing.free_length;
   const std::string cause = fmt::format("the clamps turn it by {:.0f} deg, {:.0f} to either side of {:.0f}", most / degree,
                                         half_range / degree, centre / degree);
-  if (half_range < broken.limit * length && std::abs(centre) > 0.02 * most)
+  // Limits of bends that are passed already are another warning.
+  const auto keeps = [&](double free_length, double pre_twist) {
+    pipeline::Setup changed = motion.setup;
+    pipeline::Routing& to = changed.dresspacks[static_cast<std::size_t>(broken.dresspack)].routing;
+    to.free_length = free_length;
+    to.pre_twist = pre_twist;
+    return cures(changed, {WarningKind::twist}, broken.dresspack, checks);
+  };
+  const std::string other_link = "the tool clamp on a link that turns less";
+  if (half_range < broken.limit * length && std::abs(centre) > 0.02 * most &&
+      keeps(length, std::round((routing.pre_twist - centre) / degree) * degree))
     return {cause, fmt::format("{}: {:.0f}", key_of(motion.setup, broken.dresspack, "routing.pre_twist_deg"),
                                (routing.pre_twist - centre) / degree)};
   const double needed = std::max(half_range / broken.limit, length * std::abs(broken.value) / broken.limit);
@@ -250,9 +363,10 @@ Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
   const Check* slack = find(checks, check_name::too_short, broken.dresspack);
   const double span = slack ? free_length_of(motion, *slack) : length;
   const double most_longer = slack ? working_length(span - slack->value).most / span : 1;
-  if (needed > most_longer * length) return {cause, "the tool clamp on a link that turns less"};
-  return {cause, fmt::format("{}: {} or more (now {:.3f}), or the tool clamp on a link that turns less",
-                             key_of(motion.setup, broken.dresspack, "routing.free_length_m"), at_least_metres(needed), length)};
+  if (needed > most_longer * length || !keeps(std::ceil(1e3 * needed) / 1e3, routing.pre_twist)) return {cause, other_link};
+  return {cause, fmt::format("{}: {} (now {:.3f}; tried in a short run), or {}",
+                             key_of(motion.setup, broken.dresspack, "routing.free_length_m"), at_least_metres(needed), length,
+                             other_link)};
 }
 
 std::string length_key(const CheckedMotion& motion, const Check& check) {
@@ -262,22 +376,29 @@ std::string length_key(const CheckedMotion& motion, const Check& check) {
                      key_of(motion.setup, check.dresspack, "routing.clamps.at_length_m"));
 }
 
-Cure slack_cure(const CheckedMotion& motion, const Check& broken) {
+Cure slack_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
   const double length = free_length_of(motion, broken), way = length - broken.value;
   const WorkingLength range = working_length(way);
   const bool short_one = broken.name == check_name::too_short;
   const std::string cause =
       fmt::format("the clamps are {:.3f} m apart, which asks for {:.3f} .. {:.3f} m of hose; it has {:.3f} m", way, range.least,
                   range.most, length);
-  return {cause, fmt::format("{}: {}", length_key(motion, broken),
-                             short_one ? at_least_metres(range.least) : at_most_metres(range.most))};
+  const double wanted = short_one ? std::ceil(1e3 * range.least) / 1e3 : std::floor(1e3 * range.most) / 1e3;
+  const std::string alone = fmt::format("{}: {:.3f}", length_key(motion, broken), wanted);
+  if (!can_be_tried(motion, broken.dresspack)) return {cause, alone};
+  pipeline::Setup changed = motion.setup;
+  changed.dresspacks[static_cast<std::size_t>(broken.dresspack)].routing.free_length = wanted;
+  if (cures(changed, {WarningKind::bend_radius, WarningKind::slack}, broken.dresspack, checks)) return {cause, alone};
+  const RestTrials trials(motion, broken);
+  const std::string remedy = RemedySearch(motion, checks, trials, broken.dresspack).words();
+  return {cause, remedy.empty() ? alone + " for the slack alone; " + no_other_words(" of the bend radius") : remedy};
 }
 
 Cure tension_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
   if (!motion.rod) return {"the prescribed elongation", "less of it in motion.rig or motion.deformation"};
   const Check* slack = find(checks, check_name::too_short, broken.dresspack);
   if (slack && slack->warning) {
-    const Cure longer = slack_cure(motion, *slack);
+    const Cure longer = slack_cure(motion, checks, *slack);
     return {"it is drawn taut: " + longer.cause, longer.remedy};
   }
   const double percent = motion.setup.motion.acceleration_percent;
@@ -306,13 +427,39 @@ std::string hand_words(const Check& check) {
   return check.kind == WarningKind::twist ? (check.value > 0 ? ", right-hand" : ", left-hand") : "";
 }
 
+/// Of a dresspack that cannot be clamped or is drawn taut at this time.
+std::string remedy_for(const CheckedMotion& motion, int dresspack, double time) {
+  const std::string otherwise =
+      "give it more free length, move a clamp or turn it away from what is in the way (dresslife preview shows them)";
+  if (!can_be_tried(motion, dresspack)) return otherwise;
+  Check refused;
+  refused.time = time;
+  refused.dresspack = dresspack;
+  const RestTrials trials(motion, refused);
+  const std::vector<Check> none;
+  const std::string remedy = RemedySearch(motion, none, trials, dresspack).words();
+  return remedy.empty() ? no_other_words("s") : remedy;
+}
+
 }  // namespace
 
 Cure cure_of(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
   if (broken.kind == WarningKind::bend_radius) return bend_cure(motion, checks, broken);
   if (broken.kind == WarningKind::twist) return twist_cure(motion, checks, broken);
   if (broken.kind == WarningKind::tension) return tension_cure(motion, checks, broken);
-  return broken.name == check_name::travel ? travel_cure(motion, broken) : slack_cure(motion, broken);
+  return broken.name == check_name::travel ? travel_cure(motion, broken) : slack_cure(motion, checks, broken);
+}
+
+pipeline::Warning taut_warning(const CheckedMotion& motion, const ShortRun& run) {
+  return pipeline::warning_of(WarningKind::slack, "", run.refusal,
+                              "it lies on the robot, around which its way is longer than from clamp to clamp",
+                              remedy_for(motion, run.dresspack, *run.taut_at));
+}
+
+std::string refusal_remedy(const pipeline::Setup& setup, const RoutingRefusal& refusal) {
+  const Rod rod = rod_of(setup);
+  const std::unique_ptr<ClampPath> path = path_of(setup);
+  return remedy_for({setup, {}, &rod, path.get()}, refusal.dresspack, refusal.time.value_or(0));
 }
 
 std::vector<pipeline::Warning> check_warnings(const CheckedMotion& motion, const std::vector<Check>& checks) {

@@ -420,6 +420,34 @@ TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
   return result;
 }
 
+std::vector<TwistFreeClamp> rest_shapes(const RodProperties& hose, const ClampFrames& clamps, bool twist_free,
+                                        const EquilibriumSettings& settings) {
+  constexpr double same = 0.5;  // of the diameter
+  const Rod rod(hose);
+  const Vector3 g = hose.gravity, chord = clamps.tool.position - clamps.base.position;
+  Vector3 side = chord.cross(g);
+  if (side.norm() > 0) side *= g.norm() / side.norm();
+  std::vector<TwistFreeClamp> shapes;
+  for (const Vector3& gravity : {g, Vector3(-g), side, Vector3(-side)}) {
+    RodProperties held = hose;
+    held.gravity = gravity;
+    TwistFreeClamp clamped = twist_free ? twist_free_roll(Rod(held), clamps, settings)
+                                        : TwistFreeClamp{0, find_equilibrium(Rod(held), clamps, settings)};
+    if (clamped.equilibrium.status != EquilibriumStatus::converged) continue;
+    const RodState from = clamped.equilibrium.state;
+    clamped.equilibrium = find_equilibrium(rod, from.clamps, from, {}, settings);
+    if (clamped.equilibrium.status != EquilibriumStatus::converged) continue;
+    const bool known = std::any_of(shapes.begin(), shapes.end(), [&](const TwistFreeClamp& shape) {
+      double most = 0;
+      for (int i = 0; i < rod.segments(); ++i)
+        most = std::max(most, (shape.equilibrium.state.position[i] - clamped.equilibrium.state.position[i]).norm());
+      return most < same * hose.diameter;
+    });
+    if (!known) shapes.push_back(std::move(clamped));
+  }
+  return shapes;
+}
+
 Equilibrium settle(World& world, std::span<const Frame> links, int steps, double speed) {
   const Rod& rod = world.rod();
   const ClampFrames clamps = rod.home(world.state());

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "sim/contact/world.h"
 #include "sim/rod/rod.h"
@@ -56,6 +57,11 @@ struct TwistFreeClamp {
 };
 TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
                                const EquilibriumSettings& settings = {});
+
+/// Stable shapes under gravity, each reached from where an installer may hold the hose: hanging, held up, or to either side
+/// (mounting.h). twist_free: each has a roll of its own, else 0. Shapes nearer than half a diameter are one.
+std::vector<TwistFreeClamp> rest_shapes(const RodProperties& hose, const ClampFrames& clamps, bool twist_free,
+                                        const EquilibriumSettings& settings = {});
 
 /// Lets the chain come to rest in the world, among its obstacles, by steps whose velocities are taken away as
 /// soon as the kinetic energy falls. Any number of spans; clamps and links stay. iterations counts steps;

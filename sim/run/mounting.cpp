@@ -12,8 +12,6 @@
 namespace dresslife::sim {
 namespace {
 
-using pipeline::InputError;
-
 constexpr double carrying_speed = 20 * EIGEN_PI / 180;  // of the fastest axis on the way to the start [rad/s]
 constexpr int settling_steps = 20000;
 constexpr double rest = 1e-5;          // what settling aims at [m/s]
@@ -103,9 +101,8 @@ class Mounting {
       int dresspack, const std::string& what,
       const std::string& remedy =
           "check the free length and the clamps' places and directions in the mounting pose") const {
-    throw InputError(routing(dresspack).where,
-                     fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
-                     remedy + " (dresslife preview shows them)");
+    throw RoutingRefusal(routing(dresspack).where, fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
+                         remedy + " (dresslife preview shows them)", dresspack);
   }
 
   [[noreturn]] void fail_in_the_way(const Piece& piece, const MountedPiece& held) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/warning_words.h"
 #include "pipeline/cable/plain_properties.h"
 #include "pipeline/job/setup.h"
 
@@ -145,6 +146,28 @@ std::vector<int> clamp_segments(const Rod& rod) {
     list.push_back(span.first_segment + span.segments());
   }
   return list;
+}
+
+std::vector<pipeline::Warning> one_link_warnings(const pipeline::Setup& setup) {
+  std::vector<pipeline::Warning> warnings;
+  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) {
+    const pipeline::Routing& routing = setup.dresspacks[d].routing;
+    if (!routing.base_clamp || !routing.tool_clamp) continue;
+    const std::string& link = routing.base_clamp->link;
+    const auto is_there = [&](const auto& place) { return place.link == link; };
+    if (!is_there(*routing.tool_clamp) || !std::all_of(routing.rings.begin(), routing.rings.end(), is_there) ||
+        !std::all_of(routing.clamps.begin(), routing.clamps.end(), [&](const auto& of) { return is_there(of.clamp); }))
+      continue;
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::motion, "",
+        fmt::format("both clamps of {} are on {}, so that no axis bends it: its life is that of its swing alone",
+                    pipeline::dresspack_words(setup, d), link),
+        "one of the clamps names another link than it is mounted on",
+        fmt::format("{}.link with a link beyond the axes that bend the dresspack, for example {}",
+                    setup.dresspacks[d].name.empty() ? "routing.tool_clamp" : "routing.tool_clamp of this dresspack",
+                    setup.robot.links.back().name != link ? setup.robot.links.back().name : setup.robot.links.front().name)));
+  }
+  return warnings;
 }
 
 }  // namespace dresslife::sim

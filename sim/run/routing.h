@@ -4,6 +4,11 @@
 // L, the span from s_a to s_b has round(n s_b/L) - round(n s_a/L) segments, at least fewest_segments.
 #pragma once
 
+#include <optional>
+#include <string>
+
+#include "pipeline/base/errors.h"
+#include "pipeline/base/warnings.h"
 #include "pipeline/job/routing.h"
 #include "sim/rod/rod.h"
 
@@ -17,6 +22,20 @@ namespace dresslife::sim {
 inline constexpr int fewest_segments = 4;
 
 Rod rod_of(const pipeline::Setup& setup);
+
+/// A dresspack that cannot be clamped or moved so.
+struct RoutingRefusal : pipeline::InputError {
+  RoutingRefusal(const pipeline::Where& of, const std::string& what, const std::string& remedy, int index,
+                 std::optional<double> when = {})
+      : InputError(of, what, remedy), where(of), problem(what), dresspack(index), time(when) {}
+  pipeline::Where where;
+  std::string problem;
+  int dresspack;
+  std::optional<double> time;  ///< of the program [s]; absent: before it
+};
+
+/// Of dresspacks whose clamps and rings all are on one link: they hardly bend.
+std::vector<pipeline::Warning> one_link_warnings(const pipeline::Setup& setup);
 
 /// A guide ring and the span that passes it; the rings of all dresspacks, in their order.
 struct RoutedRing {

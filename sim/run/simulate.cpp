@@ -113,13 +113,13 @@ void Simulation::check_reach() const {
   const Span& span = rod_.spans()[where];
   const double length = span.properties.length;
   const std::string between = between_clamps(span);
-  throw InputError(
+  throw RoutingRefusal(
       setup_.dresspacks[span.dresspack].routing.where,
       fmt::format("{} is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
                   pipeline::dresspack_words(setup_, span.dresspack), 1e3 * worst, moment(when),
                   between.empty() ? "routing.free_length_m is" : "its length" + between + " is", length,
                   length + worst),
-      "give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)");
+      "give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)", span.dresspack, when);
 }
 
 std::string Simulation::between_clamps(const Span& span) const {
@@ -139,13 +139,14 @@ void Simulation::check_taut(const RodState& state, double time) const {
   const Span& span = rod_.most_stretched(state);
   const double elongation = rod_.mean_elongation(state, span);
   if (elongation <= longest_elongation) return;
-  throw InputError(
+  throw RoutingRefusal(
       setup_.dresspacks[span.dresspack].routing.where,
       fmt::format("{} is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
                   pipeline::dresspack_words(setup_, span.dresspack), between_clamps(span), moment(time),
                   1e3 * elongation * span.properties.length, 1e2 * elongation),
       "give it more free length, or keep the motion from winding it around the robot (dresslife preview shows "
-      "the clamps)");
+      "the clamps)",
+      span.dresspack, time);
 }
 
 std::unique_ptr<World> Simulation::world_at(const RodState& state, const Pose& pose, double step) const {
@@ -310,6 +311,7 @@ std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const R
         "friction and contact leave the dresspack several resting places",
         fmt::format("simulation.most_repeats: {}, or simulation.periodic_tolerance_mm: {:.2g} if repeats may differ so",
                     std::min(1000, 2 * settings.most_repeats), std::ceil(2e4 * summary.distance) / 10)));
+  warnings = pipeline::joined(std::move(warnings), one_link_warnings(simulation.setup()));
   return pipeline::joined(
       warnings, check_warnings({simulation.setup(), [&](double time) { return simulation.moment(time); },
                                 &simulation.rod(), &simulation.path()},

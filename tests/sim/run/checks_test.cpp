@@ -97,6 +97,7 @@ TEST_CASE("checks: too short and too long are told with their moment") {
   job.robot.joints[0].origin = {0.05, 0, 1};
   job.motion.steps = {move_to(pi / 2), move_to(-pi / 2, "sweep")};
   job.dresspacks[0].routing.free_length = 0.96;  // furthest from the base clamp at angle 0: 0.95 m
+  job.dresspacks[0].dresspack.least_bend_radius = 0.03;  // far below what it bends to: slack alone is warned of
   const Simulation simulation(job);
   const RunSummary summary = simulation.run({[](const Sample&) {}});
   const Check& little = find(summary.checks, "least slack: too short below");

@@ -1,9 +1,11 @@
 // What a warning says would cure it does: each remedy is applied, and the warning is gone.
 #include "sim/run/cures.h"
 
+#include <cstdio>
 #include <numbers>
+#include <optional>
 
-#include "sim/route/quick_checks.h"
+#include "sim/run/quick_checks.h"
 #include "sim/run/simulate.h"
 #include "tests/catch.h"
 #include "tests/sim/simple_job.h"
@@ -77,7 +79,7 @@ TEST_CASE("cures: the checks at rest and a run find the same twist, whole turns 
       if (warning.words.find(name) != std::string::npos) return warning.words;
     return std::string();
   };
-  const std::string rest = of_twist(quick_warnings(job), "largest twist at rest: "),
+  const std::string rest = of_twist(quick_warnings(job).warnings, "largest twist at rest: "),
                     run = words_of(job, pipeline::WarningKind::twist);
   INFO(rest << run);
   const auto number = [](const std::string& words, const std::string& key) {
@@ -89,7 +91,7 @@ TEST_CASE("cures: the checks at rest and a run find the same twist, whole turns 
   CHECK(number(rest, "turn it by ") == Approx(number(run, "turn it by ")).epsilon(0.05));
   CHECK(value_of(rest, "routing.pre_twist_deg") == Approx(value_of(run, "routing.pre_twist_deg")).epsilon(0.05));
   job.dresspacks[0].routing.pre_twist = value_of(rest, "routing.pre_twist_deg") * degree;
-  CHECK(of_twist(quick_warnings(job), "largest twist at rest: ") == "");
+  CHECK(of_twist(quick_warnings(job).warnings, "largest twist at rest: ") == "");
 }
 
 TEST_CASE("cures: a bend that is there at rest is cured by a length or by directions that are tried at rest") {
@@ -142,6 +144,117 @@ TEST_CASE("cures: a hose that is drawn taut is cured by its length, one that its
   job.dresspacks[0].dresspack.bending_stiffness = 0.02;  // it hangs: a stiffer one stands on its clamps
   job.dresspacks[0].dresspack.most_tension = 1;
   CHECK_THAT(words_of(job, pipeline::WarningKind::tension), Catch::Contains("its weight and the acceleration"));
+}
+
+/// The number behind a key of a remedy; absent: the remedy has not this key.
+std::optional<double> number_behind(const std::string& words, const std::string& key) {
+  const std::size_t at = words.find(key + ": ");
+  return at == std::string::npos ? std::nullopt : std::optional(std::stod(words.substr(at + key.size() + 2)));
+}
+
+/// The job with the keys that the words name.
+pipeline::Job remedied(pipeline::Job job, const std::string& words) {
+  pipeline::Routing& routing = job.dresspacks[0].routing;
+  const std::string remedy = words.substr(words.find("Remedy: "));
+  if (const auto value = number_behind(remedy, "routing.free_length_m")) routing.free_length = *value;
+  if (const auto value = number_behind(remedy, "routing.pre_twist_deg")) routing.pre_twist = *value * degree;
+  if (const auto value = number_behind(remedy, "motion.acceleration_percent")) job.motion.acceleration_percent = *value;
+  for (const char* clamp : {"base", "tool"}) {
+    const std::string key = std::string("routing.") + clamp + "_clamp.direction: [";
+    const std::size_t at = remedy.find(key);
+    if (at == std::string::npos) continue;
+    pipeline::Vector3d direction;
+    REQUIRE(std::sscanf(remedy.c_str() + at + key.size(), "%lf, %lf, %lf", &direction[0], &direction[1], &direction[2]) == 3);
+    (std::string(clamp) == "base" ? routing.base_clamp : routing.tool_clamp)->direction = direction;
+  }
+  return job;
+}
+
+/// A drum about the axis, which turns by 160 deg: the hose beside it winds around it.
+pipeline::Job winding_job(double free_length) {
+  pipeline::Job job = simple_job();
+  job.simulation.most_repeats = 1;
+  job.simulation.floor = false;
+  job.robot.links[1].capsules = {{{0.1, 0, 0}, {0.8, 0, 0}, 0.2}};
+  job.dresspacks[0].routing.base_clamp->position = {0, 0.25, 1};
+  job.dresspacks[0].routing.tool_clamp->position = {0.9, 0.25, 0};
+  job.motion.steps = {move_to(0, "start"), move_to(2.8, "wind"), move_to(0, "back")};
+  job.dresspacks[0].dresspack.least_bend_radius = 0.15;
+  job.dresspacks[0].routing.free_length = free_length;
+  return job;
+}
+
+std::string of_length_and_bend(const pipeline::Job& job) {
+  for (const pipeline::Warning& warning : quick_warnings(job).warnings)
+    if (warning.kind == pipeline::WarningKind::bend_radius || warning.kind == pipeline::WarningKind::slack) return warning.words;
+  return "";
+}
+
+TEST_CASE("cures: remedies that are applied end within three rounds without a warning, or at other clamps") {
+  std::vector<std::pair<std::string, pipeline::Job>> jobs;
+  for (const double length : {0.955, 1.0, 1.3, 1.7}) jobs.emplace_back("swinging", swinging_job(length));
+  for (const double length : {1.06, 1.1, 1.25, 1.6}) jobs.emplace_back("winding", winding_job(length));
+  jobs.emplace_back("across", swinging_job(1.3));
+  jobs.back().second.dresspacks[0].routing.tool_clamp->direction = {0, 1, 0};
+  jobs.emplace_back("wound and bent", winding_job(1.25));
+  jobs.back().second.dresspacks[0].dresspack.least_bend_radius = 0.35;
+  jobs.emplace_back("wound and never straight enough", winding_job(1.25));
+  jobs.back().second.dresspacks[0].dresspack.least_bend_radius = 2;
+  int cured = 0, given_up = 0, taut = 0;
+  for (auto& [name, job] : jobs) {
+    CAPTURE(name, job.dresspacks[0].routing.free_length);
+    std::string words = of_length_and_bend(job), all = words;
+    const bool warned = !words.empty();
+    taut += words.find("is drawn taut") != std::string::npos;
+    const auto gives_up = [&] {
+      return words.find("no length and no direction of these two clamps") != std::string::npos &&
+             words.find("`dresslife route`") != std::string::npos;
+    };
+    for (int round = 0; round < 3 && !words.empty() && !gives_up(); ++round) {
+      job = remedied(job, words);
+      words = of_length_and_bend(job);
+      all += "\n" + words;
+    }
+    INFO(all);
+    CHECK((words.empty() || gives_up()));
+    cured += warned && words.empty();
+    given_up += gives_up();
+  }
+  CHECK(cured >= 3);
+  CHECK(given_up >= 1);
+  CHECK(taut >= 1);
+}
+
+TEST_CASE("cures: a job that the simulation refuses as taut runs with the length that the refusal names") {
+  pipeline::Job job = winding_job(1.06);  // 1.03 m from clamp to clamp, 1.15 m around the drum
+  const auto refusal = [&]() -> std::optional<RoutingRefusal> {
+    try {
+      Simulation(job).run({[](const Sample&) {}});
+    } catch (const RoutingRefusal& refused) {
+      return refused;
+    }
+    return {};
+  };
+  const auto refused = refusal();
+  REQUIRE(refused);
+  CHECK_THAT(refused->problem, Catch::Contains("is drawn taut"));
+  const std::string remedy = refusal_remedy(job, *refused);
+  INFO(remedy);
+  job = remedied(job, "Remedy: " + remedy);
+  CHECK(job.dresspacks[0].routing.free_length > 1.1);
+  CHECK_FALSE(refusal());
+}
+
+TEST_CASE("cures: a dresspack with both clamps on one link is told, by the checks and by a run") {
+  pipeline::Job job = simple_job();
+  job.simulation.most_repeats = 1;
+  job.dresspacks[0].routing.tool_clamp = job.dresspacks[0].routing.base_clamp;
+  job.dresspacks[0].routing.tool_clamp->position = {0.9, 0, 1};
+  CHECK_THAT(words_of(job, pipeline::WarningKind::motion), Catch::Contains("both clamps of dresspack are on bench"));
+  std::string words;
+  for (const pipeline::Warning& warning : quick_warnings(job).warnings) words += warning.words;
+  CHECK_THAT(words, Catch::Contains("both clamps of dresspack are on bench"));
+  CHECK(words_of(simple_job(), pipeline::WarningKind::motion) == "");
 }
 
 }  // namespace

@@ -181,3 +181,36 @@ TEST_CASE("a hose settles on an obstacle that stands in its equilibrium") {
   }
   CHECK(carried > 1);
 }
+
+TEST_CASE("a leaning arch rests on either side, and within each shape the bend radius converges with the segments") {
+  const auto frame = [](const Vector3& position, const Vector3& direction) {
+    return Frame{position, turn_between(Vector3::UnitZ(), direction.normalized())};
+  };
+  const ClampFrames clamps{frame({0, 0, 1}, {0, 0.1, 1}), frame({0.5, 0, 1}, {0, -0.1, -1})};
+  const auto radii = [&](int segments) {
+    RodProperties p = hose(segments);
+    p.bending_stiffness = 2;
+    p.torsional_stiffness = 1.6;
+    std::vector<double> found;
+    for (const TwistFreeClamp& shape : rest_shapes(p, clamps, true)) {
+      const Rod rod(p);
+      CHECK(shape.equilibrium.negative_pivots == 0);  // stable
+      double curvature = 0;
+      for (int j = 0; j < rod.links(); ++j)
+        curvature = std::max(curvature, rod.curvature(rod.link_state(shape.equilibrium.state, j).turn, j));
+      found.push_back(1 / curvature);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  const std::vector<double> coarse = radii(32), fine = radii(64), finest = radii(128);
+  CAPTURE(coarse, fine, finest);
+  REQUIRE(coarse.size() >= 2);
+  REQUIRE(fine.size() == coarse.size());
+  REQUIRE(finest.size() == coarse.size());
+  CHECK(finest.back() > 1.1 * finest.front());  // shapes of their own
+  for (std::size_t k = 0; k < finest.size(); ++k) {
+    CHECK(coarse[k] == Approx(finest[k]).epsilon(0.01));  // the shapes themselves differ by 17 %
+    CHECK(fine[k] == Approx(finest[k]).epsilon(0.0025));  // second order: a fourth of that
+  }
+}

@@ -1,9 +1,10 @@
-#include "sim/route/quick_checks.h"
+#include "sim/run/quick_checks.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "sim/run/cures.h"
 #include "sim/run/equilibrium.h"
 #include "sim/run/routing.h"
+#include "sim/run/simulate.h"
 
 namespace dresslife::sim {
 namespace {
@@ -24,25 +26,66 @@ constexpr double degree = EIGEN_PI / 180;
 constexpr int most_moments = 100'000;  // of the program; a run looks at every step
 constexpr int rest_moments = 1000;     // of the program; a span rests in those between which it has moved enough
 constexpr int mounting_moments = 100;  // of the way from the mounting pose to the program
-constexpr int most_segments = 32;      // of a span at rest: a bend radius within a few percent
 // Between two rests: far below the half turn at which the shorter way around is the other one.
 constexpr double rest_turn = 20 * degree;
 constexpr double rest_way = 0.05;  // the same for displacements, of the length: a hose sags by as much
+constexpr double same_radius = 0.05;  // of a bend radius: what few segments leave of doubt
+
+pipeline::Setup with_segments(pipeline::Setup setup, int most) {
+  setup.simulation.segments = std::min(setup.simulation.segments, most);
+  return setup;
+}
+
+/// A span at rest over the program.
+struct Rests {
+  std::vector<Check> checks;
+  RodState begin;                 // at the first target
+  double roll = 0;                // of its tool clamp [rad]
+  std::optional<double> unfound;  // time at which no rest is found [s]; absent: all are found
+};
 
 class QuickChecks {
  public:
-  explicit QuickChecks(const pipeline::Setup& setup)
-      : setup_(setup), rod_(rod_of(setup)), path_(path_of(setup)), robot_(dynamic_cast<const RobotPath*>(path_.get())) {}
+  QuickChecks(const pipeline::Setup& setup, int segments)
+      : setup_(setup),
+        segments_(segments),
+        rod_(rod_of(setup)),
+        short_rod_(rod_of(with_segments(setup, segments))),
+        rest_rod_(rod_of(with_segments(setup, rest_segments))),
+        path_(path_of(setup)),
+        robot_(dynamic_cast<const RobotPath*>(path_.get())) {}
 
-  std::vector<pipeline::Warning> warnings() {
-    std::vector<Check> checks;
-    add_slack(checks);
-    std::vector<pipeline::Warning> all = robot_ ? robot_->doubts() : std::vector<pipeline::Warning>{};
-    add_rests(checks, all);
-    add_winding(all);
-    return pipeline::joined(
-        std::move(all),
-        check_warnings({setup_, [&](double time) { return moment(time); }, &rod_, path_.get()}, checks));
+  QuickFindings findings() {
+    QuickFindings found;
+    found.run = short_run(setup_, segments_);
+    add_slack(found.checks);
+    if (robot_) found.others = robot_->doubts();
+    add_rests(found);
+    for (const Check& check : found.run.checks) {
+      if (check.name != check_name::bend_radius) continue;
+      // At rest the hose hangs free of the robot, on which it may lie: a bend that the short run has not is none.
+      for (Check& other : found.checks)
+        if (other.name == check_name::bend_radius_at_rest && other.dresspack == check.dresspack) other.warning &= check.warning;
+      found.checks.push_back(check);
+    }
+    add_winding(found.others);
+    found.others = pipeline::joined(std::move(found.others), one_link_warnings(setup_));
+    return found;
+  }
+
+  QuickWarnings warnings() {
+    QuickFindings found = findings();
+    const CheckedMotion motion{setup_, [&](double time) { return moment(time); }, &rod_, path_.get()};
+    std::vector<Check> said;  // a bend that is there at rest is no other one in motion
+    for (const Check& check : found.checks)
+      if (check.name != check_name::bend_radius ||
+          std::none_of(found.checks.begin(), found.checks.end(), [&](const Check& other) {
+            return other.name == check_name::bend_radius_at_rest && other.warning && other.dresspack == check.dresspack;
+          }))
+        said.push_back(check);
+    std::vector<pipeline::Warning> cured = check_warnings(motion, said);
+    if (found.run.taut_at) cured.push_back(taut_warning(motion, found.run));
+    return {pipeline::joined(std::move(found.others), cured), std::move(found.notes)};
   }
 
  private:
@@ -138,63 +181,98 @@ class QuickChecks {
            way.norm() > rest_way * length;
   }
 
-  /// A span at rest in pose after pose, each found from the one before, so that whole turns of the hose count as in a run
-  /// (R7). base_roll: of its base clamp; tool_roll: found at its tool clamp [rad]. Sets unfound where no rest is found [s].
-  std::vector<Check> rests(std::size_t span, double base_roll, double& tool_roll, std::optional<double>& unfound) const {
-    const Span& of = rod_.spans()[span];
-    const pipeline::Routing& routing = setup_.dresspacks[static_cast<std::size_t>(of.dresspack)].routing;
-    const auto between = span - static_cast<std::size_t>(rod_.first_span(of.dresspack));
-    const bool last = between == routing.clamps.size();
-    const bool twist_free =
-        robot_ && !(last ? *routing.tool_clamp : routing.clamps[between].clamp).roll;
-    RodProperties p = of.properties;
-    p.segments = std::min(p.segments, most_segments);
-    const Rod rod(p);
+  /// What is at rest of a span.
+  struct Resting {
+    RodProperties properties;
+    std::size_t span;
+    double base_roll;  // of its base clamp [rad]
+    double pre_twist;  // of its tool clamp [rad]
+    MotionLimits limits;
+  };
+
+  static EquilibriumSettings rest_settings() {
     EquilibriumSettings settings;
     settings.tolerance = 1e-4;  // of the forces: a picture's worth
-    MotionChecks checks(rod, {limits_of(setup_.dresspacks[static_cast<std::size_t>(of.dresspack)].dresspack)});
-    const std::vector<double> all = moments();
-    const auto rolled_clamps = [&](std::size_t k, double roll) {
-      const ClampFrames clamps = clamps_at(span, all[k]);
-      return ClampFrames{rolled(clamps.base, base_roll), rolled(clamps.tool, roll)};
-    };
-    Equilibrium found;
-    if (twist_free) {
-      TwistFreeClamp clamped = twist_free_roll(rod, rolled_clamps(0, 0), settings);
-      tool_roll = clamped.roll;
-      found = std::move(clamped.equilibrium);
-    } else {
-      found = find_equilibrium(rod, rolled_clamps(0, 0), settings);
-    }
+    return settings;
+  }
+
+  ClampFrames rolled_clamps(const Resting& of, double moment, double roll) const {
+    const ClampFrames clamps = clamps_at(of.span, moment);
+    return {rolled(clamps.base, of.base_roll), rolled(clamps.tool, roll)};
+  }
+
+  /// A span at rest in pose after pose, each found from the one before, so that whole turns of the hose count as in a run
+  /// (R7).
+  Rests rests(const Resting& of, const TwistFreeClamp& start, const std::vector<double>& all) const {
+    const Rod rod(of.properties);
+    MotionChecks checks(rod, {of.limits});
+    Rests result;
+    result.roll = start.roll;
+    RodState found = start.equilibrium.state;
     const auto follow = [&](const ClampFrames& clamps) {
-      Equilibrium next = find_equilibrium(rod, clamps, moved_along(found.state, clamps), {}, settings);
+      Equilibrium next = find_equilibrium(rod, clamps, moved_along(found, clamps), {}, rest_settings());
       if (next.status != EquilibriumStatus::converged) return false;
-      found = std::move(next);
+      found = std::move(next.state);
       return true;
     };
-    bool resting = found.status == EquilibriumStatus::converged;
-    const double pre_twist = last ? routing.pre_twist : 0, untwisted = tool_roll;
-    const int parts = static_cast<int>(std::ceil(std::abs(pre_twist) / rest_turn));
+    bool resting = true;
+    const int parts = static_cast<int>(std::ceil(std::abs(of.pre_twist) / rest_turn));
     for (int part = 1; part <= parts && resting; ++part)
-      resting = follow(rolled_clamps(0, tool_roll = untwisted + pre_twist * part / parts));
+      resting = follow(rolled_clamps(of, all.front(), result.roll = start.roll + of.pre_twist * part / parts));
     const auto look = [&](std::size_t k) {
-      if (all[k] >= 0) checks.see(found.state, {}, all[k] * path_->duration());
+      if (all[k] < 0) return;
+      if (all[k] == 0) result.begin = found;
+      checks.see(found, {}, all[k] * path_->duration());
     };
     if (resting) look(0);
+    else result.unfound = 0;
     for (std::size_t now = 0; resting && now + 1 < all.size();) {
-      const ClampFrames here = rolled_clamps(now, tool_roll);
+      const ClampFrames here = rolled_clamps(of, all[now], result.roll);
       std::size_t next = now + 1;
-      while (next + 1 < all.size() && all[next] != 0 && !moved(here, rolled_clamps(next, tool_roll), p.length)) ++next;
-      while (!(resting = follow(rolled_clamps(next, tool_roll))) && next > now + 1) next = now + (next - now) / 2;
+      while (next + 1 < all.size() && all[next] != 0 && !moved(here, rolled_clamps(of, all[next], result.roll), of.properties.length))
+        ++next;
+      while (!(resting = follow(rolled_clamps(of, all[next], result.roll))) && next > now + 1) next = now + (next - now) / 2;
       if (resting) look(now = next);
-      else unfound = std::max(0.0, all[next]) * path_->duration();
+      else result.unfound = std::max(0.0, all[next]) * path_->duration();
     }
-    if (!resting && !unfound) unfound = 0;
-    return unfound ? std::vector<Check>{} : checks.table();
+    if (!result.unfound) result.checks = checks.table();
+    return result;
+  }
+
+  /// Of all shapes of a span, that first which is nearest to where a run begins.
+  std::vector<Rests> all_rests(std::size_t span, double base_roll, const std::optional<RodState>& begin) const {
+    const Span& of = rod_.spans()[span];
+    const pipeline::MountedDresspack& mounted = setup_.dresspacks[static_cast<std::size_t>(of.dresspack)];
+    const auto between = span - static_cast<std::size_t>(rod_.first_span(of.dresspack));
+    const bool last = between == mounted.routing.clamps.size();
+    const bool twist_free =
+        robot_ && !(last ? *mounted.routing.tool_clamp : mounted.routing.clamps[between].clamp).roll;
+    const Span &few = rest_rod_.spans()[span], &run = short_rod_.spans()[span];
+    const Resting resting{few.properties, span, base_roll, last ? mounted.routing.pre_twist : 0, limits_of(mounted.dresspack)};
+    const std::vector<double> all = moments();
+    std::vector<Rests> found;
+    for (const TwistFreeClamp& shape : rest_shapes(few.properties, rolled_clamps(resting, all.front(), 0), twist_free, rest_settings()))
+      found.push_back(rests(resting, shape, all));
+    if (found.empty()) found.push_back({{}, {}, 0, 0.0});
+    if (!begin) return found;
+    const auto from_begin = [&](const Rests& of_shape) {
+      double most = 0;
+      if (of_shape.begin.position.empty()) return std::numeric_limits<double>::infinity();
+      for (int i = 0; i < few.segments(); ++i) {
+        const int beside = static_cast<int>((i + 0.5) * run.segments() / few.segments());
+        most = std::max(most, (of_shape.begin.position[static_cast<std::size_t>(i)] -
+                               begin->position[static_cast<std::size_t>(run.first_segment + beside)]).norm());
+      }
+      return most;
+    };
+    std::swap(found.front(), *std::min_element(found.begin(), found.end(), [&](const Rests& a, const Rests& b) {
+                return from_begin(a) < from_begin(b);
+              }));
+    return found;
   }
 
   /// Of each dresspack's worst spans at rest. Spans with rings or a retraction unit are left to a run.
-  void add_rests(std::vector<Check>& checks, std::vector<pipeline::Warning>& all) {
+  void add_rests(QuickFindings& result) {
     const std::vector<RoutedRing> rings = routed_rings(setup_);
     for (int d = 0; d < rod_.dresspacks(); ++d) {
       std::optional<Check> bend, twist, net;
@@ -205,11 +283,13 @@ class QuickChecks {
         });
         const double base_roll = std::exchange(roll, 0);
         if (is_free(span) || ringed || properties(span).slider || longest_[span] >= properties(span).length) continue;
-        std::optional<double> unfound;
-        const std::vector<Check> table = rests(span, base_roll, roll, unfound);
-        if (unfound) all.push_back(no_rest(d, *unfound));
+        const std::vector<Rests> shapes = all_rests(span, base_roll, result.run.begin);
+        roll = shapes.front().roll;
+        // What a short run has followed in time is no fault, although no rest is found.
+        if (shapes.front().unfound && !result.run.refusal.empty()) result.others.push_back(no_rest(d, *shapes.front().unfound));
+        add_shapes_note(d, shapes, result.notes);
         std::optional<Check> net_here;
-        for (Check check : table) {
+        for (Check check : shapes.front().checks) {
           check.dresspack = d;
           check.position = middle(span);
           if (check.name == check_name::net_twist) net_here = check;
@@ -219,10 +299,29 @@ class QuickChecks {
         }
         if (!net) net = net_here;
       }
-      if (bend) bend->name = check_name::bend_radius_at_rest, checks.push_back(*bend);
-      if (twist) twist->name = "largest twist at rest", checks.push_back(*twist);
-      if (net) checks.push_back(*net);
+      if (bend) bend->name = check_name::bend_radius_at_rest, result.checks.push_back(*bend);
+      if (twist) twist->name = "largest twist at rest", result.checks.push_back(*twist);
+      if (net) result.checks.push_back(*net);
     }
+  }
+
+  void add_shapes_note(int dresspack, const std::vector<Rests>& shapes, std::vector<std::string>& notes) const {
+    std::vector<double> radii;
+    for (const Rests& shape : shapes)
+      for (const Check& check : shape.checks)
+        if (check.name == check_name::bend_radius &&
+            std::none_of(radii.begin(), radii.end(), [&](double r) { return std::abs(r - check.value) <= same_radius * r; }))
+          radii.push_back(check.value);
+    if (radii.size() < 2) return;
+    std::string others;
+    for (std::size_t k = 1; k < radii.size(); ++k) others += fmt::format("{}{:.0f}", k == 1 ? "" : ", ", 1e3 * radii[k]);
+    const double limit =
+        limits_of(setup_.dresspacks[static_cast<std::size_t>(dresspack)].dresspack).least_bend_radius;
+    notes.push_back(fmt::format(
+        "Between these clamps {} has {} stable shapes at rest. In the shape with which a run begins its smallest bend radius "
+        "over the program is {:.0f} mm, in the other{} {} mm (limit {:.0f} mm). Clamp it as the preview of the run shows",
+        pipeline::dresspack_words(setup_, dresspack), radii.size(), 1e3 * radii.front(), radii.size() > 2 ? "s" : "", others,
+        1e3 * limit));
   }
 
   pipeline::Warning no_rest(int dresspack, double time) const {
@@ -253,7 +352,8 @@ class QuickChecks {
   }
 
   const pipeline::Setup& setup_;
-  Rod rod_;
+  int segments_;
+  Rod rod_, short_rod_, rest_rod_;
   std::unique_ptr<ClampPath> path_;
   const RobotPath* robot_;
   std::vector<double> longest_, when_;  // (span) [m], [s]
@@ -261,6 +361,25 @@ class QuickChecks {
 
 }  // namespace
 
-std::vector<pipeline::Warning> quick_warnings(const pipeline::Setup& setup) { return QuickChecks(setup).warnings(); }
+ShortRun short_run(pipeline::Setup setup, int segments) {
+  ShortRun result;
+  // One repeat that leads in, and one that counts: what the first leaves wound may draw the next one taut.
+  setup.simulation.most_repeats = std::min(setup.simulation.most_repeats, 2);
+  try {
+    const Simulation simulation(with_segments(std::move(setup), segments));
+    result.begin = simulation.start();
+    result.checks = simulation.run({[](const Sample&) {}}).checks;
+  } catch (const RoutingRefusal& refusal) {
+    result.refusal = refusal.problem;
+    result.dresspack = refusal.dresspack;
+    if (result.begin) result.taut_at = refusal.time;
+  } catch (const pipeline::InputError& problem) {
+    result.refusal = problem.what();
+  }
+  return result;
+}
+
+QuickFindings quick_findings(const pipeline::Setup& setup, int segments) { return QuickChecks(setup, segments).findings(); }
+QuickWarnings quick_warnings(const pipeline::Setup& setup) { return QuickChecks(setup, short_run_segments).warnings(); }
 
 }  // namespace dresslife::sim
