@@ -121,6 +121,20 @@ TEST_CASE("shares of causes that were learned together: by the conditional distr
   }
 }
 
+TEST_CASE("shares of two causes that were learned together have the closed form of a straight response", "[new]") {
+  // With a, b and the correlation r: V(1) = (a + b r)^2, V(2) = (b + a r)^2, V(1, 2) = a^2 + b^2 + 2 a b r.
+  for (const double r : {-0.6, 0.6, 0.9}) {
+    const double a = 1, b = 0.5, of_a = std::pow(a + b * r, 2), of_b = std::pow(b + a * r, 2), both = a * a + b * b + 2 * a * b * r;
+    LifeResponse response = straight(-a, 0, b);
+    response.planned = {{5, 5, 5}};
+    response.knowledge.covariance.setZero();
+    response.knowledge.covariance(friction, friction) = response.knowledge.covariance(strength, strength) = 1;
+    response.knowledge.covariance(friction, strength) = response.knowledge.covariance(strength, friction) = r;
+    CAPTURE(r);
+    CHECK(summary_of({response}, "job").share[friction] == Approx((of_a + both - of_b) / (2 * both)).margin(0.03));
+  }
+}
+
 TEST_CASE("what is known moves nothing, and what is known better moves less") {
   LifeResponse response = straight(0.6, 0, 0);
   response.knowledge.covariance.setZero();
