@@ -199,6 +199,16 @@ TEST_CASE("krl: external axes are kept where one of them is used") {
   CHECK(used.move(1).target.external_axes[0] == 0);
 }
 
+TEST_CASE("krl: each external axis keeps its own place, also where it is moved by a way", "[new]") {
+  const std::string axes = "A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0";
+  const Reading r = run("PTP {" + axes + ",E1 10,E3 30}\nPTP_REL {E3 5}\nPTP_REL {A1 1,E2 -2,E1 1}\nPTP {" + axes + ",E2 7}");
+  REQUIRE(r.program.instructions.size() == 4);
+  CHECK(r.move(0).target.external_axes == std::vector<double>{10, 0, 30});
+  CHECK(r.move(1).target.external_axes == std::vector<double>{10, 0, 35});
+  CHECK(r.move(2).target.external_axes == std::vector<double>{11, -2, 35});
+  CHECK(r.move(3).target.external_axes == std::vector<double>{11, 7, 35});
+}
+
 TEST_CASE("krl: problems name what is missing and where") {
   const Reading r =
       run("PTP XP7\nLIN {X 1,Y 0,Z 0,A 0,B 0,C 0}\nBAS(#TOOL,3)\n$VEL.CP=1\nLIN {X 1,Y 0,Z 0,A 0,B 0,C "
