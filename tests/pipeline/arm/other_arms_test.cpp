@@ -75,12 +75,16 @@ TEST_CASE("turns of wrist and arm keep the pose, a robot without such a wrist ha
   CHECK(other_turns(robot).empty());
 }
 
-TEST_CASE("other configurations: what they are called, the wrist next to the one before, and every limit kept", "[new]") {
+TEST_CASE(
+    "other configurations: what they are called, the wrist next to the one before, and every limit kept",
+    "[new]") {
   Robot robot = shipped().robot;
   for (Joint& joint : robot.joints) joint.lower = -6.5, joint.upper = 6.5;
   for (const std::size_t axis : {1, 2}) robot.joints[axis].lower = -3.1, robot.joints[axis].upper = 3.1;
   std::mt19937 random(5);
-  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   std::set<std::string_view> kinds;
   for (int round = 0; round < 12; ++round) {
     std::vector<double> joints(6);
@@ -102,16 +106,19 @@ TEST_CASE("other configurations: what they are called, the wrist next to the one
       for (const double flip : {0.0, pi})
         for (double four = arm.joints[3] + flip - 6 * pi; four < 6.5; four += 2 * pi)
           for (double six = arm.joints[5] + flip - 6 * pi; six < 6.5; six += 2 * pi)
-            if (four > -6.5 && six > -6.5) CHECK(off(four, flip == 0 ? arm.joints[4] : -arm.joints[4], six) >= chosen - 1e-6);
+            if (four > -6.5 && six > -6.5)
+              CHECK(off(four, flip == 0 ? arm.joints[4] : -arm.joints[4], six) >= chosen - 1e-6);
     }
     // Each limit in turn excludes what lies beyond it, and nothing else.
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Robot narrow = robot;
       narrow.joints[axis].upper = joints[axis] + 0.5;
-      for (const OtherArm& arm : other_arms(narrow, joints)) CHECK(arm.joints[axis] <= narrow.joints[axis].upper);
+      for (const OtherArm& arm : other_arms(narrow, joints))
+        CHECK(arm.joints[axis] <= narrow.joints[axis].upper);
       narrow = robot;
       narrow.joints[axis].lower = joints[axis] - 0.5;
-      for (const OtherArm& arm : other_arms(narrow, joints)) CHECK(arm.joints[axis] >= narrow.joints[axis].lower);
+      for (const OtherArm& arm : other_arms(narrow, joints))
+        CHECK(arm.joints[axis] >= narrow.joints[axis].lower);
     }
     for (std::size_t axis = 3; axis < 6; ++axis) {
       Robot narrow = robot;
@@ -131,7 +138,8 @@ TEST_CASE("turns of the wrist are those in their names", "[new]") {
     if (turn.name.starts_with("other arm")) continue;
     const auto named = [&](const std::string& axis) {
       const std::size_t at = turn.name.find(axis);
-      return at == std::string::npos ? 0 : std::stod(turn.name.substr(at + axis.size())) * std::numbers::pi / 180;
+      return at == std::string::npos ? 0
+                                     : std::stod(turn.name.substr(at + axis.size())) * std::numbers::pi / 180;
     };
     const auto found = turn.turn(joints);
     INFO(turn.name);
@@ -161,7 +169,9 @@ TEST_CASE("a wrist whose axes do not cross in one point at right angles is none"
     return has_wrist(changed);
   };
   CHECK(is_one([](Robot&) {}));
-  CHECK(is_one([&](Robot& r) { r.joints[4].origin += 0.1 * along, r.joints[5].origin -= 0.1 * along, r.joints[5].axis *= -1; }));
+  CHECK(is_one([&](Robot& r) {
+    r.joints[4].origin += 0.1 * along, r.joints[5].origin -= 0.1 * along, r.joints[5].axis *= -1;
+  }));
   for (const double sign : {-1.0, 1.0}) {
     CHECK_FALSE(is_one([&](Robot& r) { r.joints[4].axis += sign * 1e-4 * along; }));
     CHECK_FALSE(is_one([&](Robot& r) { r.joints[5].axis += sign * 1e-4 * five; }));

@@ -53,8 +53,10 @@ TEST_CASE("CSV: a number is one whole decimal number") {
 }
 
 TEST_CASE("CSV: what is written is read again, and no spreadsheet takes it for a formula", "[new]") {
-  for (const char* as_it_is : {"", "plain", "5", "-5", "+1.5e3", "-.5", "1=2", "a-b"}) CHECK(harmless(as_it_is) == as_it_is);
-  for (const char* formula : {"=1+2", "-a", "+a", "@x", "-5 m", "="}) CHECK(harmless(formula) == std::string("'") + formula);
+  for (const char* as_it_is : {"", "plain", "5", "-5", "+1.5e3", "-.5", "1=2", "a-b"})
+    CHECK(harmless(as_it_is) == as_it_is);
+  for (const char* formula : {"=1+2", "-a", "+a", "@x", "-5 m", "="})
+    CHECK(harmless(formula) == std::string("'") + formula);
   CHECK(csv_cell("plain") == "plain");
   CHECK(csv_cell("a,b") == "\"a,b\"");
   CHECK(csv_cell("say \"x\"") == "\"say \"\"x\"\"\"");

@@ -60,7 +60,8 @@ TEST_CASE("checks: a motion has exactly one source and begins with a move", "[ne
     if (given & 8) motion.deformation = "curve.csv";
     if (given & 16) motion.rig.emplace();
     CAPTURE(given);
-    CHECK(is_refused([&] { check_motion(motion, two_axes()); }) == (__builtin_popcount(unsigned(given)) != 1));
+    CHECK(is_refused([&] { check_motion(motion, two_axes()); }) ==
+          (__builtin_popcount(unsigned(given)) != 1));
   }
   MotionStep dwell;
   dwell.dwell = 1;
@@ -90,9 +91,10 @@ TEST_CASE("checks: of a move's speeds and zones there is at most one of each", "
   MotionStep dwell;
   dwell.dwell = 1;
   CHECK_FALSE(is_refused(dwell));
-  for (std::optional<double> MotionStep::* key :
-       {&MotionStep::speed, &MotionStep::speed_percent, &MotionStep::zone, &MotionStep::tool_speed, &MotionStep::tool_zone,
-        &MotionStep::stop_zone, &MotionStep::duration, &MotionStep::acceleration, &MotionStep::tool_acceleration}) {
+  for (std::optional<double> MotionStep::*key :
+       {&MotionStep::speed, &MotionStep::speed_percent, &MotionStep::zone, &MotionStep::tool_speed,
+        &MotionStep::tool_zone, &MotionStep::stop_zone, &MotionStep::duration, &MotionStep::acceleration,
+        &MotionStep::tool_acceleration}) {
     MotionStep with = dwell, moves = move();
     with.*key = 1, moves.*key = 1;
     CHECK(is_refused(with));
@@ -136,13 +138,15 @@ TEST_CASE("checks: a circular move has one point on its way, and no other move h
         MotionStep step = move();
         step.path = path;
         step.via_position.assign(via, 0.5), step.circle_joints.assign(angles, 0.1);
-        const bool fits = path == PathKind::circular ? (via == 3 && angles == 0) || (via == 0 && angles == 2) : via == 0 && angles == 0;
+        const bool fits = path == PathKind::circular ? (via == 3 && angles == 0) || (via == 0 && angles == 2)
+                                                     : via == 0 && angles == 0;
         CAPTURE(int(path), via, angles);
         CHECK(is_refused(step) == !fits);
       }
 }
 
-TEST_CASE("checks: clamps and rings stand in their order on links of the robot, and let the hose through", "[new]") {
+TEST_CASE("checks: clamps and rings stand in their order on links of the robot, and let the hose through",
+          "[new]") {
   Routing routing;
   routing.free_length = 2;
   routing.base_clamp = clamp_on("base"), routing.tool_clamp = clamp_on("hand");
@@ -212,8 +216,11 @@ TEST_CASE("checks: only a hose has a bore or a filling, and its bore is the smal
 TEST_CASE("checks: a job is beyond its calibration by more than the margins only", "[new]") {
   LearnedWithin within;
   CHECK(beyond(within, {1, 100, 100}).empty());  // nothing is known of its tests
-  within.largest_strain_range = 0.01, within.least_strain_range = 0.002, within.largest_curvature = 8, within.largest_twist = 4;
-  const auto count = [&](double strain, double curvature, double twist) { return beyond(within, {strain, curvature, twist}).size(); };
+  within.largest_strain_range = 0.01, within.least_strain_range = 0.002, within.largest_curvature = 8,
+  within.largest_twist = 4;
+  const auto count = [&](double strain, double curvature, double twist) {
+    return beyond(within, {strain, curvature, twist}).size();
+  };
   CHECK(count(0.0124, 8.39, 4.19) == 0);
   CHECK(count(0.0126, 8.39, 4.19) == 1);
   CHECK(count(0.0124, 8.41, 4.19) == 1);

@@ -67,7 +67,8 @@ std::string refusal(const std::string& keys) {
 
 }  // namespace
 
-TEST_CASE("fields: every kind of value is read in SI units, each item of a list by itself, and comes back", "[new]") {
+TEST_CASE("fields: every kind of value is read in SI units, each item of a list by itself, and comes back",
+          "[new]") {
   const Whole of = read(
       "share: 1\nmass_kg: measured\nwhole: true\ncount: 9\nangle_deg: 180\nplace_mm: [10, -20, 30]\nlist: [4, 5, 6]\n"
       "colours: [blue, red]\nparts:\n  - {width_mm: 5, colour: red}\n  - {width_mm: 7}\n  - {width_mm: 9, colour: blue}\nspare: {width_mm: 2}\n");
@@ -98,7 +99,8 @@ TEST_CASE("fields: every kind of value is read in SI units, each item of a list 
 }
 
 TEST_CASE("fields: the ends of a range are in it, and what lies beyond is refused", "[new]") {
-  for (const char* fits : {"share: 0", "share: 1", "mass_kg: 1", "count: 1", "count: 9", "count: 5.0", "angle_deg: -400", "share: +0.5", "share: 5e-1"})
+  for (const char* fits : {"share: 0", "share: 1", "mass_kg: 1", "count: 1", "count: 9", "count: 5.0",
+                           "angle_deg: -400", "share: +0.5", "share: 5e-1"})
     CHECK(refusal(fits) == "read");
   for (const auto& [keys, words] : std::map<std::string, std::string>{
            {"share: -0.001", "share is -0.001 (must be 0 .. 1)"},
@@ -129,7 +131,8 @@ TEST_CASE("fields: the ends of a range are in it, and what lies beyond is refuse
            {"unlike_anything: 1", "keys here: name, share"}})
     CHECK_THAT(refusal(keys), Catch::Contains(words));
   // All at once, each at its line.
-  CHECK_THAT(refusal("share: 2\ncount: 0\n"), Catch::Contains("file.yaml:2:8") && Catch::Contains("file.yaml:3:8"));
+  CHECK_THAT(refusal("share: 2\ncount: 0\n"),
+             Catch::Contains("file.yaml:2:8") && Catch::Contains("file.yaml:3:8"));
 }
 
 TEST_CASE("fields: a range in words holds what it says", "[new]") {
@@ -146,9 +149,11 @@ TEST_CASE("fields: a range in words holds what it says", "[new]") {
 }
 
 TEST_CASE("fields: the nearest word is that of the least edit distance, by its definition", "[new]") {
-  const std::function<std::size_t(std::string_view, std::string_view)> distance = [&](std::string_view a, std::string_view b) -> std::size_t {
+  const std::function<std::size_t(std::string_view, std::string_view)> distance =
+      [&](std::string_view a, std::string_view b) -> std::size_t {
     if (a.empty() || b.empty()) return a.size() + b.size();
-    return std::min({distance(a.substr(1), b) + 1, distance(a, b.substr(1)) + 1, distance(a.substr(1), b.substr(1)) + (a[0] != b[0])});
+    return std::min({distance(a.substr(1), b) + 1, distance(a, b.substr(1)) + 1,
+                     distance(a.substr(1), b.substr(1)) + (a[0] != b[0])});
   };
   std::mt19937 random(3);
   const auto any_word = [&] {

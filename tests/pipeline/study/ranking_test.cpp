@@ -52,8 +52,11 @@ TEST_CASE("ranking: a row of a study says how its job stands and which values it
   const Scratch scratch;
   Study study;
   study.varied = {"length", "slip"};
-  study.jobs = {{"done", nullptr, "", {"2", "free"}}, {"invalid", nullptr, "no robot"}, {"failed", nullptr, "", {"3", "stick"}},
-                {"old", nullptr, "", {"4", "free"}},  {"new", nullptr, "", {"5", "free"}}};
+  study.jobs = {{"done", nullptr, "", {"2", "free"}},
+                {"invalid", nullptr, "no robot"},
+                {"failed", nullptr, "", {"3", "stick"}},
+                {"old", nullptr, "", {"4", "free"}},
+                {"new", nullptr, "", {"5", "free"}}};
   std::filesystem::create_directories(scratch / "done");
   std::filesystem::create_directories(scratch / "old");
   write_sample_life(scratch / "done" / "life.h5", living(10));

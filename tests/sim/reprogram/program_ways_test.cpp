@@ -44,12 +44,16 @@ TEST_CASE("program ways: those of the shipped program read back as the program b
   CHECK(kinds.contains("at"));
 }
 
-TEST_CASE("program ways: a line is changed for what it and the stands behind it cost, by a point with the arm or the wrist moved", "[new]") {
+TEST_CASE(
+    "program ways: a line is changed for what it and the stands behind it cost, by a point with the arm or the wrist moved",
+    "[new]") {
   Job job = shipped("side_panel.yaml");
   const Scratch scratch;
   const std::string no_more = ",[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n";
-  job.motion.program = scratch.write("m.mod", "MODULE m\nPROC main()\nMoveAbsJ [[0,-10,10,20,40,0]" + no_more + "MoveAbsJ [[30,0,20,-40,30,60]" +
-                                                  no_more + "WaitTime 1;\nMoveAbsJ [[30,0,20,10,50,90]" + no_more + "ENDPROC\nENDMODULE\n");
+  job.motion.program = scratch.write("m.mod", "MODULE m\nPROC main()\nMoveAbsJ [[0,-10,10,20,40,0]" +
+                                                  no_more + "MoveAbsJ [[30,0,20,-40,30,60]" + no_more +
+                                                  "WaitTime 1;\nMoveAbsJ [[30,0,20,10,50,90]" + no_more +
+                                                  "ENDPROC\nENDMODULE\n");
   const ReadProgram read = read_job_program(job);
   REQUIRE(read.motion.steps.size() == 4);
   const auto slowed = [&](const std::vector<double>& damage, std::size_t most) {
@@ -60,7 +64,8 @@ TEST_CASE("program ways: a line is changed for what it and the stands behind it 
   };
   using Names = std::vector<std::string>;
   CHECK(slowed({0, 1, 0, 0}, 5) == Names{"m.mod:4"});
-  CHECK(slowed({0, 0, 1, 0}, 5) == Names{"m.mod:4"});  // what happens while the robot stands comes from the move before
+  CHECK(slowed({0, 0, 1, 0}, 5) ==
+        Names{"m.mod:4"});  // what happens while the robot stands comes from the move before
   CHECK(slowed({0, 0, 0, 1}, 5) == Names{"m.mod:6"});
   CHECK(slowed({0, 1, 0, 2}, 5) == Names{"m.mod:6", "m.mod:4"});
   CHECK(slowed({0, 1, 1.5, 2}, 5) == Names{"m.mod:4", "m.mod:6"});
@@ -70,7 +75,8 @@ TEST_CASE("program ways: a line is changed for what it and the stands behind it 
   for (const ProgramWay& way : program_ways(job, read, {1, 1, 1, 1}, 5))
     if (way.what.starts_with("by a point")) {
       REQUIRE(way.changes.size() == 1);
-      CHECK(way.lines == Names{"m.mod:4"});  // line 6 moves the wrist alone, and line 3 is where the robot begins
+      CHECK(way.lines ==
+            Names{"m.mod:4"});  // line 6 moves the wrist alone, and line 3 is where the robot begins
       points[way.what] = way.changes[0].point;
     }
   REQUIRE(points.size() == 2);

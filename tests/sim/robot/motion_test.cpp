@@ -256,7 +256,8 @@ TEST_CASE("motion: a blended path stays within the zone and leaves the legs") {
 TEST_CASE("motion: a blend takes at most half of either leg, whatever its zone", "[new]") {
   for (const double first : {1.0, 0.1}) {  // the second leg is the other of them
     const double second = first == 1 ? 0.1 : 1;
-    const JointMotion motion(motion_of({move_to({0, 0}), move_to({first, 0}, 3), move_to({first, second})}), robot_with({2, 2}, {4, 4}));
+    const JointMotion motion(motion_of({move_to({0, 0}), move_to({first, 0}, 3), move_to({first, second})}),
+                             robot_with({2, 2}, {4, 4}));
     double begins = first, ends = 0;
     for (double t = 0; t < motion.duration(); t += 1e-4) {
       const VectorXd place = motion.position(t), speed = motion.velocity(t);
