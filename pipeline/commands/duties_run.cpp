@@ -12,7 +12,7 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   const bool is_path = named.extension() == ".yaml" && named.is_relative();
   const std::filesystem::path study = named_study((is_path ? folder_of(file.where) / named : named).string());
   const StudyRequest request{study, options.sets, options.out, program_folder()};
-  Standing standing = expanded(request);
+  StudyState standing = expanded(request);
   check_programs(file, standing.study);
   const FolderLock lock(standing.places.folder);
   look_again(standing);

@@ -344,13 +344,8 @@ LifePercentiles percentiles_of(std::vector<double> lives) {
   std::sort(lives.begin(), lives.end());
   constexpr std::array<double, 3> shares{0.1, 0.5, 0.9};
   LifePercentiles percentiles{};
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const double at = shares[i] * double(lives.size()) - 0.5;
-    const auto below = static_cast<std::size_t>(std::max(0.0, at));
-    const double low = lives[below], high = lives[std::min(below + 1, lives.size() - 1)];
-    percentiles[i] =
-        std::pow(10.0, std::isinf(high) ? high : low + (at - double(below)) * (high - low));
-  }
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    percentiles[i] = std::pow(10.0, number_at(lives, shares[i] * double(lives.size()) - 0.5));
   return percentiles;
 }
 

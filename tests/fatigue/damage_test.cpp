@@ -389,7 +389,8 @@ TEST_CASE("two reversals that are counted once are half a cycle", "[new]") {
   const DamageCounter counter(copper(), settings);
   DamageCounter::Workspace workspace;
   const std::vector<float> strains{0.004f, -0.004f};
-  const std::vector<DamagingCycle> cycles = evaluate_cycles(find_reversals(std::vector<double>{0.004f, -0.004f}), copper(), settings);
+  const std::vector<DamagingCycle> cycles =
+      evaluate_cycles(find_reversals(std::vector<double>{0.004f, -0.004f}), copper(), settings);
   REQUIRE(cycles.size() == 1);
   CHECK(cycles[0].cycle.count == 0.5);
   CHECK(counter(strains, workspace) == Approx(cycles[0].damage).epsilon(DamageCounter::table_error));

@@ -66,8 +66,9 @@ struct StrainFile {
   };
   struct Cable {
     std::int32_t span;
-    std::vector<double> place;     // base d1, d2, tool d1, d2 [m]
-    std::array<double, 3> strain;  // largest, at the base and at the tool clamp, at the last sample; rising evenly to there
+    std::vector<double> place;  // base d1, d2, tool d1, d2 [m]
+    std::array<double, 3>
+        strain;  // largest, at the base and at the tool clamp, at the last sample; rising evenly to there
   };
   std::vector<Cable> cables;        // of the job's first component
   std::vector<double> hose_moment;  // (span) at the last sample, as the strains
@@ -344,18 +345,20 @@ TEST_CASE("life.h5: forces of the cables by span, and the span where they ask mo
     // The first span: one cable, pulled more at the base clamp's lever or at the tool's.
     const double first = std::max(0.02 * std::abs(force.force(-1e-4)), 0.01 * std::abs(force.force(-3e-4)));
     const double base = std::hypot(0.01 * force.force(8e-5), 0.015 * force.force(2e-4)),
-                 tool = std::hypot(0.01 * force.force(-5e-5) + 0.004 * force.force(1e-4), 0.003 * force.force(1e-4));
+                 tool = std::hypot(0.01 * force.force(-5e-5) + 0.004 * force.force(1e-4),
+                                   0.003 * force.force(1e-4));
     const double second = std::max(base, tool);
     const bool in_first = first / of_first > second / 0.1;
     CHECK(in_first == (of_first < 1));  // the case has both
     CHECK(life.number_attribute("clamp_moment_share") == Approx(in_first ? first / of_first : second / 0.1));
     CHECK(life.read<double>("/clamp/cable_moment").back() == Approx(in_first ? first : second));
     CHECK(life.read<double>("/clamp/hose_moment")[50] == Approx((in_first ? of_first : 0.1) / 2));
-    CHECK(life.number_attribute("largest_force_share") == Approx(std::abs(force.force(-3e-4)) / force.strength()));
+    CHECK(life.number_attribute("largest_force_share") ==
+          Approx(std::abs(force.force(-3e-4)) / force.strength()));
     const auto warns = [&](const std::string& words) {
-      return std::any_of(result.notes.warnings.begin(), result.notes.warnings.end(), [&](const pipeline::Warning& warning) {
-        return warning.line().find(words) != std::string::npos;
-      });
+      return std::any_of(
+          result.notes.warnings.begin(), result.notes.warnings.end(),
+          [&](const pipeline::Warning& warning) { return warning.line().find(words) != std::string::npos; });
     };
     const double share = life.number_attribute("largest_force_share");
     CHECK(warns("'cable 2' is compressed with") == (share > pipeline::believable_share));

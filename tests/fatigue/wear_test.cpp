@@ -39,6 +39,15 @@ std::vector<RubbedPatch> rubbed(double work, double from, double to, double cell
 
 }  // namespace
 
+TEST_CASE("wear: every obstacle has the rate of its own surface, and where there is none that of the robot", "[new]") {
+  using pipeline::Counterface;
+  pipeline::Material material = polymer();
+  material.wear.push_back({Counterface::cell, 3, 1, "test"}), material.wear.push_back({Counterface::floor, 4, 1, "test"});
+  for (const auto& [obstacle, expected] :
+       {std::pair{"link_4", rate}, {"ring 2", rate / 2}, {"cell", 3.0}, {"floor", 4.0}, {"dresspack", rate}})
+    CHECK(wear_rate(material, obstacle).rate == expected);
+}
+
 TEST_CASE("wear: what a smooth hose loses is a circle's segment, and a strip more where contacts wander") {
   const WornLayer layer = smooth();
   for (const double depth : {1e-5, 1e-4, 1e-3}) {

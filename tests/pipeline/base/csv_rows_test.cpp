@@ -51,3 +51,20 @@ TEST_CASE("CSV: a number is one whole decimal number") {
   CHECK(number_in("-2") == -2);
   for (const char* none : {"", "1 2", "1,5", "0x1", "two"}) CHECK_FALSE(number_in(none));
 }
+
+TEST_CASE("CSV: what is written is read again, and no spreadsheet takes it for a formula", "[new]") {
+  for (const char* as_it_is : {"", "plain", "5", "-5", "+1.5e3", "-.5", "1=2", "a-b"})
+    CHECK(harmless(as_it_is) == as_it_is);
+  for (const char* formula : {"=1+2", "-a", "+a", "@x", "-5 m", "="})
+    CHECK(harmless(formula) == std::string("'") + formula);
+  CHECK(csv_cell("plain") == "plain");
+  CHECK(csv_cell("a,b") == "\"a,b\"");
+  CHECK(csv_cell("say \"x\"") == "\"say \"\"x\"\"\"");
+  const std::vector<std::string> cells{"a,b", "\"", "\"\"", ",", "x\"y,z\"", "one"};
+  std::string line;
+  for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + csv_cell(cell);
+  CsvReader reader(line + "\n", "f.csv");
+  const CsvRow row = reader.next();
+  REQUIRE(row.size() == cells.size());
+  for (std::size_t k = 0; k < cells.size(); ++k) CHECK(row[k].text == cells[k]);
+}

@@ -372,13 +372,18 @@ TEST_CASE("stiffness: a given one is warned of beyond its limits, and not up to 
   const struct {
     Dresspack dresspack;
     double least, most;
-  } cases[]{{hose, std::max(bending(hose, SlipState::friction) / 2, bending(hose, SlipState::sliding)), bending(hose, SlipState::stuck) + bar},
-            {walled, std::max(bending(walled, SlipState::friction) / 2, bending(walled, SlipState::sliding)),
-             std::min(2 * bending(walled, SlipState::friction), bending(walled, SlipState::stuck))},
-            {alone, bending(alone, SlipState::sliding) - 0.01, bending(alone, SlipState::stuck)},
-            {bare, bending(bare, SlipState::sliding) - jacket_bending(0.006), bending(bare, SlipState::stuck)}};
+  } cases[]{
+      {hose, std::max(bending(hose, SlipState::friction) / 2, bending(hose, SlipState::sliding)),
+       bending(hose, SlipState::stuck) + bar},
+      {walled, std::max(bending(walled, SlipState::friction) / 2, bending(walled, SlipState::sliding)),
+       std::min(2 * bending(walled, SlipState::friction), bending(walled, SlipState::stuck))},
+      {alone, bending(alone, SlipState::sliding) - 0.01, bending(alone, SlipState::stuck)},
+      {bare, bending(bare, SlipState::sliding) - jacket_bending(0.006), bending(bare, SlipState::stuck)}};
   for (const auto& [dresspack, least, most] : cases)
-    for (const auto& [given, warned] : {std::pair{0.999 * least, true}, {1.001 * least, false}, {0.999 * most, false}, {1.001 * most, true}}) {
+    for (const auto& [given, warned] : {std::pair{0.999 * least, true},
+                                        {1.001 * least, false},
+                                        {0.999 * most, false},
+                                        {1.001 * most, true}}) {
       Dresspack one = dresspack;
       one.bending_stiffness = given;
       CAPTURE(given, least, most);

@@ -121,6 +121,23 @@ TEST_CASE("shares of causes that were learned together: by the conditional distr
   }
 }
 
+TEST_CASE("shares of two causes that were learned together have the closed form of a straight response",
+          "[new]") {
+  // With a, b and the correlation r: V(1) = (a + b r)^2, V(2) = (b + a r)^2, V(1, 2) = a^2 + b^2 + 2 a b r.
+  for (const double r : {-0.6, 0.6, 0.9}) {
+    const double a = 1, b = 0.5, of_a = std::pow(a + b * r, 2), of_b = std::pow(b + a * r, 2),
+                 both = a * a + b * b + 2 * a * b * r;
+    LifeResponse response = straight(-a, 0, b);
+    response.planned = {{5, 5, 5}};
+    response.knowledge.covariance.setZero();
+    response.knowledge.covariance(friction, friction) = response.knowledge.covariance(strength, strength) = 1;
+    response.knowledge.covariance(friction, strength) = response.knowledge.covariance(strength, friction) = r;
+    CAPTURE(r);
+    CHECK(summary_of({response}, "job").share[friction] ==
+          Approx((of_a + both - of_b) / (2 * both)).margin(0.03));
+  }
+}
+
 TEST_CASE("what is known moves nothing, and what is known better moves less") {
   LifeResponse response = straight(0.6, 0, 0);
   response.knowledge.covariance.setZero();
@@ -260,21 +277,23 @@ TEST_CASE("modes and their text lead to each other, also from a response alone, 
   LifeResponse one = straight(0.6, 0.2, 0.4), other = straight(0.1, 0.2, 0.4);
   one.mode = "wires of signal cable", other.mode = "wires of power cable", other.scatter_shared = 0.5;
   other.inside[4] = Inside::glued;
-  const FailureModes again = modes_from_text(modes_text({one, other}));
-  REQUIRE(again.size() == 2);
+  const FailureModes again = modes_from_text(modes_text({one, other, one}));
+  REQUIRE(again.size() == 3);
   CHECK(again[0].mode == one.mode);
   CHECK(again[1].scatter_shared == 0.5);
   CHECK(again[1].inside[4] == Inside::glued);
-  CHECK(modes_text(again) == modes_text({one, other}));
+  CHECK(modes_text(again) == modes_text({one, other, one}));
   CHECK(modes_from_text(one.text()).size() == 1);
   CHECK_THROWS_AS(modes_from_text(""), std::exception);
   CHECK_THROWS_AS(modes_from_text(one.text() + "mode second\n"), std::exception);
 }
 
-TEST_CASE("percentiles are straight between the middles of samples, shares of outliving count pairs", "[new]") {
+TEST_CASE("percentiles are straight between the middles of samples, shares of outliving count pairs",
+          "[new]") {
   std::vector<double> lives;
   for (int k = 19; k >= 0; --k) lives.push_back(k / 10.0);
-  const LifePercentiles of = percentiles_of(lives);  // of 20 samples the second and third have 7.5 and 12.5 % below their middles
+  const LifePercentiles of =
+      percentiles_of(lives);  // of 20 samples the second and third have 7.5 and 12.5 % below their middles
   CHECK(std::log10(of[0]) == Approx(0.15));
   CHECK(std::log10(of[1]) == Approx(0.95));
   CHECK(std::log10(of[2]) == Approx(1.75));
@@ -289,7 +308,8 @@ TEST_CASE("percentiles are straight between the middles of samples, shares of ou
 TEST_CASE("two modes of one dresspack share the part of their scatter that is given", "[new]") {
   for (const double shared : {1.0, 0.5, 0.0}) {
     LifeResponse one = straight(0, 0, 0), other = one;
-    for (LifeResponse* mode : {&one, &other}) mode->knowledge.covariance.setZero(), mode->scatter_shared = shared;
+    for (LifeResponse* mode : {&one, &other})
+      mode->knowledge.covariance.setZero(), mode->scatter_shared = shared;
     one.mode = "one", other.mode = "other";
     // Of two normal lives with this correlation, both are above their median in this share of samples.
     const double both = 0.25 + std::asin(shared) / (2 * std::acos(-1.0));

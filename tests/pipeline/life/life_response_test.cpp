@@ -83,8 +83,8 @@ constexpr std::size_t play = index_of(Uncertain::play), slope = index_of(Uncerta
 struct RandomTable {
   std::mt19937 engine{7};
   std::map<std::size_t, std::vector<double>> nodes{
-      {friction, {-1.5, 0, 1, 2.5}}, {slack, {-2, 0, 1}}, {play, {0, 0.5, 2}}, {strength, {-2, -0.5, 0, 1}}, {slope, {-1, 0, 3}},
-      {scatter, {-1, 0, 0.5}}};
+      {friction, {-1.5, 0, 1, 2.5}}, {slack, {-2, 0, 1}}, {play, {0, 0.5, 2}},
+      {strength, {-2, -0.5, 0, 1}},  {slope, {-1, 0, 3}}, {scatter, {-1, 0, 0.5}}};
   LifeResponse response = straight(0, 0, 0);
 
   double random() { return std::uniform_real_distribution<double>(4, 6)(engine); }
@@ -109,11 +109,14 @@ struct RandomTable {
   }
   /// W at nodes.
   double worst(Inside inside, double f, double s, double p, double of_strength, double of_slope) const {
-    const auto at = [](const std::vector<double>& list, double z) { return std::find(list.begin(), list.end(), z) - list.begin(); };
+    const auto at = [](const std::vector<double>& list, double z) {
+      return std::find(list.begin(), list.end(), z) - list.begin();
+    };
     for (std::size_t k = 0; k < response.points.size(); ++k)
-      if (response.inside[k] == inside && response.points[k][friction] == f && response.points[k][slack] == s &&
-          response.points[k][play] == p)
-        return response.worst_life[k * 12 + std::size_t(at(response.strength, of_strength) * 3 + at(response.slope, of_slope))];
+      if (response.inside[k] == inside && response.points[k][friction] == f &&
+          response.points[k][slack] == s && response.points[k][play] == p)
+        return response.worst_life[k * 12 + std::size_t(at(response.strength, of_strength) * 3 +
+                                                        at(response.slope, of_slope))];
     throw std::out_of_range("no such point");
   }
   ParameterPoint random_node() {
@@ -134,16 +137,20 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
       return table.worst(inside, f, s, p, z[strength], z[slope]);
     };
     const double alone = worst(Inside::as_is, 0, 0, z[play]) - worst(Inside::as_is, 0, 0, 0);
-    const double at_zero = table.worst(Inside::as_is, 0, 0, 0, 0, 0), glued_at_zero = table.worst(Inside::glued, 0, 0, 0, 0, 0);
+    const double at_zero = table.worst(Inside::as_is, 0, 0, 0, 0, 0),
+                 glued_at_zero = table.worst(Inside::glued, 0, 0, 0, 0, 0);
     const double change = worst(Inside::as_is, z[friction], z[slack], 0) + alone - at_zero;
     CHECK(of.change(z) == Approx(change).margin(rounding));
     CHECK(of.change(z, Inside::glued) ==
-          Approx(3.7 + worst(Inside::glued, 0, z[slack], 0) - glued_at_zero + alone - at_zero).margin(rounding));
+          Approx(3.7 + worst(Inside::glued, 0, z[slack], 0) - glued_at_zero + alone - at_zero)
+              .margin(rounding));
     // Where nothing was computed without friction, it is the job's own, shifted.
-    CHECK(of.change(z, Inside::free) == Approx(8 - at_zero + worst(Inside::as_is, 0, z[slack], 0) + alone - at_zero).margin(rounding));
+    CHECK(of.change(z, Inside::free) ==
+          Approx(8 - at_zero + worst(Inside::as_is, 0, z[slack], 0) + alone - at_zero).margin(rounding));
     const auto scatter_at = std::size_t(z[scatter] < 0 ? 0 : z[scatter] > 0 ? 2 : 1);
     for (const int tenths : {-1, 0, 1})
-      CHECK(of.log10_life(z, tenths * 1.2815515655446004) == Approx(of.planned[scatter_at][std::size_t(tenths + 1)] + change));
+      CHECK(of.log10_life(z, tenths * 1.2815515655446004) ==
+            Approx(of.planned[scatter_at][std::size_t(tenths + 1)] + change));
   }
   // Without the combinations, friction and slack add.
   RandomTable apart(false);
@@ -152,11 +159,14 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
       ParameterPoint z = at(friction, f);
       z[slack] = s;
       CHECK(apart.response.change(z) ==
-            Approx(apart.response.change(at(friction, f)) + apart.response.change(at(slack, s))).margin(rounding));
+            Approx(apart.response.change(at(friction, f)) + apart.response.change(at(slack, s)))
+                .margin(rounding));
     }
 }
 
-TEST_CASE("a response is straight along each axis between neighbouring nodes and beyond the last, as far as 3.5", "[new]") {
+TEST_CASE(
+    "a response is straight along each axis between neighbouring nodes and beyond the last, as far as 3.5",
+    "[new]") {
   RandomTable table;
   const LifeResponse& of = table.response;
   for (int k = 0; k < 40; ++k)
@@ -170,7 +180,8 @@ TEST_CASE("a response is straight along each axis between neighbouring nodes and
       for (std::size_t node = 0; node + 1 < values.size(); ++node) {
         const double low = values[node], high = values[node + 1];
         CHECK(life(0.75 * low + 0.25 * high) == Approx(0.75 * life(low) + 0.25 * life(high)));
-        if (node == 0) CHECK(life(low - 0.3) == Approx(life(low) + 0.3 * (life(low) - life(high)) / (high - low)));
+        if (node == 0)
+          CHECK(life(low - 0.3) == Approx(life(low) + 0.3 * (life(low) - life(high)) / (high - low)));
         if (node + 2 == values.size())
           CHECK(life(high + 0.3) == Approx(life(high) + 0.3 * (life(high) - life(low)) / (high - low)));
       }
@@ -179,7 +190,9 @@ TEST_CASE("a response is straight along each axis between neighbouring nodes and
     }
 }
 
-TEST_CASE("a response depends on what its table varies over, and on nothing else of the strain and the material", "[new]") {
+TEST_CASE(
+    "a response depends on what its table varies over, and on nothing else of the strain and the material",
+    "[new]") {
   const LifeResponse full = RandomTable().response;
   for (const std::size_t varied : {friction, slack, play, strength, slope, scatter}) {
     LifeResponse response = full;
@@ -188,9 +201,11 @@ TEST_CASE("a response depends on what its table varies over, and on nothing else
       ParameterPoint z{};
       std::copy(point.begin(), point.end(), z.begin());
       z[strength] = double(k % 12 / 3), z[slope] = double(k % 3);
-      response.worst_life[k] = varied == scatter || full.inside[k / 12] != Inside::as_is ? 5 : 5 + 0.1 * z[varied];
+      response.worst_life[k] =
+          varied == scatter || full.inside[k / 12] != Inside::as_is ? 5 : 5 + 0.1 * z[varied];
     }
-    for (auto& lives : response.planned) lives = {4, 5, varied == scatter && &lives == &response.planned[1] ? 6.0 : 5.5};
+    for (auto& lives : response.planned)
+      lives = {4, 5, varied == scatter && &lives == &response.planned[1] ? 6.0 : 5.5};
     const LifeSurface surface(response);
     for (std::size_t p = 0; p < uncertain_count; ++p) {
       CAPTURE(varied, p);

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <random>
 
-#include "pipeline/base/readable.h"
 #include "tests/catch.h"
 
 namespace dresslife::pipeline {
@@ -109,41 +108,6 @@ TEST_CASE("units: the shortest text of any number reads back to it") {
       FAIL_CHECK(shortest_text(value));
   }
   CHECK(shortest_text(INFINITY) == "inf");
-}
-
-TEST_CASE("readable: three figures, thousands apart, powers of ten only far out") {
-  CHECK(calendar_words(68.24) == "5.7 years");
-  CHECK(calendar_words(13.24) == "13.2 months");
-  CHECK(calendar_words(1) == "1.00 months");
-  CHECK(calendar_words(0.0525) == "1.6 days");
-  CHECK(calendar_words(0.001) == "less than a day");
-  CHECK(calendar_words(std::numeric_limits<double>::infinity()) == "unlimited");
-  CHECK(readable(0) == "0");
-  CHECK(readable(1) == "1.00");
-  CHECK(readable(0.0123456) == "0.0123");
-  CHECK(readable(12.345) == "12.3");
-  CHECK(readable(999.6) == "1,000");
-  CHECK(readable(12345) == "12,300");
-  CHECK(readable(-1234567) == "-1,230,000");
-  CHECK(readable(4.5678e12) == "4.57e+12");
-  CHECK(readable(1.5e-7) == "1.50e-07");
-  CHECK(readable(INFINITY) == "unlimited");
-  CHECK(readable(NAN) == "-");
-  CHECK(readable(12345, 5) == "12,345");
-}
-
-TEST_CASE("readable: digits in groups") {
-  CHECK(grouped("1") == "1");
-  CHECK(grouped("123") == "123");
-  CHECK(grouped("1234") == "1,234");
-  CHECK(grouped("-1234567.8901") == "-1,234,567.8901");
-}
-
-TEST_CASE("readable: text is measured and cut in characters, not bytes") {
-  CHECK(columns_of("Käfig") == 5);
-  CHECK(shortened("Käfig", 5) == "Käfig");
-  CHECK(shortened("Kääfig", 5) == "Kä...");
-  CHECK(shortened("abcdef", 2) == "..");
 }
 
 }  // namespace

@@ -48,6 +48,67 @@ TEST_CASE("ranking: best life first, equal lives by name, failed jobs last") {
   CHECK(names(rows) == std::vector<std::string>{"endless", "twin a", "twin b", "short", "aborted", "broken"});
 }
 
+TEST_CASE("ranking: a row of a study says how its job stands and which values it has", "[new]") {
+  const Scratch scratch;
+  Study study;
+  study.varied = {"length", "slip"};
+  study.jobs = {{"done", nullptr, "", {"2", "free"}},
+                {"invalid", nullptr, "no robot"},
+                {"failed", nullptr, "", {"3", "stick"}},
+                {"old", nullptr, "", {"4", "free"}},
+                {"new", nullptr, "", {"5", "free"}}};
+  std::filesystem::create_directories(scratch / "done");
+  std::filesystem::create_directories(scratch / "old");
+  write_sample_life(scratch / "done" / "life.h5", living(10));
+  write_sample_life(scratch / "old" / "life.h5", living(20));
+  std::vector<JobState> states(5);
+  states[0].next = stage_count;
+  states[2].failure = "it burst";
+  states[3].has_last = true, states[3].changed = "length 1 -> 4";
+  StudyPlaces places;
+  places.folder = scratch / "";
+  const std::vector<RankingRow> rows = ranking_of(study, places, states);
+  REQUIRE(rows.size() == 5);
+  CHECK(names(rows) == std::vector<std::string>{"done", "old", "failed", "invalid", "new"});
+  CHECK(rows[0].failure.empty());
+  CHECK(rows[1].failure == "stale");
+  CHECK(rows[1].stale);
+  CHECK(rows[1].waits());
+  CHECK_THAT(stale_words(rows[1]), Catch::Contains("stale: since this result length 1 -> 4"));
+  CHECK(rows[2].failure == "it burst");
+  CHECK_FALSE(rows[2].waits());
+  CHECK(rows[3].failure == "no robot");
+  CHECK(rows[4].failure == "to do");
+  using Varied = std::vector<std::pair<std::string, std::string>>;
+  CHECK(rows[0].varied == Varied{{"length", "2"}, {"slip", "free"}});
+  CHECK(rows[2].varied == Varied{{"length", "3"}, {"slip", "stick"}});
+  CHECK(rows[3].varied.empty());
+}
+
+TEST_CASE("ranking: of several unvalidated modes of one name the first to fail counts", "[new]") {
+  RankingRow row;
+  const auto add = [&](const char* mode, double median) {
+    UnvalidatedMode& one = row.unvalidated.emplace_back();
+    one.mode = mode, one.hours = {1, median, 9};
+  };
+  add("abrasion", 5), add("wall", 1), add("abrasion", 3), add("abrasion", 4);
+  CHECK(row.unvalidated_mode("abrasion") == &row.unvalidated[2]);
+  CHECK(row.unvalidated_mode("wall") == &row.unvalidated[1]);
+  CHECK(row.unvalidated_mode("kinks") == nullptr);
+  CHECK(unvalidated_life(infinity) == "not damaged");
+  CHECK(unvalidated_life(1.1e6) == "more than 1,000,000 h");
+  CHECK(unvalidated_life(9.9e5) == "990,000 h");
+  CHECK(force_words(row).empty());
+  for (const double share : {0.19, 0.21, 3.0})
+    for (const bool pull : {true, false}) {
+      RankingRow forced;
+      (pull ? forced.largest_force_share : forced.clamp_moment_share) = share;
+      CHECK(forced.force_ok() == (share < 0.2));
+      CHECK(force_words(forced).empty() == (share < 0.2));
+      if (share > 0.2) CHECK((force_words(forced).find("cables pull with") == 0) == pull);
+    }
+}
+
 TEST_CASE("ranking: a row holds what the life file says") {
   const Scratch scratch;
   const RankingRow row = read_ranking({job_with(scratch, "one", living(12000))})[0];

@@ -84,6 +84,39 @@ TEST_CASE("urdf: limits and a joint that mimics another") {
   CHECK(robot.joints[4].speed == Approx(6));
 }
 
+TEST_CASE("urdf: a joint that mimics another by a factor bounds its range and its speed by that factor",
+          "[new]") {
+  for (const double ratio : {-0.5, 0.5}) {
+    const std::string slower = edited(changed("multiplier=\"-1\"", fmt::format("multiplier=\"{}\"", ratio)),
+                                      "lower=\"-3\" upper=\"0.8\" effort=\"0\" velocity=\"9\"",
+                                      "lower=\"-0.3\" upper=\"0.5\" effort=\"0\" velocity=\"0.6\"");
+    const Robot robot = robot_of(slower);
+    CHECK(robot.joints[3].ratio == ratio);
+    CHECK(robot.joints[3].offset == Approx(0.1));
+    // level = 0.1 + ratio j2 within -0.3 .. 0.5.
+    CHECK(robot.joints[1].lower == Approx(-0.8));
+    CHECK(robot.joints[1].upper == Approx(0.8));
+    CHECK(robot.joints[1].speed == Approx(1.2));
+  }
+}
+
+TEST_CASE("urdf: turns of fixed joints are kept as three angles, also at a right angle", "[new]") {
+  for (const Vector3d& angles :
+       {Vector3d(0.3, 0.4, 0.5), Vector3d(-2, 1, 3), Vector3d(0.3, std::numbers::pi / 2, 0.5),
+        Vector3d(1, -std::numbers::pi / 2, 0)}) {
+    const Robot robot = robot_of(
+        changed("<origin xyz=\"0 0 0.3\"/>",
+                fmt::format("<origin xyz=\"0 0 0.3\" rpy=\"{} {} {}\"/>", angles[0], angles[1], angles[2])));
+    const Eigen::Matrix3d wanted = from_roll_pitch_yaw(angles).toRotationMatrix();
+    constexpr double written = 1e-9;  // of angles as texts in degrees
+    CHECK((from_roll_pitch_yaw(robot.joints[0].orientation).toRotationMatrix() - wanted).norm() < written);
+    CHECK((from_roll_pitch_yaw(robot.links[0].boxes[0].orientation).toRotationMatrix() - wanted).norm() <
+          written);
+    CHECK((robot.joints[0].origin - wanted * Vector3d(0, 0, 0.5) - Vector3d(0, 0, 0.3)).norm() < written);
+    if (std::abs(angles[1]) < 1.5) CHECK((robot.joints[0].orientation - angles).norm() < written);
+  }
+}
+
 TEST_CASE("urdf: a cylinder is a capsule and an octagon inside it") {
   const Robot robot = robot_of(palletizer);
   const Link& arm = robot.links[2];

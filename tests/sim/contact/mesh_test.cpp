@@ -1,14 +1,9 @@
-// Meshes: nearest points against brute force, files, and hoses that lie on them as on the shapes they stand
-// for.
+// Meshes: nearest points against brute force, and hoses that lie on them as on the shapes they stand for.
 #include "sim/contact/mesh.h"
 
-#include <cstring>
-#include <fstream>
 #include <random>
 
-#include "pipeline/base/errors.h"
 #include "sim/contact/world.h"
-#include "tests/pipeline/scratch.h"
 #include "tests/sim/rod/rod_problems.h"
 
 using namespace dresslife;
@@ -162,49 +157,6 @@ TEST_CASE("the tree of boxes finds what all triangles together give") {
     REQUIRE(touching.empty() == (least > 0.2));
     if (!touching.empty()) CHECK(touching.front().distance == Approx(least).margin(1e-12));
   }
-}
-
-TEST_CASE("STL of both kinds and OBJ give the same triangles") {
-  const pipeline::Scratch scratch;
-  const std::vector<Triangle> box = box_triangles({}, {0.5, 0.25, 1});
-  std::ofstream ascii(scratch / "box.stl"), obj(scratch / "box.OBJ"),
-      binary(scratch / "binary.stl", std::ios::binary);
-  std::string bytes(80, ' ');
-  bytes.replace(0, 5, "solid");  // as some programs begin binary files too
-  const auto put = [&](const auto& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
-  };
-  put(static_cast<std::uint32_t>(box.size()));
-  ascii << "solid box\n";
-  for (const Triangle& t : box) {
-    ascii << " facet normal 0 0 0\n  outer loop\n";
-    for (int k = 0; k < 3; ++k) put(0.0f);
-    for (const Vector3& c : t) {
-      ascii << "   vertex " << c.x() << " " << c.y() << " " << c.z() << "\n";
-      obj << "v " << c.x() << " " << c.y() << " " << c.z() << "\n";
-      for (int k = 0; k < 3; ++k) put(static_cast<float>(c[k]));
-    }
-    obj << "f -3/1 -2//2 -1/1/1\n";
-    ascii << "  endloop\n endfacet\n";
-    put(std::uint16_t{0});
-  }
-  binary << bytes;
-  for (std::ofstream* file : {&ascii, &obj, &binary}) file->close();
-  for (const char* name : {"box.stl", "box.OBJ", "binary.stl"}) {
-    const std::vector<Triangle> read = read_triangles(scratch / name);
-    REQUIRE(read.size() == box.size());
-    for (size_t k = 0; k < box.size(); ++k)
-      for (int c = 0; c < 3; ++c) CHECK(read[k][c] == box[k][c]);
-  }
-  std::ofstream(scratch / "quad.obj") << "# four corners\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
-  CHECK(read_triangles(scratch / "quad.obj").size() == 2);
-  std::ofstream(scratch / "wrong.obj") << "v 0 0 0\nv 1 0 0\nf 1 2 3\n";
-  CHECK_THROWS_WITH(read_triangles(scratch / "wrong.obj"),
-                    Catch::Contains("wrong.obj:3") && Catch::Contains("vertex 3 of 2"));
-  CHECK_THROWS_WITH(read_triangles(scratch / "none.stl"), Catch::Contains("cannot be read"));
-  CHECK_THROWS_WITH(read_triangles(scratch / "box.step"), Catch::Contains("must be .stl or .obj"));
-  std::ofstream(scratch / "empty.obj") << "v 0 0 0\n";
-  CHECK_THROWS_WITH(read_triangles(scratch / "empty.obj"), Catch::Contains("no triangles"));
 }
 
 TEST_CASE("a hose lies on a meshed cylinder as on the capsule") {

@@ -62,13 +62,15 @@ TEST_CASE("a hose dragged over the floor is rubbed evenly along its underside, a
   }
 }
 
-TEST_CASE("a contact's work lies evenly over a segment's length about where it was before the step, in its sector", "[new]") {
+TEST_CASE(
+    "a contact's work lies evenly over a segment's length about where it was before the step, in its sector",
+    "[new]") {
   const RodProperties p = hose(10, 1);
   const Rod rod(p);
   const double h = 0.01, length = 0.1;
   const int cells = int(std::lround(length / std::max(1e-3, p.diameter / 12)));
   const double cell = length / cells;
-  for (const int moved : {0, 3})       // cells in the step
+  for (const int moved : {0, 3})                      // cells in the step
     for (const int at : {0, 2, 17, 100, 10 * cells})  // from the base, in half cells: the last is the middle
       for (const double degrees : {102.0, -31.0}) {
         CAPTURE(moved, at, degrees);
@@ -89,7 +91,8 @@ TEST_CASE("a contact's work lies evenly over a segment's length about where it w
           CHECK(patch.width == Approx(5 * pi / 180));
           CHECK(patch.work <= 0.01 / cells * (1 + 1e-9));
           work += patch.work, mean += patch.work * patch.position / 0.01;
-          least = std::min(least, patch.position - cell / 2), most = std::max(most, patch.position + cell / 2);
+          least = std::min(least, patch.position - cell / 2),
+          most = std::max(most, patch.position + cell / 2);
         }
         CHECK(work == Approx(0.01));
         const double middle = std::max(place, length / 2);  // not beyond the end

@@ -130,7 +130,8 @@ TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas throu
   const auto chord = [&](std::size_t k) { return Vector3(at[k + 1] - at[k]); };
   const auto slope = [&](std::size_t k) {
     const double a = chord(k - 1).norm(), b = chord(k).norm();
-    return Vector3(-b / (a * (a + b)) * at[k - 1] + (b - a) / (a * b) * at[k] + a / (b * (a + b)) * at[k + 1]).normalized();
+    return Vector3(-b / (a * (a + b)) * at[k - 1] + (b - a) / (a * b) * at[k] + a / (b * (a + b)) * at[k + 1])
+        .normalized();
   };
   const auto mirrored = [&](const Vector3& of, std::size_t k) {
     const Vector3 along = chord(k).normalized();
@@ -146,7 +147,8 @@ TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas throu
       const double u = double(step) / steps;
       // The cubic as a Bezier curve.
       const Vector3 b1 = at[k] + begin / 3, b2 = at[k + 1] - finish / 3;
-      const Vector3 here = std::pow(1 - u, 3) * at[k] + 3 * u * (1 - u) * (1 - u) * b1 + 3 * u * u * (1 - u) * b2 + u * u * u * at[k + 1];
+      const Vector3 here = std::pow(1 - u, 3) * at[k] + 3 * u * (1 - u) * (1 - u) * b1 +
+                           3 * u * u * (1 - u) * b2 + u * u * u * at[k + 1];
       REQUIRE(next < bent.size());
       CHECK((bent[next].target.pose.position - here).norm() < rounding);
       CHECK(rotation_vector(bent[next].target.pose.orientation).z() == Approx(0.3 * (double(k) + u)));
@@ -197,6 +199,17 @@ TEST_CASE("krl: external axes are kept where one of them is used") {
   REQUIRE(used.move(1).target.external_axes.size() == 2);
   CHECK(used.move(0).target.external_axes[0] == 500);
   CHECK(used.move(1).target.external_axes[0] == 0);
+}
+
+TEST_CASE("krl: each external axis keeps its own place, also where it is moved by a way", "[new]") {
+  const std::string axes = "A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0";
+  const Reading r = run("PTP {" + axes + ",E1 10,E3 30}\nPTP_REL {E3 5}\nPTP_REL {A1 1,E2 -2,E1 1}\nPTP {" +
+                        axes + ",E2 7}");
+  REQUIRE(r.program.instructions.size() == 4);
+  CHECK(r.move(0).target.external_axes == std::vector<double>{10, 0, 30});
+  CHECK(r.move(1).target.external_axes == std::vector<double>{10, 0, 35});
+  CHECK(r.move(2).target.external_axes == std::vector<double>{11, -2, 35});
+  CHECK(r.move(3).target.external_axes == std::vector<double>{11, 7, 35});
 }
 
 TEST_CASE("krl: problems name what is missing and where") {

@@ -1,11 +1,13 @@
 #include "sim/reprogram/program_ways.h"
 
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "pipeline/resolve/job_text.h"
 #include "sim/reprogram/patched_program.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
 using namespace dresslife;
 using namespace dresslife::pipeline;
@@ -40,6 +42,50 @@ TEST_CASE("program ways: those of the shipped program read back as the program b
   CHECK(kinds.contains("wrist"));
   CHECK(kinds.contains("by"));
   CHECK(kinds.contains("at"));
+}
+
+TEST_CASE(
+    "program ways: a line is changed for what it and the stands behind it cost, by a point with the arm or the wrist moved",
+    "[new]") {
+  Job job = shipped("side_panel.yaml");
+  const Scratch scratch;
+  const std::string no_more = ",[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n";
+  job.motion.program = scratch.write("m.mod", "MODULE m\nPROC main()\nMoveAbsJ [[0,-10,10,20,40,0]" +
+                                                  no_more + "MoveAbsJ [[30,0,20,-40,30,60]" + no_more +
+                                                  "WaitTime 1;\nMoveAbsJ [[30,0,20,10,50,90]" + no_more +
+                                                  "ENDPROC\nENDMODULE\n");
+  const ReadProgram read = read_job_program(job);
+  REQUIRE(read.motion.steps.size() == 4);
+  const auto slowed = [&](const std::vector<double>& damage, std::size_t most) {
+    std::vector<std::string> lines;
+    for (const ProgramWay& way : program_ways(job, read, damage, most))
+      if (way.what == "at 50 % of its speed") lines.push_back(way.lines.at(0));
+    return lines;
+  };
+  using Names = std::vector<std::string>;
+  CHECK(slowed({0, 1, 0, 0}, 5) == Names{"m.mod:4"});
+  CHECK(slowed({0, 0, 1, 0}, 5) ==
+        Names{"m.mod:4"});  // what happens while the robot stands comes from the move before
+  CHECK(slowed({0, 0, 0, 1}, 5) == Names{"m.mod:6"});
+  CHECK(slowed({0, 1, 0, 2}, 5) == Names{"m.mod:6", "m.mod:4"});
+  CHECK(slowed({0, 1, 1.5, 2}, 5) == Names{"m.mod:4", "m.mod:6"});
+  CHECK(slowed({0, 1, 0, 2}, 1) == Names{"m.mod:6"});
+  CHECK(slowed({0, 0, 0, 0}, 5).empty());
+  std::map<std::string, std::vector<double>> points;
+  for (const ProgramWay& way : program_ways(job, read, {1, 1, 1, 1}, 5))
+    if (way.what.starts_with("by a point")) {
+      REQUIRE(way.changes.size() == 1);
+      CHECK(way.lines ==
+            Names{"m.mod:4"});  // line 6 moves the wrist alone, and line 3 is where the robot begins
+      points[way.what] = way.changes[0].point;
+    }
+  REQUIRE(points.size() == 2);
+  const std::vector<double> arm{30, 0, 20, 20, 40, 0}, wrist{0, -10, 10, -40, 30, 60};
+  for (std::size_t axis = 0; axis < 6; ++axis) {
+    constexpr double degree = 0.017453292519943295;
+    CHECK(points["by a point: axes 1 to 3 first"][axis] == Approx(degree * arm[axis]).margin(1e-12));
+    CHECK(points["by a point: axes 4 to 6 first"][axis] == Approx(degree * wrist[axis]).margin(1e-12));
+  }
 }
 
 TEST_CASE("program ways: a line that runs again and again is changed for all of its moves") {

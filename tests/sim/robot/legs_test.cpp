@@ -391,7 +391,8 @@ TEST_CASE("legs: an axis that carries nothing takes its time and keeps to its li
   }
 }
 
-TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes', its tool's and its own", "[new]") {
+TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes', its tool's and its own",
+          "[new]") {
   const pipeline::Robot robot = arm(10, 100);  // the flange is 1 m from axis 1
   const VectorXd mean = VectorXd::Constant(6, 50);
   constexpr double chords = 2e-3;  // of arcs of 0.8 rad in 24 parts
@@ -417,7 +418,8 @@ TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes
   CHECK(leg([](Step& s) { s.turn_speed = 0.3; }).cruise == Approx(0.3).epsilon(chords));
   CHECK(leg([](Step& s) { s.turn_speed = 0.3, s.tool_speed = 0.2; }).cruise == Approx(0.2).epsilon(chords));
   CHECK(leg([](Step& s) { s.tool_speed = 9, s.speed_percent = 50; }).cruise == Approx(5));
-  CHECK(leg([](Step& s) { s.tool_acceleration = 0.25, s.tool_speed = 1; }).acceleration == Approx(0.25).epsilon(chords));
+  CHECK(leg([](Step& s) { s.tool_acceleration = 0.25, s.tool_speed = 1; }).acceleration ==
+        Approx(0.25).epsilon(chords));
   CHECK(leg([](Step& s) { s.acceleration = 0.7; }).acceleration == Approx(0.7));
   const Leg half = leg([](Step& s) { s.acceleration_percent = 50; });
   CHECK(half.acceleration == Approx(25 * half.slowing));
@@ -426,9 +428,11 @@ TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes
   CHECK(0.8 / cruise + cruise / 50 == Approx(4));
 }
 
-TEST_CASE("legs: a tool's zone between two joint moves is as large a share of each as of its tool's way", "[new]") {
+TEST_CASE("legs: a tool's zone between two joint moves is as large a share of each as of its tool's way",
+          "[new]") {
   pipeline::MotionStep start, turn, lift;
-  start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0}, lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
+  start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0},
+  lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
   for (const double zone : {0.05, 0.4}) {
     turn.tool_zone = zone;
     const Legs made = legs_of(motion({start, turn, lift}), arm(), VectorXd::Constant(6, 8));
@@ -441,9 +445,11 @@ TEST_CASE("legs: a tool's zone between two joint moves is as large a share of ea
   }
 }
 
-TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within their angular zone", "[new]") {
+TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within their angular zone",
+          "[new]") {
   pipeline::MotionStep start, turn, lift, line;
-  start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0}, lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
+  start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0},
+  lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
   line.joints = {0.65, 0.35, 0, 0, 0.5, 0};
   line.path = PathKind::linear;
   turn.zone = 0.1, lift.tool_zone = 0.02;
@@ -456,7 +462,8 @@ TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within 
     CHECK(leg.path == 1);
     if (leg.from[0] < 0.5 - rounding || place[1] > 0.1 + rounding) continue;
     // Ends at 0.5, 0 and 0.6, 0.1: the second angle is 0.1 u^2.
-    const double u = std::sqrt(place[1] / 0.1), first = 0.5 * (1 - u) * (1 - u) + 1.2 * u * (1 - u) + 0.6 * u * u;
+    const double u = std::sqrt(place[1] / 0.1),
+                 first = 0.5 * (1 - u) * (1 - u) + 1.2 * u * (1 - u) + 0.6 * u * u;
     CHECK(place[0] == Approx(first).epsilon(1e-9));
     CHECK(leg.step == (u <= 0.5 + rounding ? 1 : 2));
     ++on_curve, before += u <= 0.5 + rounding;

@@ -253,6 +253,24 @@ TEST_CASE("motion: a blended path stays within the zone and leaves the legs") {
   }
 }
 
+TEST_CASE("motion: a blend takes at most half of either leg, whatever its zone", "[new]") {
+  for (const double first : {1.0, 0.1}) {  // the second leg is the other of them
+    const double second = first == 1 ? 0.1 : 1;
+    const JointMotion motion(motion_of({move_to({0, 0}), move_to({first, 0}, 3), move_to({first, second})}),
+                             robot_with({2, 2}, {4, 4}));
+    double begins = first, ends = 0;
+    for (double t = 0; t < motion.duration(); t += 1e-4) {
+      const VectorXd place = motion.position(t), speed = motion.velocity(t);
+      if (speed[1] > 0) begins = std::min(begins, place[0]);
+      if (speed[0] > 0) ends = std::max(ends, place[1]);
+    }
+    CHECK(begins >= first / 2 * (1 - rounding));
+    CHECK(ends <= second / 2 * (1 + rounding));
+    // The short leg bounds the blend. A step of the search above is a few per mil of its way.
+    CHECK((first < second ? begins - first / 2 : second / 2 - ends) < 0.01 * std::min(first, second));
+  }
+}
+
 TEST_CASE("motion: a right-angled blend takes the closed form's time") {
   // Both axes change by w in tau = w/A, which takes w tau/2 = z of each leg, so w = sqrt(2 A z). The rest of
   // each leg, L - z, goes between 0 and w by (M3).

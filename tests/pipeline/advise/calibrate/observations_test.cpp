@@ -23,7 +23,8 @@ struct File {
 
 std::vector<ObservedTest> tests_of(const std::string& text) { return read_observed_tests(File(text).path); }
 
-const std::string one = "observations:\n  - name: bench\n    what: bent\n    source: a book\n    job: {dresspack: {}, motion: {}}\n";
+const std::string one =
+    "observations:\n  - name: bench\n    what: bent\n    source: a book\n    job: {dresspack: {}, motion: {}}\n";
 
 std::string refusal(const std::string& text) {
   try {
@@ -38,28 +39,36 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TEST_CASE("observations: exactly one thing is observed, and what cannot be is refused with its remedy", "[new]") {
-  const std::vector<std::string> observed{"    cycles: 100\n", "    hours: 3\n", "    stiffness_Nm2: 0.2\n", "    decrement: 0.3\n",
-                                          "    bending: table.csv\n"};
+TEST_CASE("observations: exactly one thing is observed, and what cannot be is refused with its remedy",
+          "[new]") {
+  const std::vector<std::string> observed{"    cycles: 100\n", "    hours: 3\n", "    stiffness_Nm2: 0.2\n",
+                                          "    decrement: 0.3\n", "    bending: table.csv\n"};
   for (const std::string& first : observed) {
     CHECK(refusal(one + first) == "read");
     for (const std::string& second : observed)
-      if (first != second) CHECK_THAT(refusal(one + first + second), Contains("must have either cycles or hours"));
+      if (first != second)
+        CHECK_THAT(refusal(one + first + second), Contains("must have either cycles or hours"));
   }
   CHECK_THAT(refusal(one), Contains("must have either cycles or hours"));
   CHECK(refusal(one + "    decrement: 0.3\n    decrement_without_slip: 0.29\n") == "read");
-  CHECK_THAT(refusal(one + "    decrement: 0.3\n    decrement_without_slip: 0.3\n"), Contains("nothing of decrement is left"));
+  CHECK_THAT(refusal(one + "    decrement: 0.3\n    decrement_without_slip: 0.3\n"),
+             Contains("nothing of decrement is left"));
   CHECK_THAT(refusal(one + "    cycles: 3\n    decrement_without_slip: 0.1\n"), Contains("but no decrement"));
-  CHECK_THAT(refusal("observations:\n  - name: a/b\n    what: x\n    source: y\n    cycles: 3\n    job: {}\n"), Contains("letters, digits and _"));
-  CHECK_THAT(refusal("observations:\n  - name: b\n    what: x\n    source: y\n    cycles: 3\n"), Contains("has no job"));
-  CHECK_THAT(refusal(one + "    cycles: 3\n" + one.substr(one.find("  -")) + "    hours: 3\n"), Contains("two observations are named 'bench'"));
+  CHECK_THAT(
+      refusal("observations:\n  - name: a/b\n    what: x\n    source: y\n    cycles: 3\n    job: {}\n"),
+      Contains("letters, digits and _"));
+  CHECK_THAT(refusal("observations:\n  - name: b\n    what: x\n    source: y\n    cycles: 3\n"),
+             Contains("has no job"));
+  CHECK_THAT(refusal(one + "    cycles: 3\n" + one.substr(one.find("  -")) + "    hours: 3\n"),
+             Contains("two observations are named 'bench'"));
   CHECK_THAT(refusal("observations: []\n"), Contains("holds no observations"));
   CHECK_THAT(refusal(one + "    cycles: 3\nmore: 1\n"), Contains("unknown key 'more'"));
 }
 
 TEST_CASE("observations: every combination of what is not known is a variant", "[new]") {
-  const std::vector<ObservedTest> tests =
-      tests_of(one + "    stiffness_Nm2: 2\n    vary: {strain.friction_factor: [1, 2, 3], fatigue.material: [a, b]}\n");
+  const std::vector<ObservedTest> tests = tests_of(
+      one +
+      "    stiffness_Nm2: 2\n    vary: {strain.friction_factor: [1, 2, 3], fatigue.material: [a, b]}\n");
   REQUIRE(tests.size() == 1);
   REQUIRE(tests[0].variants.size() == 6);
   for (std::size_t k = 0; k < 6; ++k) {
@@ -71,7 +80,8 @@ TEST_CASE("observations: every combination of what is not known is a variant", "
     CHECK(strain->find("friction_factor")->text == std::to_string(k / 2 + 1));
     CHECK(variant.job.find("fatigue")->find("material")->text == (k % 2 ? "b" : "a"));
   }
-  CHECK_THAT(refusal(one + "    cycles: 3\n    vary: {strain.slip: free}\n"), Contains("must be a list of values"));
+  CHECK_THAT(refusal(one + "    cycles: 3\n    vary: {strain.slip: free}\n"),
+             Contains("must be a list of values"));
   CHECK_THAT(refusal(one + "    cycles: 3\n    vary: [1]\n"), Contains("must be a map"));
 }
 
@@ -84,7 +94,8 @@ TEST_CASE("observations: lives in the observer's unit, over all variants that ra
     row.job = study.jobs[3 - k].name;  // in another order
     row.repeat_seconds = 1800;
     const double hours = 10.0 * double(4 - k);
-    row.conductor_hours = {hours, 2 * hours, 3 * hours}, row.first_wire_hours = {hours / 2, hours, 1.5 * hours};
+    row.conductor_hours = {hours, 2 * hours, 3 * hours},
+    row.first_wire_hours = {hours / 2, hours, 1.5 * hours};
     row.life_repeats_all_stick = 4 + double(k), row.life_repeats_all_free = 400 - double(k);
   }
   rows[1].failure = "it burst";
@@ -133,8 +144,9 @@ TEST_CASE("observations: a prediction misses where its whole range is on the wro
   const struct {
     double life;
     Agreement broken, broken_by, lower;  // lower bounds: run_out and rating
-  } cases[]{{5, too_long, too_long, agrees}, {15, agrees, open, agrees},   {20, agrees, open, agrees},  {30, agrees, open, open},
-            {50, agrees, agrees, open},      {80, agrees, agrees, open}, {200, too_short, agrees, too_short}};
+  } cases[]{{5, too_long, too_long, agrees},    {15, agrees, open, agrees}, {20, agrees, open, agrees},
+            {30, agrees, open, open},           {50, agrees, agrees, open}, {80, agrees, agrees, open},
+            {200, too_short, agrees, too_short}};
   for (const auto& [life, broken, broken_by, lower] : cases) {
     CAPTURE(life);
     CHECK(judged_at(life, ObservedEnd::broken).agreement == broken);

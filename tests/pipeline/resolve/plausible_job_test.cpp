@@ -1,0 +1,69 @@
+#include "pipeline/resolve/plausible_job.h"
+
+#include <numbers>
+
+#include "tests/catch.h"
+
+using namespace dresslife::pipeline;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+MotionStep move_to(std::vector<double> degrees) {
+  MotionStep step;
+  for (const double angle : degrees) step.joints.push_back(angle * degree);
+  return step;
+}
+
+std::size_t doubts(std::vector<MotionStep> steps) {
+  Motion motion;
+  motion.steps = std::move(steps);
+  return plausibility_of_steps(motion).size();
+}
+
+}  // namespace
+
+TEST_CASE("plausible steps: angles that are all below a turn in radians and yet move", "[new]") {
+  CHECK(doubts({}) == 0);
+  CHECK(doubts({move_to({1, 2}), move_to({1.2, 2})}) == 1);
+  CHECK(doubts({move_to({1, 2}), move_to({1.05, 2})}) == 0);  // it stands
+  CHECK(doubts({move_to({1, -6.2}), move_to({3, 2})}) == 1);
+  CHECK(doubts({move_to({1, -6.3}), move_to({3, 2})}) == 0);
+  CHECK(doubts({move_to({1, 2}), move_to({6.3, 2})}) == 0);
+  MotionStep block;
+  block.repeat = 2, block.steps = {move_to({90, 0})};
+  CHECK(doubts({move_to({1, 2}), move_to({3, 2}), block}) == 0);  // also what a block holds
+}
+
+TEST_CASE("plausible steps: speeds that are shares or in mm/s, dwells in ms, told once with their number", "[new]") {
+  const auto with = [](std::optional<double> percent, std::optional<double> tool, double dwell) {
+    MotionStep step = move_to({90, 0});
+    step.speed_percent = percent, step.tool_speed = tool, step.dwell = dwell;
+    return step;
+  };
+  CHECK(doubts({with(1, 10, 100)}) == 0);
+  CHECK(doubts({with(0.99, {}, 0)}) == 1);
+  CHECK(doubts({with({}, 10.1, 0)}) == 1);
+  CHECK(doubts({with({}, {}, 101)}) == 1);
+  CHECK(doubts({with(0.5, 500, 2000)}) == 3);
+  Motion motion;
+  motion.steps = {with(0.5, {}, 0), with(0.6, {}, 0), with(0.7, {}, 0)};
+  const std::vector<Warning> warnings = plausibility_of_steps(motion);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0].line(), Catch::Contains("speed_percent is 0.5") && Catch::Contains("(and 2 more)") && Catch::Contains("speed_percent: 50"));
+}
+
+TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hides cycles", "[new]") {
+  const auto doubts_of = [](double rate, double gate, bool prescribed) {
+    Job job;
+    job.simulation.sample_rate = rate, job.strain.gate = gate;
+    if (prescribed) job.motion.rig.emplace();
+    return plausibility_warnings(job).size();
+  };
+  CHECK(doubts_of(5, 5e-4, false) == 0);
+  CHECK(doubts_of(4.9, 5e-4, false) == 1);
+  CHECK(doubts_of(4.9, 5e-4, true) == 0);
+  CHECK(doubts_of(5, 5.1e-4, true) == 1);
+  CHECK(doubts_of(1, 0.1, false) == 2);
+}
