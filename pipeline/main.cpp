@@ -12,6 +12,7 @@
 #include "pipeline/commands/command.h"
 #include "pipeline/stage/command_line.h"
 #include "pipeline/stage/stage.h"
+#include "pipeline/study/stage_program.h"
 
 using namespace dresslife::pipeline;
 
@@ -75,6 +76,10 @@ int main(int argc, char** argv) {
     const Command* called = nullptr;
     if (const auto status = read_command_line(program, argc, argv, &called)) return *status;
     if (force) let_replace_files_of_others();
-    return finish_output(called->act());
+    try {
+      return finish_output(called->act());
+    } catch (const StageFailed&) {  // the stage has printed its error
+      return 1;
+    }
   });
 }

@@ -80,7 +80,8 @@ Shortened shortened(const Construction& construction, std::vector<LayerSlip> pla
   for (std::size_t k = 0; k < result.plan.size(); ++k) {
     LayerSlip& slip = result.plan[k];
     if (!slip.friction) continue;
-    if (slip.evening > result.evening) result.longest = static_cast<int>(k), result.evening = slip.evening;
+    const bool holds = slip.cap != FrictionCap{};
+    if (holds && slip.evening > result.evening) result.longest = static_cast<int>(k), result.evening = slip.evening;
     if (slip.evening <= bend_wave) continue;
     const Layer& layer = construction.layers()[k];
     slip.cap.constant *= bend_wave / slip.evening;

@@ -18,6 +18,7 @@
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
+#include "pipeline/job/line_key.h"
 #include "strain/evaluation.h"
 #include "strain/variations.h"
 
@@ -468,11 +469,12 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
     if (of.layer < 0 || of.longest <= believable_evening * of.bend_wave) continue;
     all.push_back(pipeline::warning_of(
         WarningKind::material, "",
-        fmt::format("strain of {} evens out over {:.3g} m, the bend changes over {:.3g} m (limit of the first over the "
-                    "second {:g}): friction could hold up to 2.5 times as much strain there",
+        fmt::format("the strain of {} evens out over {:.3g} m, and the bend changes over {:.3g} m (limit of the first over the "
+                    "second {:g}): friction could hold up to 2.5 times as much strain",
                     evaluation->name_of_layer(of.layer), of.longest, of.bend_wave, believable_evening),
-        "its hand differs from that of what it lies in, and their lay lengths are nearly equal",
-        "its hand and lay_angle_deg as they are on the cable; if they are right, count with strain.friction_factor: 2.5"));
+        of.straight ? "it has no lay" : "its hand differs from that of what it lies in, and their lay lengths are nearly equal",
+        "strain.friction_factor: 2.5, which counts with the most that friction could hold; or the hand and the lay length that "
+        "the cable's maker states"));
   }
   return all;
 }
@@ -481,11 +483,9 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
 /// stiffness that is not that of the parts.
 std::vector<Warning> construction_warnings(const pipeline::Job& job) {
   std::vector<Warning> all;
-  for (const pipeline::MountedDresspack& mounted : job.dresspacks)
-    for (Warning warning : pipeline::construction_warnings(mounted.dresspack, slides(job.strain.slip.front()))) {
-      warning.where = mounted.name;  // its line in the resolved job helps nobody
-      all.push_back(warning);
-    }
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
+    all = pipeline::joined(std::move(all), pipeline::construction_warnings_at(line_key(job, d, "dresspack"), job.dresspacks[d].dresspack,
+                                                                              slides(job.strain.slip.front())));
   return all;
 }
 

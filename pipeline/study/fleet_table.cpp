@@ -23,6 +23,13 @@ void check_columns(const CsvReader& table, const CsvRow& titles) {
       throw InputError(table.where(title), fmt::format("two columns are titled '{}'", title.text),
                        "keep one of the two");
   }
+  for (const CsvCell& title : titles)
+    if (std::string lower = title.text; !seen.contains(name_column)) {
+      std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char letter) { return std::tolower(letter); });
+      if (lower == name_column)
+        throw InputError(table.where(title), fmt::format("the table has no column 'name' (it has '{}')", title.text),
+                         fmt::format("write 'name' instead of '{}'", title.text));
+    }
   if (!seen.contains(name_column))
     throw InputError(table.where(titles.front()), "the table has no column 'name'",
                      "give each row a name of its own");

@@ -10,7 +10,7 @@
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
-#include "pipeline/job/setup.h"
+#include "pipeline/job/line_key.h"
 #include "sim/run/equilibrium.h"
 #include "sim/run/routing.h"
 
@@ -37,8 +37,7 @@ std::string at_least_metres(double value) { return fmt::format("{:.3f}", std::ce
 std::string at_most_metres(double value) { return fmt::format("{:.3f}", std::floor(1e3 * value) / 1e3); }
 
 std::string key_of(const pipeline::Setup& setup, int dresspack, const std::string& key) {
-  const bool list = setup.dresspacks.size() > 1 || !setup.dresspacks.front().name.empty();
-  return list ? fmt::format("dresspacks[{}].{}", dresspack + 1, key) : key;
+  return pipeline::line_key(setup, static_cast<std::size_t>(dresspack), key);
 }
 
 const pipeline::MountedDresspack& mounted_of(const CheckedMotion& motion, const Check& check) {
