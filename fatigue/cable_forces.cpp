@@ -122,7 +122,8 @@ double room_per_excess(const CableFacts& facts) {
 }
 
 /// Slack that makes no force beyond the limit: by the gains of its path, and by what a helix in its room keeps.
-Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed) {
+/// acceleration: motion.acceleration_percent.
+Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed, double acceleration) {
   const double limit = pipeline::believable_share * cable.strength(), slack = facts.component->laying.slack / 100;
   if (sticks)
     return {"it sticks to the hose (strain.slip of its level is stick)", "strain.slip: friction"};
@@ -138,8 +139,8 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
                  : fmt::format("{}, where its path asks for {} % or more", room, pipeline::percent_above(least));
   if (least <= slack && slack <= most)
     return {room + ", which fit its path; friction, its weight and the hose's motion pull it",
-            fmt::format("motion.acceleration_percent: less than now, or {} as measured",
-                        cable_key(facts, "friction_coefficient"))};
+            fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}), or {} as measured", std::max(1.0, acceleration / 2),
+                        acceleration, cable_key(facts, "friction_coefficient"))};
   const double proposed = std::min(most, facts.least_gain + facts.room / room_per_excess(facts));
   if (least <= proposed)
     return {cause, slack_line(facts, least, proposed)};
@@ -153,8 +154,8 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
 
 /// pulls: of the span in which a cable takes most of its strength. moment: "at 1.2 s, program step 3 'text'".
 pipeline::Warning force_warning(const CableFacts& facts, const pipeline::CableForce& cable, double tension,
-                                const std::string& moment, bool sticks) {
-  const Cure cure = cure_of(facts, cable, sticks, tension < 0);
+                                const std::string& moment, bool sticks, double acceleration) {
+  const Cure cure = cure_of(facts, cable, sticks, tension < 0, acceleration);
   return pipeline::warning_of(
       pipeline::WarningKind::force, "",
       fmt::format("'{}' is {} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %) {}; no cable in a dresspack "
@@ -255,9 +256,10 @@ std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& st
   std::vector<pipeline::Warning> warnings;
   if (force_share > pipeline::believable_share)
     warnings.push_back(force_warning(facts[strained], force[strained], tension[strained][at_sample],
-                                     moment_of(strain, at_sample), sticks));
+                                     moment_of(strain, at_sample), sticks, job.motion.acceleration_percent));
   if (moment_share > pipeline::believable_share) {
-    const Cure cure = cure_of(facts[bender], force[bender], sticks, tension[bender][bent_sample] < 0);
+    const Cure cure = cure_of(facts[bender], force[bender], sticks, tension[bender][bent_sample] < 0,
+                              job.motion.acceleration_percent);
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::force, "",
         fmt::format("the cables bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}; "

@@ -59,7 +59,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
   }
   check.limits =
       "The dresspack was checked at rest. A run may also warn of its swing, of tension, and of strains and forces of its "
-      "cables.";
+      "cables, and refuse a motion that winds the dresspack around the robot.";
   if (tell_preview(file, sets, {}, preview_file) != 0)
     throw StageFailed({file.string()}, "its motion cannot be computed (see above)", "mend what is named there");
   try {
