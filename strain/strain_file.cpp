@@ -472,7 +472,9 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
         fmt::format("the strain of {} evens out over {:.3g} m, and the bend changes over {:.3g} m (limit of the first over the "
                     "second {:g}): friction could hold up to 2.5 times as much strain",
                     evaluation->name_of_layer(of.layer), of.longest, of.bend_wave, believable_evening),
-        of.straight ? "it has no lay" : "its hand differs from that of what it lies in, and their lay lengths are nearly equal",
+        of.straight ? "it has no lay, or fewer than four turns"
+                    : "its hand or that of its conductor differs from that of the next outer layer, and their lay lengths are nearly "
+                      "equal",
         "strain.friction_factor: 2.5, which counts with the most that friction could hold; or the hand and the lay length that "
         "the cable's maker states"));
   }
