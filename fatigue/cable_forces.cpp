@@ -147,9 +147,8 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
   const double excess = least - facts.least_gain;
   const double needed =
       std::max(pipeline::room_of_excess(cable, excess, limit), excess * room_per_excess(facts));
-  return {cause, fmt::format("no slack fits this room: place it where it has {:.2g} mm of room (helix_radius_mm, "
-                             "inner_diameter_mm; play_mm: {:.2g} where it has that already), or nearer to the axis",
-                             1e3 * needed, 1e3 * needed)};
+  return {cause, fmt::format("no slack fits this room. It needs {:.2g} mm: {}: {:.2g} if it has them, else another {} or {}.inner_diameter_mm",
+                             1e3 * needed, cable_key(facts, "play_mm"), 1e3 * needed, cable_key(facts, "helix_radius_mm"), facts.key)};
 }
 
 /// pulls: of the span in which a cable takes most of its strength. moment: "at 1.2 s, program step 3 'text'".

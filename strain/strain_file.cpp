@@ -361,23 +361,25 @@ struct Evaluations {
 };
 
 /// pieces: of a loose cable in a segment.
-std::vector<Warning> mesh_warnings(double error, std::size_t pieces) {
+std::vector<Warning> mesh_warnings(double error, std::size_t pieces, int segments) {
   if (error <= believable_mesh_error) return {};
   return {pipeline::warning_of(
       WarningKind::mesh, "",
       fmt::format("loose cables are cut into {} pieces in each segment, which misses {:.3g} of their curvature (limit {:g})",
                   pieces, error, believable_mesh_error),
       "the cables lie in waves shorter than these pieces resolve",
-      fmt::format("strain.cable_elements_per_segment: {} or more, or more simulation.segments", 2 * pieces))};
+      2 * pieces <= std::size_t{pipeline::most_cable_elements}
+          ? fmt::format("strain.cable_elements_per_segment: {} or more", 2 * pieces)
+          : fmt::format("simulation.segments: {} or more", 2 * segments))};
 }
 
-std::vector<Warning> restless_warnings(std::size_t samples) {
+std::vector<Warning> restless_warnings(std::size_t samples, double sample_rate) {
   if (samples == 0) return {};
   return {pipeline::warning_of(
       WarningKind::mesh, "",
       fmt::format("loose cables did not come to rest at {} samples: their curvatures there are not those of any balance",
                   samples),
-      "the hose moves too far from one sample to the next", "simulation.sample_rate_Hz: twice as much")};
+      "the hose moves too far from one sample to the next", fmt::format("simulation.sample_rate_Hz: {:g}", 2 * sample_rate))};
 }
 
 /// What of all spans' cables makes forces: whose metal they are of, their strains, and where they meet the
@@ -427,7 +429,7 @@ class CableRows {
 
 /// What the cables of all spans do, of which their forces follow. Nothing where there is no cable. Returns
 /// what a person should look at: pieces that are too long.
-std::vector<Warning> write_cables(FileWriter& file,
+std::vector<Warning> write_cables(FileWriter& file, const pipeline::Simulation& settings,
                                   const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   CableRows rows;
   std::vector<const std::vector<double>*> hose_moment;  // of spans with cables
@@ -451,7 +453,8 @@ std::vector<Warning> write_cables(FileWriter& file,
   file.append("/cable_span/hose_moment", moments);
   if (mesh_error > 0) file.attribute("loose_mesh_error", mesh_error);
   const std::vector<Warning> warnings =
-      pipeline::joined(mesh_warnings(mesh_error, pieces), restless_warnings(restless));
+      pipeline::joined(mesh_warnings(mesh_error, pieces, settings.segments),
+                       restless_warnings(restless, settings.sample_rate));
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;
   const CablePaths& cables = evaluations[0]->cables();
   const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(),
@@ -619,7 +622,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     });
   const std::vector<Warning> warnings =
       pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),
-                       write_cables(strain, evaluations));
+                       write_cables(strain, job.simulation, evaluations));
   write_bending(strain, job);
 
   Sink sink;

@@ -74,7 +74,8 @@ std::vector<std::string> names_declared(const fs::path& file, const std::string&
     if (declares) names.insert(names.end(), words.begin(), words.end());
     begin = end + 1;
   }
-  for (const char* own : {"def", "deffct", "global", "public", "decl", "in", "out", "int", "real", "bool", "char"})
+  for (const char* own : {"def", "deffct", "global", "public", "decl", "const", "signal", "to", "struc", "enum", "in", "out", "int", "real",
+                          "bool", "char", "axis", "pos", "frame", "e6axis", "e6pos"})
     std::erase(names, own);
   return names;
 }

@@ -62,7 +62,7 @@ namespace {
 /// wide, no damage after 16 million bends (REIKU, internal flexibility test; its radius is not published and counts as the
 /// limit). Empty: it does not, or the life is long anyway.
 std::string too_short_wall(const UnvalidatedMode& mode) {
-  constexpr double published_bends = 16e6, long_life = 1e6;  // [h], as unvalidated_life() shows
+  constexpr double published_bends = 16e6, long_life = 1e5;  // [h]: no robot works so long
   if (mode.bends_at_limit <= 0 || mode.bends_at_limit >= published_bends || !(mode.hours[1] < long_life)) return "";
   return fmt::format(" This number is not credible, and no plan should rest on it: the same law gives {} bends from straight to the "
                      "limit of the bend radius, and a published hose endured {} without damage. Keep the maker's bend radius. A "

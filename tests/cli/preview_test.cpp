@@ -19,7 +19,11 @@ TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
   CHECK(
       told.out.find(
           "Dresspack is 0.900 m long between clamps that are 0.702 .. 0.800 m apart: neither too short nor too long. "
-          "0.82 .. 1.20 m work at the first pose, 0.82 .. 1.20 m over this program") == 0);
+          "0.82 .. 1.20 m work at the first pose, 0.82 .. 1.20 m over this program") != std::string::npos);
+  // The warnings of a check come first.
+  const std::string checked = run(scratch, "dresslife", "check job.yaml").out;
+  CHECK(checked.find("strain.slip is stick") != std::string::npos);
+  CHECK(told.out.find(checked.substr(0, checked.find("Dresspack is"))) == 0);
   CHECK(told.out.find("Preview: job_preview.html\n") != std::string::npos);
   const std::string page = content(scratch / "job_preview.html");
   CHECK(page.find("The simulation takes this job.") != std::string::npos);

@@ -1,13 +1,15 @@
 // Which files beside a program it can reach.
 #include "pipeline/base/related_files.h"
 
+#include <algorithm>
+
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
 
 TEST_CASE("related files: what a program names in whole words, what those name, and the controller's own") {
-  const dresslife::tests::Scratch scratch;
+  const Scratch scratch;
   const auto file = [&](const std::string& name, const std::string& text) { return scratch.write(name, text); };
   const auto program = file("weld.src", "DEF weld()\nPTP position\n grip(1)\nLIN {X 1,Y 2}\nEND\n");
   const auto called = file("tongs.src", "GLOBAL DEF grip(x:IN)\nPTP xopen\nEND\n");
