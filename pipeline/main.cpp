@@ -9,10 +9,10 @@
 #include "pipeline/base/installation.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/base/ownership.h"
+#include "pipeline/base/stage_failed.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/stage/command_line.h"
 #include "pipeline/stage/stage.h"
-#include "pipeline/study/stage_program.h"
 
 using namespace dresslife::pipeline;
 

@@ -4,8 +4,9 @@
 
 #include <cerrno>
 
-#include "pipeline/base/warning_words.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/stage_failed.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"

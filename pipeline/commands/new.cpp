@@ -7,6 +7,7 @@
 #include "pipeline/advise/improve/screened.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/stage_failed.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/checking.h"
 #include "pipeline/commands/command.h"

@@ -18,6 +18,7 @@
 #include "pipeline/base/digest.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/stage_failed.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/commands/making.h"

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/base/errors.h"
 #include "pipeline/base/last_moment.h"
 
 namespace dresslife::pipeline {
@@ -14,12 +13,6 @@ namespace dresslife::pipeline {
 /// Runs the program of this name in the folder of this one, with the same streams. It ends with this program.
 /// Returns its exit status. Errors: InputError when it cannot be started or is killed.
 int run_stage_program(const std::string& program, const std::vector<std::string>& arguments);
-
-/// A program of a stage has failed and has printed why. what(): for a caller that goes on without it.
-class StageFailed : public InputError {
- public:
-  using InputError::InputError;
-};
 
 /// A temporary file in its own folder (below TMPDIR, or /tmp) for the results of a program, removed with this object.
 /// Errors: InputError when it cannot be made.
