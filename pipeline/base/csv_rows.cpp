@@ -22,9 +22,6 @@ CsvReader::CsvReader(std::string text, std::string file, std::string_view separa
     : text_(std::move(text)), file_(std::move(file)), separators_(separators) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text_.starts_with(byte_order_mark)) text_.erase(0, byte_order_mark.size());
-  if (text_.starts_with("PK\x03\x04") || text_.find('\0') != std::string::npos)
-    throw InputError({file_}, "is no text in UTF-8 (it may be a spreadsheet or UTF-16)",
-                     "save it as CSV in UTF-8 by the spreadsheet program");
 }
 
 CsvRow CsvReader::next() {

@@ -7,7 +7,6 @@
 #include "pipeline/advise/improve/screened.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
-#include "pipeline/base/stage_failed.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/checking.h"
 #include "pipeline/commands/command.h"
@@ -135,7 +134,7 @@ Choice proposed(const Draft& draft) {
       told.path().string(), "--quiet"};
   if (draft.exercise) arguments.emplace_back("--exercise");
   if (run_stage_program("dresslife-sim", arguments) != 0)
-    throw StageFailed({"dresslife new"}, "no routing can be proposed (see above), nothing was written",
+    throw InputError({"dresslife new"}, "no routing can be proposed (see above), nothing was written",
                      "mend what is named there");
   const ScreenedList found = read_screening(told.path());
   const ScreenedCandidate& best = found.candidates.front();
