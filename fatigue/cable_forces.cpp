@@ -13,6 +13,7 @@
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/cable/cable_pulls.h"
 #include "pipeline/cable/excess.h"
+#include "pipeline/job/line_key.h"
 #include "pipeline/job/parts_room.h"
 
 namespace dresslife::fatigue {
@@ -81,14 +82,24 @@ struct Cure {
 /// What is known of a cable beside its force.
 struct CableFacts {
   std::string name;
+  std::string key;            ///< of its dresspack as a line of the job: "dresspack"
+  std::size_t number = 0;     ///< of its component in that dresspack, 1 first
   const pipeline::Component* component = nullptr;
   const pipeline::Dresspack* dresspack = nullptr;
   double room = 0, least_gain = 0, most_gain = 0;  ///< /cable/room, /cable/path_gain
   bool has_room = false;                           ///< the file has these
 };
 
-/// "signal cable 3": the second of `count` signal cables has the key of all of them.
-std::string slack_key(const CableFacts& facts) { return fmt::format("slack_percent of '{}'", facts.component->name); }
+/// Of the component, which all cables of its `count` share, as a line of the job: "dresspack.components.2.slack_percent".
+std::string cable_key(const CableFacts& facts, const char* key) {
+  return fmt::format("{}.components.{}.{}", facts.key, facts.number, key);
+}
+
+/// A slack in the middle of those that fit, as a line of the job.
+std::string slack_line(const CableFacts& facts, double least, double most) {
+  return fmt::format("{}: {:.2g} ({} .. {} fit; now {:.3g})", cable_key(facts, "slack_percent"), 50 * (least + most),
+                     pipeline::percent_above(least), pipeline::percent_below(most), facts.component->laying.slack);
+}
 
 /// Why a cable that keeps its place at both clamps is pulled, and what would let it move.
 Cure held_cure(const CableFacts& facts, bool known_bore, double least, double most) {
@@ -96,12 +107,12 @@ Cure held_cure(const CableFacts& facts, bool known_bore, double least, double mo
                                        ".. {:.2g} %",
                                        100 * facts.least_gain, 100 * facts.most_gain);
   if (known_bore)
-    return {path, least <= most ? fmt::format("position: loose, or {}: {} .. {}", slack_key(facts),
-                                              pipeline::percent_above(least), pipeline::percent_below(most))
-                                : "position: loose, or base_grip_N and tool_grip_N of the cable"};
-  return {path, fmt::format("inner_diameter_mm: {:.3g} (ESTIMATE) if it lies in a hose, else base_grip_N and tool_grip_N of the "
-                            "cable",
-                            1e3 * pipeline::usual_bore_share * facts.dresspack->diameter)};
+    return {path, fmt::format("{}: loose, or {}", cable_key(facts, "position"),
+                              least <= most ? slack_line(facts, least, most)
+                                            : fmt::format("{} and tool_grip_N as measured", cable_key(facts, "base_grip_N")))};
+  return {path, fmt::format("{}.inner_diameter_mm: {:.3g} (ESTIMATE) if it lies in a hose, else {} and tool_grip_N as measured",
+                            facts.key, 1e3 * pipeline::usual_bore_share * facts.dresspack->diameter,
+                            cable_key(facts, "base_grip_N"))};
 }
 
 /// Room for excess that is wound. Excess s in a room c makes a helix of curvature 2 s/c (excess.h), which must keep
@@ -111,12 +122,13 @@ double room_per_excess(const CableFacts& facts) {
 }
 
 /// Slack that makes no force beyond the limit: by the gains of its path, and by what a helix in its room keeps.
-Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed) {
+/// acceleration: motion.acceleration_percent.
+Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed, double acceleration) {
   const double limit = pipeline::believable_share * cable.strength(), slack = facts.component->laying.slack / 100;
   if (sticks)
     return {"it sticks to the hose (strain.slip of its level is stick)", "strain.slip: friction"};
   if (!facts.has_room)
-    return {"slack, play, grips or position of the cable", slack_key(facts) + " (run dresslife-strain again for its value)"};
+    return {"slack, play, grips or position of the cable", cable_key(facts, "slack_percent") + " (run dresslife-strain again for its value)"};
   const double least = std::max(0.0, facts.most_gain - cable.strain_at(limit));
   const double most = facts.least_gain + pipeline::excess_at_force(cable, limit, facts.room);
   if (!pipeline::lies_loose(*facts.dresspack, *facts.component))
@@ -127,24 +139,22 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
                  : fmt::format("{}, where its path asks for {} % or more", room, pipeline::percent_above(least));
   if (least <= slack && slack <= most)
     return {room + ", which fit its path; friction, its weight and the hose's motion pull it",
-            fmt::format("motion.acceleration_percent: less than now, or friction_coefficient of '{}' as measured",
-                        facts.component->name)};
+            fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}), or {} as measured", std::max(1.0, acceleration / 2),
+                        acceleration, cable_key(facts, "friction_coefficient"))};
   const double proposed = std::min(most, facts.least_gain + facts.room / room_per_excess(facts));
   if (least <= proposed)
-    return {cause, fmt::format("{}: {} .. {} (now {:.3g})", slack_key(facts), pipeline::percent_above(least),
-                               pipeline::percent_below(proposed), 100 * slack)};
+    return {cause, slack_line(facts, least, proposed)};
   const double excess = least - facts.least_gain;
   const double needed =
       std::max(pipeline::room_of_excess(cable, excess, limit), excess * room_per_excess(facts));
-  return {cause, fmt::format("no slack fits this room: place it where it has {:.2g} mm of room (helix_radius_mm, "
-                             "inner_diameter_mm; play_mm: {:.2g} where it has that already), or nearer to the axis",
-                             1e3 * needed, 1e3 * needed)};
+  return {cause, fmt::format("no slack fits this room. It needs {:.2g} mm: {}: {:.2g} if it has them, else another {} or {}.inner_diameter_mm",
+                             1e3 * needed, cable_key(facts, "play_mm"), 1e3 * needed, cable_key(facts, "helix_radius_mm"), facts.key)};
 }
 
 /// pulls: of the span in which a cable takes most of its strength. moment: "at 1.2 s, program step 3 'text'".
 pipeline::Warning force_warning(const CableFacts& facts, const pipeline::CableForce& cable, double tension,
-                                const std::string& moment, bool sticks) {
-  const Cure cure = cure_of(facts, cable, sticks, tension < 0);
+                                const std::string& moment, bool sticks, double acceleration) {
+  const Cure cure = cure_of(facts, cable, sticks, tension < 0, acceleration);
   return pipeline::warning_of(
       pipeline::WarningKind::force, "",
       fmt::format("'{}' is {} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %) {}; no cable in a dresspack "
@@ -165,7 +175,8 @@ std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipel
   std::vector<CableFacts> all;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto in = static_cast<std::size_t>(dresspack[k]);
-    CableFacts facts{names[k], &component_of(strain, job, in, static_cast<std::size_t>(component[k])),
+    const auto which = static_cast<std::size_t>(component[k]);
+    CableFacts facts{names[k], line_key(job, in, "dresspack"), which + 1, &component_of(strain, job, in, which),
                      &job.dresspacks[in].dresspack};
     facts.has_room = has_room;
     if (has_room) facts.room = room[k], facts.least_gain = gain[2 * k], facts.most_gain = gain[2 * k + 1];
@@ -244,9 +255,10 @@ std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& st
   std::vector<pipeline::Warning> warnings;
   if (force_share > pipeline::believable_share)
     warnings.push_back(force_warning(facts[strained], force[strained], tension[strained][at_sample],
-                                     moment_of(strain, at_sample), sticks));
+                                     moment_of(strain, at_sample), sticks, job.motion.acceleration_percent));
   if (moment_share > pipeline::believable_share) {
-    const Cure cure = cure_of(facts[bender], force[bender], sticks, tension[bender][bent_sample] < 0);
+    const Cure cure = cure_of(facts[bender], force[bender], sticks, tension[bender][bent_sample] < 0,
+                              job.motion.acceleration_percent);
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::force, "",
         fmt::format("the cables bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}; "

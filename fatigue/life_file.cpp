@@ -12,12 +12,15 @@
 #include "fatigue/conductors.h"
 #include "fatigue/failure_modes.h"
 #include "fatigue/planes.h"
+#include "fatigue/strain_life.h"
 #include "fatigue/stress_path.h"
 #include "fatigue/unvalidated.h"
 #include "fatigue/verdict.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/base/warning_words.h"
+#include "pipeline/cable/bend_limit.h"
+#include "pipeline/cable/corrugation.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/planning.h"
@@ -521,6 +524,15 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
       worst.position_from_tool, worst.step.empty() ? "" : ", worst during '" + worst.step + "'");
 }
 
+/// Bends of a straight hose to its bend radius limit, by the law of its wall; 0 without measured points.
+double wall_bends_at_limit(const pipeline::Job& job, const pipeline::Dresspack& dresspack) {
+  const pipeline::Material& material = pipeline::hose_material_of(job, dresspack);
+  if (material.strain_life_table.size() < 2) return 0;
+  const pipeline::WallFactors wall = pipeline::wall_factors(dresspack);
+  const double range = wall.strain * wall.radius / pipeline::least_bend_radius(dresspack);
+  return StrainLifeTable(material.strain_life_table).cycles(range / 2);
+}
+
 /// The hose's wall beside the wires; nothing without a wall.
 std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c) {
   if (c.worst_wall == no_site) return {};
@@ -546,6 +558,7 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c) {
   mode.place = worst.component;
   mode.time = worst.time;
   mode.step = worst.step;
+  mode.bends_at_limit = wall_bends_at_limit(c.job, c.job.dresspacks[c.dresspack_of(c.worst_wall)].dresspack);
   return {mode};
 }
 

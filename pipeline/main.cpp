@@ -9,6 +9,7 @@
 #include "pipeline/base/installation.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/base/ownership.h"
+#include "pipeline/base/stage_failed.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/stage/command_line.h"
 #include "pipeline/stage/stage.h"
@@ -77,6 +78,10 @@ int main(int argc, char** argv) {
     const Command* called = nullptr;
     if (const auto status = read_command_line(program, argc, argv, &called)) return *status;
     if (force) let_replace_files_of_others();
-    return finish_output(called->act());
+    try {
+      return finish_output(called->act());
+    } catch (const StageFailed&) {  // the stage has printed its error
+      return 1;
+    }
   });
 }

@@ -228,6 +228,7 @@ void Evaluation::end_first_pass() {
   const ShortenedPlan of = means_.shorten(evening_.bend_wave);
   evening_.layer = of.longest;
   evening_.longest = of.evening;
+  evening_.straight = of.longest >= 0 && of.plan[of.longest].sliding == Sliding::clamp_to_clamp;
 }
 
 void Evaluation::add_again(const DeformationHistory& block) {

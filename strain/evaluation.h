@@ -130,10 +130,12 @@ class Evaluation {
   const CablePaths& cables() const { return cables_; }
   void end_first_pass();
   /// Wave length over which what varies of the span's curvature changes, 2 pi rms/rms of its slope [m]; infinite: it
-  /// does not. The layer that rubs and whose strain evens out over most, with that length (LayerSlip::evening); -1: none.
+  /// does not. The layer that friction holds and whose strain evens out over most, with that length (LayerSlip::evening), and
+  /// whether it has no lay; -1: none.
   struct BendScale {
     double bend_wave = 0, longest = 0;
     int layer = -1;
+    bool straight = false;
   };
   const BendScale& evening() const { return evening_; }
 

@@ -77,16 +77,19 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
 
 ShortenedPlan shortened(const Construction& construction, std::vector<LayerSlip> plan, double bend_wave) {
   ShortenedPlan result{std::move(plan)};
+  std::vector<bool> on_axis(result.plan.size());  // of its cable: no bend strains it, and friction has nothing to hold
   for (std::size_t k = 0; k < result.plan.size(); ++k) {
     LayerSlip& slip = result.plan[k];
+    const Layer& of = construction.layers()[k];
+    on_axis[k] = of.is_cable() || (of.helix_radius == 0 && (of.parent == dresspack_itself || on_axis[of.parent]));
     if (!slip.friction) continue;
-    if (slip.evening > result.evening) result.longest = static_cast<int>(k), result.evening = slip.evening;
+    const bool holds = !on_axis[k] && slip.cap != FrictionCap{};
+    if (holds && slip.evening > result.evening) result.longest = static_cast<int>(k), result.evening = slip.evening;
     if (slip.evening <= bend_wave) continue;
-    const Layer& layer = construction.layers()[k];
     slip.cap.constant *= bend_wave / slip.evening;
     slip.cap.per_mean *= bend_wave / slip.evening;
     slip.evening = bend_wave;
-    slip.elastic = elastic_share(layer.jacket_stiffness, layer.axial_stiffness, bend_wave);
+    slip.elastic = elastic_share(of.jacket_stiffness, of.axial_stiffness, bend_wave);
   }
   return result;
 }

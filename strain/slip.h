@@ -49,8 +49,8 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
 /// Of the wave length of a bend: strains that even out over more are not told well.
 constexpr double believable_evening = 0.25;
 
-/// The same with friction that gathers over no more than a wave of the bend [m], and the layer whose strain evens
-/// out over most of that; -1: none rubs.
+/// The same with friction that gathers over no more than a wave of the bend [m], and the layer that
+/// friction holds and whose strain evens out over most of that; -1: none.
 struct ShortenedPlan {
   std::vector<LayerSlip> plan;
   int longest = -1;

@@ -18,6 +18,7 @@
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
+#include "pipeline/job/line_key.h"
 #include "strain/evaluation.h"
 #include "strain/variations.h"
 
@@ -360,23 +361,25 @@ struct Evaluations {
 };
 
 /// pieces: of a loose cable in a segment.
-std::vector<Warning> mesh_warnings(double error, std::size_t pieces) {
+std::vector<Warning> mesh_warnings(double error, std::size_t pieces, int segments) {
   if (error <= believable_mesh_error) return {};
   return {pipeline::warning_of(
       WarningKind::mesh, "",
       fmt::format("loose cables are cut into {} pieces in each segment, which misses {:.3g} of their curvature (limit {:g})",
                   pieces, error, believable_mesh_error),
       "the cables lie in waves shorter than these pieces resolve",
-      fmt::format("strain.cable_elements_per_segment: {} or more, or more simulation.segments", 2 * pieces))};
+      2 * pieces <= std::size_t{pipeline::most_cable_elements}
+          ? fmt::format("strain.cable_elements_per_segment: {} or more", 2 * pieces)
+          : fmt::format("simulation.segments: {} or more", 2 * segments))};
 }
 
-std::vector<Warning> restless_warnings(std::size_t samples) {
+std::vector<Warning> restless_warnings(std::size_t samples, double sample_rate) {
   if (samples == 0) return {};
   return {pipeline::warning_of(
       WarningKind::mesh, "",
       fmt::format("loose cables did not come to rest at {} samples: their curvatures there are not those of any balance",
                   samples),
-      "the hose moves too far from one sample to the next", "simulation.sample_rate_Hz: twice as much")};
+      "the hose moves too far from one sample to the next", fmt::format("simulation.sample_rate_Hz: {:g}", 2 * sample_rate))};
 }
 
 /// What of all spans' cables makes forces: whose metal they are of, their strains, and where they meet the
@@ -426,7 +429,7 @@ class CableRows {
 
 /// What the cables of all spans do, of which their forces follow. Nothing where there is no cable. Returns
 /// what a person should look at: pieces that are too long.
-std::vector<Warning> write_cables(FileWriter& file,
+std::vector<Warning> write_cables(FileWriter& file, const pipeline::Simulation& settings,
                                   const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   CableRows rows;
   std::vector<const std::vector<double>*> hose_moment;  // of spans with cables
@@ -450,7 +453,8 @@ std::vector<Warning> write_cables(FileWriter& file,
   file.append("/cable_span/hose_moment", moments);
   if (mesh_error > 0) file.attribute("loose_mesh_error", mesh_error);
   const std::vector<Warning> warnings =
-      pipeline::joined(mesh_warnings(mesh_error, pieces), restless_warnings(restless));
+      pipeline::joined(mesh_warnings(mesh_error, pieces, settings.segments),
+                       restless_warnings(restless, settings.sample_rate));
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;
   const CablePaths& cables = evaluations[0]->cables();
   const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(),
@@ -468,11 +472,14 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
     if (of.layer < 0 || of.longest <= believable_evening * of.bend_wave) continue;
     all.push_back(pipeline::warning_of(
         WarningKind::material, "",
-        fmt::format("strain of {} evens out over {:.3g} m, the bend changes over {:.3g} m (limit of the first over the "
-                    "second {:g}): friction could hold up to 2.5 times as much strain there",
+        fmt::format("the strain of {} evens out over {:.3g} m, and the bend changes over {:.3g} m (limit of the first over the "
+                    "second {:g}): friction could hold up to 2.5 times as much strain",
                     evaluation->name_of_layer(of.layer), of.longest, of.bend_wave, believable_evening),
-        "its hand differs from that of what it lies in, and their lay lengths are nearly equal",
-        "its hand and lay_angle_deg as they are on the cable; if they are right, count with strain.friction_factor: 2.5"));
+        of.straight ? "it has no lay, or fewer than four turns"
+                    : "its hand or that of its conductor differs from that of the next outer layer, and their lay lengths are nearly "
+                      "equal",
+        "strain.friction_factor: 2.5, which counts with the most that friction could hold; or the hand and the lay length that "
+        "the cable's maker states"));
   }
   return all;
 }
@@ -481,11 +488,9 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
 /// stiffness that is not that of the parts.
 std::vector<Warning> construction_warnings(const pipeline::Job& job) {
   std::vector<Warning> all;
-  for (const pipeline::MountedDresspack& mounted : job.dresspacks)
-    for (Warning warning : pipeline::construction_warnings(mounted.dresspack, slides(job.strain.slip.front()))) {
-      warning.where = mounted.name;  // its line in the resolved job helps nobody
-      all.push_back(warning);
-    }
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
+    all = pipeline::joined(std::move(all), pipeline::construction_warnings_at(line_key(job, d, "dresspack"), job.dresspacks[d].dresspack,
+                                                                              slides(job.strain.slip.front())));
   return all;
 }
 
@@ -617,7 +622,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     });
   const std::vector<Warning> warnings =
       pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),
-                       write_cables(strain, evaluations));
+                       write_cables(strain, job.simulation, evaluations));
   write_bending(strain, job);
 
   Sink sink;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <set>
@@ -101,9 +102,18 @@ void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer
       throw InputError(table.where(title), fmt::format("two columns are titled '{}'", title.text),
                        "keep one of the two");
   }
-  for (const std::string_view name : needed)
-    if (!seen.contains(name))
-      throw InputError(table.where(titles.front()), fmt::format("the table has no column '{}'", name), "add it");
+  const auto lower = [](std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char letter) { return std::tolower(letter); });
+    return text;
+  };
+  for (const std::string_view name : needed) {
+    if (seen.contains(name)) continue;
+    for (const CsvCell& title : titles)
+      if (lower(title.text) == name)
+        throw InputError(table.where(title), fmt::format("the table has no column '{}' (it has '{}')", name, title.text),
+                         fmt::format("write '{}' instead of '{}'", name, title.text));
+    throw InputError(table.where(titles.front()), fmt::format("the table has no column '{}'", name), "add it");
+  }
 }
 
 std::string harmless(const std::string& text) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -46,19 +47,35 @@ std::vector<std::string> words_of(std::string_view line) {
   return words;
 }
 
+/// A line of declarations without what stands in brackets and behind '=': arguments and contents are no names for others.
+std::string without_contents(std::string_view line) {
+  std::string names;
+  int depth = 0;
+  bool is_content = false;
+  for (const char letter : line) {
+    if (letter == '(' || letter == '[' || letter == '{') ++depth;
+    if (letter == '=' && depth == 0) is_content = true;
+    if (letter == ',' && depth == 0) is_content = false;
+    names += depth == 0 && !is_content ? letter : ' ';
+    if (letter == ')' || letter == ']' || letter == '}') --depth;
+  }
+  return names;
+}
+
 /// What others can call or read of a KRL file: its routines, and what is declared as global.
 std::vector<std::string> names_declared(const fs::path& file, const std::string& text) {
   std::vector<std::string> names{lower(file.stem().string())};
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::vector<std::string> words = words_of(std::string_view(text).substr(begin, end - begin));
+    const std::vector<std::string> words = words_of(without_contents(std::string_view(text).substr(begin, end - begin)));
     const bool declares = std::any_of(words.begin(), words.end(), [](const std::string& word) {
       return word == "def" || word == "deffct" || word == "global";
     });
     if (declares) names.insert(names.end(), words.begin(), words.end());
     begin = end + 1;
   }
-  for (const char* own : {"def", "deffct", "global", "public", "decl", "in", "out", "int", "real", "bool", "char"})
+  for (const char* own : {"def", "deffct", "global", "public", "decl", "const", "signal", "to", "struc", "enum", "in", "out", "int", "real",
+                          "bool", "char", "axis", "pos", "frame", "e6axis", "e6pos"})
     std::erase(names, own);
   return names;
 }
@@ -99,9 +116,15 @@ std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::
   while (!open.empty()) {
     const std::string text = std::move(open.back());
     open.pop_back();
+    const std::vector<std::string> list = words_of(text);
+    const std::set<std::string> words(list.begin(), list.end());
+    // A name with other letters than those of words may stand in several: it is looked for as it is.
+    const auto stands_in_text = [&](const std::string& name) {
+      return std::ranges::all_of(name, is_name_letter) ? words.contains(name) : text.find(name) != std::string::npos;
+    };
     std::erase_if(candidates, [&](Candidate& candidate) {
       const bool named = std::any_of(candidate.names.begin(), candidate.names.end(), [&](const std::string& name) {
-        return text.find(name) != std::string::npos;
+        return stands_in_text(name);
       });
       if (!named) return false;
       related.push_back(std::move(candidate.file));

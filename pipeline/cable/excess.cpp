@@ -99,6 +99,26 @@ std::vector<Warning> construction_warnings(const Dresspack& dresspack, bool may_
 
 namespace {
 
+void place_parts(std::vector<Component>& components, const std::string& key) {
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    components[k].where = {fmt::format("{}.components.{}", key, k + 1)};
+    place_parts(components[k].components, components[k].where.file);
+  }
+}
+
+}  // namespace
+
+std::vector<Warning> construction_warnings_at(const std::string& key, Dresspack dresspack, bool may_slide) {
+  dresspack.where = {key};
+  place_parts(dresspack.components, key);
+  std::vector<Warning> all = construction_warnings(dresspack, may_slide);
+  for (Warning& warning : all)
+    if (warning.where.empty()) warning.where = key;
+  return all;
+}
+
+namespace {
+
 /// To two digits.
 std::string percent(double share, double (*rounded)(double)) {
   if (!(share > 0)) return "0";

@@ -38,6 +38,9 @@ std::vector<Warning> slack_warnings(const Dresspack& dresspack);
 /// overlap, a stiffness that is not that of its parts, and, where its cables may slide, excess length without room.
 std::vector<Warning> construction_warnings(const Dresspack& dresspack, bool may_slide);
 
+/// The same with the key path of a job's line as the place of each part: "dresspack.components.2". key: of the dresspack.
+std::vector<Warning> construction_warnings_at(const std::string& key, Dresspack dresspack, bool may_slide);
+
 /// "0.05", a percentage rounded down to two digits: what fits.
 std::string percent_below(double share);
 /// "0.06": rounded up, what is needed.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pipeline/base/warning_words.h"
+#include "pipeline/job/parts_room.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -23,6 +24,15 @@ constexpr double strongest_jacket = 10e6;         // [Pa]: the pressure at which
 constexpr double thinnest = 0.01e-3;              // radius of a wire [m]: the finest strands are 0.03 mm wide
 constexpr double least_lay =
     0.6 * degree;  // a turn in 100 helix diameters and more; lays of cables are 3 to 40 deg, 0.05 to 0.7 rad
+
+constexpr double widest_hose = 0.2, thinnest_cable = 1e-3;  // [m]: hoses on robots are 15 to 110 mm wide, sensor cables 2
+constexpr double thickest_wall = 0.25;     // of the diameter: a corrugated hose has 0.05 to 0.1, a rubber hose 0.2
+constexpr double thinnest_wall = 0.1e-3;   // [m]: corrugated hoses have 0.3 mm and more, and their folds
+constexpr double largest_bend_radius = 40;  // diameters: makers' limits are 3 to 15
+constexpr double least_torsion = 0.01, most_torsion = 100;  // G J over E I: a solid bar has 0.77, corrugated hoses to 10
+constexpr double largest_friction = 1.5;   // rubber on steel has 1
+constexpr double largest_slack = 0.05;     // dresspacks are laid with 1 to 2 %
+constexpr double largest_grip = 1e5;       // [N]: ten times what tears a power cable
 
 /// Of all wires in a metre of the part, lays along: as if of aluminium [kg/m].
 double least_wire_mass(const std::vector<Component>& components) {
@@ -66,6 +76,10 @@ class Judge {
                 "radial_line_load_N_per_m of '{}' is {:.4g}, {:.3g} MPa on its width (limit {:g}: jackets yield)",
                 of.name, *of.radial_line_load, pressure / 1e6, strongest_jacket / 1e6),
             "another unit", "a jacket's 0.05 MPa times the part's width, or no key");
+      if (of.friction.value_or(0) > largest_friction)
+        add(of.where, fmt::format("friction_coefficient of '{}' is {:.3g} (limit {:g})", of.name, *of.friction, largest_friction),
+            "per cent instead of a share",
+            fmt::format("friction_coefficient: {:.3g} if that was per cent", *of.friction / 100));
       for (std::size_t other = 0; other < k; ++other)
         if (components[other].name == of.name && components[other].layer == of.layer)
           add(of.where,
@@ -79,6 +93,46 @@ class Judge {
  private:
   std::vector<Warning>& warnings_;
 };
+
+/// Diameters, bend radius and torsion beside each other, and what parts have.
+void plausible_size(const Dresspack& dresspack, Judge& judge) {
+  const double diameter = dresspack.diameter;
+  if (diameter > widest_hose || diameter < thinnest_cable)
+    judge.add(dresspack.where,
+              fmt::format("diameter_mm is {:.4g} (limits {:g} .. {:g})", 1e3 * diameter, 1e3 * thinnest_cable, 1e3 * widest_hose),
+              diameter > widest_hose ? "tenths of a millimetre, or an extra zero" : "centimetres or metres",
+              diameter > widest_hose ? fmt::format("diameter_mm: {:.4g} if there is an extra zero", 1e2 * diameter)
+                                     : fmt::format("diameter_mm: {:.4g} if that was metres", 1e6 * diameter));
+  if (dresspack.inner_diameter) {
+    const double wall = (diameter - *dresspack.inner_diameter) / 2;
+    if (wall > thickest_wall * diameter || wall < thinnest_wall)
+      judge.add(dresspack.where,
+                fmt::format("the wall is {:.3g} mm thick by diameter_mm and inner_diameter_mm (limits {:.3g} .. {:.3g})", 1e3 * wall,
+                            1e3 * thinnest_wall, 1e3 * thickest_wall * diameter),
+                "one of the two diameters in another unit or of another hose",
+                fmt::format("inner_diameter_mm: {:.3g} (ESTIMATE), or diameter_mm as measured", 1e3 * usual_bore_share * diameter));
+  }
+  if (dresspack.least_bend_radius && *dresspack.least_bend_radius > largest_bend_radius * diameter)
+    judge.add(dresspack.where,
+              fmt::format("least_bend_radius_mm is {:.4g} (limit {:.4g}: {:g} diameters)", 1e3 * *dresspack.least_bend_radius,
+                          1e3 * largest_bend_radius * diameter, largest_bend_radius),
+              "an extra zero", fmt::format("least_bend_radius_mm: {:.4g} if there is an extra zero", 1e2 * *dresspack.least_bend_radius));
+  if (const double share = dresspack.torsional_stiffness / dresspack.bending_stiffness;
+      dresspack.bending_stiffness > 0 && dresspack.torsional_stiffness > 0 && !(share > least_torsion && share < most_torsion))
+    judge.add(dresspack.where,
+              fmt::format("torsional_stiffness_Nm2 is {:.3g} times bending_stiffness_Nm2 (limits {:g} .. {:g})", share, least_torsion,
+                          most_torsion),
+              "one of the two in another unit", "torsional_stiffness_Nm2: from_construction, or both as measured");
+  for (const Component& of : dresspack.components) {
+    if (of.laying.slack > 100 * largest_slack)
+      judge.add(of.where, fmt::format("slack_percent of '{}' is {:.3g} (limit {:g})", of.name, of.laying.slack, 100 * largest_slack),
+                "millimetres in a metre instead of per cent", fmt::format("slack_percent: {:.3g} if that was mm in a metre", of.laying.slack / 10));
+    for (const auto& [key, grip] : {std::pair{"base_grip_N", of.laying.base_grip}, {"tool_grip_N", of.laying.tool_grip}})
+      if (grip && *grip > largest_grip)
+        judge.add(of.where, fmt::format("{} of '{}' is {:.3g} (limit {:g})", key, of.name, *grip, largest_grip), "another unit",
+                  fmt::format("no {}: then the clamp holds the cable", key));
+  }
+}
 
 }  // namespace
 
@@ -139,6 +193,7 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
                     1e3 * *dresspack.least_bend_radius, 1e3 * dresspack.diameter / 2),
         "metres instead of millimetres",
         fmt::format("least_bend_radius_mm: {:.3g} if that was metres", 1e6 * *dresspack.least_bend_radius));
+  plausible_size(dresspack, judge);
   for (const Component& of : dresspack.components)
     if (of.laying.play.value_or(0) > dresspack.diameter / 2)
       judge.add(of.where,

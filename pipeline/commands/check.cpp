@@ -17,12 +17,8 @@ struct Options {
 int check(const Options& options) {
   const std::filesystem::path job = named_file(options.job, "jobs");
   const JobCheck check = check_of(job, options.sets);
-  for (const Warning& warning : check.warnings) print(shown(warning.line() + "\n"));
-  for (const std::string& note : check.notes) print(shown(note + "\n"));
-  if (!check.refusal.empty()) {
-    print(shown("The simulation refuses the job: " + check.refusal + "\n"));
-    return 1;
-  }
+  print_check(check);
+  if (!check.refusal.empty()) return 1;
   print(check.limits + "\n");
   const std::size_t warnings = check.warnings.size();
   print(shown(fmt::format("{}: {}\n", job.string(),

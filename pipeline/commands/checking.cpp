@@ -5,12 +5,15 @@
 #include <cerrno>
 #include <sstream>
 
+#include "pipeline/base/installation.h"
+#include "pipeline/base/stage_failed.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
+#include "pipeline/job/line_key.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/study/stage_program.h"
@@ -30,36 +33,58 @@ void add_slip(const Job& job, std::vector<Warning>& warnings) {
     }
 }
 
+/// Whether a place lies in the catalogue that comes with dresslife, which users do not edit.
+bool is_shipped(const Where& where) {
+  const std::filesystem::path catalogue = shipped_catalogue();
+  return !as_seen_from(catalogue, where.file).string().starts_with("..");
+}
+
 }  // namespace
 
-JobCheck check_of(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+JobCheck check_of(const std::filesystem::path& file, const std::vector<std::string>& sets,
+                  const std::filesystem::path& preview_file) {
   const Job job = read_job(file, sets);
   JobCheck check;
-  for (const MountedDresspack& mounted : job.dresspacks)
-    for (Warning warning : construction_warnings(mounted.dresspack, slides(job.strain.slip.front()))) {
-      if (!mounted.name.empty()) warning.where = mounted.name;
-      check.warnings.push_back(warning);
-    }
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    const Dresspack& dresspack = job.dresspacks[d].dresspack;
+    const bool may_slide = slides(job.strain.slip.front());
+    check.warnings = joined(std::move(check.warnings),
+                            is_shipped(dresspack.where)
+                                ? construction_warnings_at(line_key(job, d, "dresspack"), dresspack, may_slide)
+                                : construction_warnings(dresspack, may_slide));
+  }
   add_slip(job, check.warnings);
   check.limits = "Not checked: limits of the deformation, strains and forces of the cables. A run may also warn of them.";
-  if (job.motion.is_prescribed()) return check;
+  if (job.motion.is_prescribed()) {
+    check.warnings = joined(std::move(check.warnings), job.motion.left_out);
+    return check;
+  }
   check.limits =
       "The dresspack was checked at rest and in a short run. A run may also warn of tension, and of strains and forces of its "
       "cables.";
-  const PassingFile told("preview.h5");
-  if (tell_preview(file, sets, {}, told.path()) != 0)
-    throw InputError({file.string()}, "its motion cannot be computed (see above)", "mend what is named there");
+  if (tell_preview(file, sets, {}, preview_file) != 0)
+    throw StageFailed({file.string()}, "its motion cannot be computed (see above)", "mend what is named there");
   try {
-    check.refusal = refusal_of(told.path());
-    const FileReader preview(told.path(), preview_format(), FileReader::Scope::attributes);
+    check.refusal = refusal_of(preview_file);
+    const FileReader preview(preview_file, preview_format(), FileReader::Scope::attributes);
     check.warnings = joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings")));
-    check.notes = length_words(told.path());
+    check.notes = length_words(preview_file);
     std::istringstream notes(preview.text_attribute("notes"));
     for (std::string note; std::getline(notes, note);) check.notes.push_back("note: " + note);
   } catch (const InputError&) {  // it was written just now: no fault of the job
-    throw DiskError(told.path().string(), EIO);
+    throw DiskError(preview_file.string(), EIO);
   }
   return check;
+}
+
+JobCheck check_of(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  return check_of(file, sets, PassingFile("preview.h5").path());
+}
+
+void print_check(const JobCheck& check) {
+  for (const Warning& warning : check.warnings) print(shown(warning.line() + "\n"));
+  for (const std::string& note : check.notes) print(shown(note + "\n"));
+  if (!check.refusal.empty()) print(shown("The simulation refuses the job: " + check.refusal + "\n"));
 }
 
 }  // namespace dresslife::pipeline

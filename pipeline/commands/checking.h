@@ -18,5 +18,11 @@ struct JobCheck {
 
 /// Errors: InputError for all that a reader of jobs refuses, at once.
 JobCheck check_of(const std::filesystem::path& job, const std::vector<std::string>& sets);
+/// The same with the file of dresslife-sim --preview, which is written unless the motion is prescribed.
+JobCheck check_of(const std::filesystem::path& job, const std::vector<std::string>& sets,
+                  const std::filesystem::path& preview_file);
+
+/// Prints warnings, lengths and the refusal.
+void print_check(const JobCheck& check);
 
 }  // namespace dresslife::pipeline

@@ -4,6 +4,7 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/whole_file.h"
+#include "pipeline/commands/checking.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
 #include "pipeline/base/digest.h"
@@ -21,19 +22,18 @@ struct Options {
   std::vector<std::string> sets;
 };
 
-/// What a job looks like before its run, and what is wrong with its routing. A job that is refused has a
-/// page, too: the exit status tells that the page is there.
+/// Writes the page of a job before its run and prints what a check finds. A job that is refused has a page, too: exit
+/// status 0 means that the page is there.
 int preview(const Options& options) {
   const fs::path job = named_file(options.job, "jobs");
   const fs::path page =
       options.page.empty() ? fs::path(job.stem().string() + "_preview.html") : fs::path(options.page);
   check_replaceable(page);
   const PassingFile told("preview.h5");
-  if (const int status = tell_preview(job, options.sets, {}, told.path())) return status;
+  const JobCheck check = check_of(job, options.sets, told.path());
+  if (kind_of(told.path()) != FileKind::file) return tell_preview(job, options.sets, {}, told.path());  // prints why
   write_text_if_changed(page, preview_page(told.path(), job.stem().string(), xxh3(shell_digest())));
-  if (const std::string refusal = refusal_of(told.path()); !refusal.empty())
-    print(shown("The simulation refuses it: " + refusal + "\n"));
-  for (const std::string& line : length_words(told.path())) print(shown(line + "\n"));
+  print_check(check);
   print(shown("Preview: " + page.string() + "\n"));
   return 0;
 }

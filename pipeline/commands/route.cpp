@@ -19,6 +19,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/stage_failed.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/commands/making.h"
@@ -95,7 +96,7 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
   if (draft.exercise) arguments.push_back("--exercise");
   if (!options.ring.empty()) arguments.insert(arguments.end(), {"--ring", options.ring});
   if (run_stage_program("dresslife-sim", arguments) != 0)
-    throw InputError({draft.name}, "no routing can be proposed (see above)", "mend what is told there");
+    throw StageFailed({draft.name}, "no routing can be proposed (see above)", "mend what is named there");
   return read_screening(told.path());
 }
 

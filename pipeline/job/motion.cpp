@@ -210,11 +210,20 @@ void check_frames(const Motion& motion) {
 }  // namespace
 
 void check_motion(const Motion& motion, const Robot& robot) {
-  if (!motion.clamp_poses.empty() + !motion.steps.empty() + !motion.program.empty() +
-          !motion.deformation.empty() + motion.rig.has_value() !=
-      1)
-    throw InputError(motion.where, "motion must have one of steps, program, clamp_poses, deformation or rig",
-                     "give one of the five");
+  std::vector<std::string> has;
+  const auto add = [&](const char* key, bool given) {
+    if (given) has.emplace_back(key);
+  };
+  add("steps", !motion.steps.empty());
+  add("program", !motion.program.empty());
+  add("clamp_poses", !motion.clamp_poses.empty());
+  add("deformation", !motion.deformation.empty());
+  add("rig", motion.rig.has_value());
+  if (has.size() != 1)
+    throw InputError(motion.where,
+                     fmt::format("motion must have one of steps, program, clamp_poses, deformation or rig (it has {})",
+                                 has.empty() ? "none" : fmt::format("{}", fmt::join(has, " and "))),
+                     has.empty() ? "give one of the five" : "keep one of them");
   Problems problems;
   problems.attempt("", motion.where, [&] { check_frames(motion); });
   check_steps(motion.steps, robot, problems);

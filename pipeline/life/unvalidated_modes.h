@@ -25,6 +25,7 @@ struct UnvalidatedMode {
   std::string place;              ///< what rubs: "link_4"; of the wall the place around it: "hose 5"
   double time = 0;                ///< when it is loaded most [s]
   std::string step;               ///< program line that runs then; empty: none
+  double bends_at_limit = 0;      ///< of the wall by its law: bends of a straight hose to its bend radius limit; 0: not known
 
   bool operator==(const UnvalidatedMode&) const = default;
 };

@@ -352,7 +352,19 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
                     : fmt::format("{}one of: {}", near.empty() ? "" : "did you mean '" + near + "'? ", fmt::join(names, ", ")));
 }
 
+void apply_lines(Node& job) {
+  std::vector<Entry> lines;
+  std::erase_if(job.entries, [&](const Entry& entry) {
+    const bool is_line = entry.key.find('.') != std::string::npos;
+    if (is_line) lines.push_back(entry);
+    return is_line;
+  });
+  std::ranges::stable_sort(lines, {}, [](const Entry& line) { return std::ranges::count(line.key, '.'); });
+  for (const Entry& line : lines) set_value(job, line.key, line.value, line.where);
+}
+
 void set_value(Node& job, const std::string& path, Node value, const Where& where) {
+  apply_lines(job);
   Node* node = &job;
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t here = begin;

@@ -22,7 +22,11 @@ void resolve_job(Node& job, Problems& problems);
 /// The same. Errors: InputError, all at once.
 void resolve_job(Node& job);
 
-/// Sets the value at a key path (`simulation.segments`, `dresspacks.2.routing.free_length_m`); where: who
+/// Takes the lines `key.path: value` of a job's first level out of it and sets what they name, wholes before their
+/// parts. Errors: InputError at the line.
+void apply_lines(Node& job);
+
+/// Applies the job's own lines, then sets the value at a key path (`simulation.segments`, `dresspacks.2.routing.free_length_m`); where: who
 /// asks for it.
 void set_value(Node& job, const std::string& path, Node value, const Where& where);
 

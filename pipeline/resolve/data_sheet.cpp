@@ -27,6 +27,8 @@ constexpr int closed_ring = 5;         // six parts that touch leave room for a 
 constexpr int filled_ring = 9;         // ten for two
 constexpr double wire_lay_ratio = 16;  // lay length over the conductor's width: stranding has 10 to 20
 constexpr double core_lay_ratio = 12;  // over the width of the cores: flexible cables have 8 to 16
+constexpr double section_tolerance = 0.25;  // a standard's nominal section is a rounded one: 0.22 for 7 x 0.2 mm
+constexpr double thickest_insulation = 5;  // core over conductor: control cables have 1.5 to 3, those for 1 kV up to 4
 constexpr int rounds = 60;             // of the search for the cores' diameter
 
 double first_radius(int count, double diameter) {
@@ -91,6 +93,11 @@ class Expansion {
       throw InputError(sheet.where,
                        fmt::format("{:.4g} mm2 of wires of {:.4g} mm are {:.4g} wires (1 .. {})",
                                    1e6 * sheet.cross_section, 1e3 * wire_, sheet.cross_section / section, most_wires),
+                       "check cross_section_mm2, of one core, and wire_diameter_mm");
+    if (std::abs(wires * section / sheet.cross_section - 1) > section_tolerance)
+      throw InputError(sheet.where,
+                       fmt::format("{:.4g} mm2 are {:.3g} wires of {:.4g} mm (a whole number within {:g} %)",
+                                   1e6 * sheet.cross_section, sheet.cross_section / section, 1e3 * wire_, 100 * section_tolerance),
                        "check cross_section_mm2, of one core, and wire_diameter_mm");
     pack_wires(static_cast<int>(wires));
     size_cores();
@@ -257,6 +264,14 @@ class Expansion {
           fmt::format("{} wires of {:.4g} mm are a conductor {:.4g} mm wide (the core has {:.4g} mm)",
                       wire_count(), 1e3 * wire_, 1e3 * conductor_, 1e3 * core_diameter_),
           "check cross_section_mm2, of one core, the jacket's thickness and the diameters");
+    if (!sheet_.core_diameter && core_diameter_ > thickest_insulation * conductor_)
+      throw InputError(
+          sheet_.where,
+          fmt::format("by the outer diameter and the jacket a core is {:.3g} mm wide, {:.2g} times its conductor of {:.3g} mm (limit {:g} "
+                      "times)",
+                      1e3 * core_diameter_, core_diameter_ / conductor_, 1e3 * conductor_, thickest_insulation),
+          fmt::format("check outer_diameter_mm: {:.4g} and cross_section_mm2, of one core, or give core_diameter_mm if the rest is filler",
+                      1e3 * outer_));
   }
 
   /// The bundle's width grows with that of a core, almost in proportion.

@@ -49,6 +49,7 @@ Job job_from(Node document, const std::vector<std::string>& sets) {
     throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
   if (!document.find("robot") && !document.find("motion")) refuse_other_kind(document, DocumentKind::job);
   Problems problems;
+  problems.attempt("", document.where, [&] { apply_lines(document); });
   for (const std::string& set : sets)
     problems.attempt("", {"--set " + set}, [&] { apply_set(document, set); });
   check_forms(document, problems);

@@ -6,10 +6,11 @@
 
 namespace dresslife::pipeline {
 
-/// Samples that miss the swing, a strain gate that hides cycles which break wires, and the steps of a motion without a program.
+/// Gravity that is not downward or not the earth's, settings of strain and fatigue in another unit, samples that miss the
+/// swing, a strain gate that hides cycles which break wires, and the steps of a motion without a program.
 std::vector<Warning> plausibility_warnings(const Job& job);
 
-/// Joint angles that are all radians, speeds that are shares or in another unit, dwells that are milliseconds. One warning per
+/// A motion in which no axis moves, joint angles that are all radians, times that are milliseconds, speeds that are shares or in another unit, dwells that are milliseconds. One warning per
 /// kind, at its first step, with the number of further ones.
 std::vector<Warning> plausibility_of_steps(const Motion& motion);
 

@@ -37,6 +37,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// "write 2.03 with a point; " for 2,03; else nothing.
+std::string decimal_comma_words(std::string text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) return "";
+  text[comma] = '.';
+  return parse_number(text) ? fmt::format("write {} with a point; ", text) : "";
+}
+
 std::string unit_note(Fields::Key key) {
   const Unit& unit = unit_of_key(key);
   return unit.name.empty() ? "" : fmt::format(" {}", unit.name);
@@ -280,7 +288,7 @@ class FieldReader final : public Fields {
                                    node.is_scalar() ? fmt::format("'{}'", node.text) : "not one value",
                                    word.empty() ? "" : fmt::format(" or {}", word),
                                    unit.empty() ? "" : fmt::format(", the unit is in the key:{}", unit)),
-                       "give " + named(meaning));
+                       decimal_comma_words(node.text) + "give " + named(meaning));
     }
     if (!std::isfinite(*value))
       throw InputError(node.where, fmt::format("{} is {} (must be finite)", name_of(key), node.text),

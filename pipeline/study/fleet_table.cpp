@@ -54,7 +54,11 @@ Variant variant_of(const CsvReader& table, const CsvRow& titles, const CsvRow& r
 }  // namespace
 
 std::vector<Variant> table_variants(const std::filesystem::path& file) {
-  CsvReader reader(read_source(file), file.string());
+  const std::string text = read_source(file);
+  if (text.starts_with("PK\x03\x04") || text.find('\0') != std::string::npos)
+    throw InputError({file.string()}, "is no text in UTF-8 (it may be a spreadsheet or UTF-16)",
+                     "save it as CSV in UTF-8 by the spreadsheet program");
+  CsvReader reader(text, file.string());
   const CsvRow titles = reader.next();
   if (titles.empty())
     throw InputError({file.string(), 1, 1}, "holds no table",

@@ -742,11 +742,13 @@ void run_krl(const Code& code, const ImportOptions& options, const std::vector<N
     std::vector<std::string> names;
     for (const Routine& other : code.routines)
       if (names.size() < 40) names.push_back(other.written);
-    problems.add(
-        {code.files.empty() ? "" : code.files[0].name(), 1, 1},
-        options.routine.empty() ? std::string("holds no DEF")
-                                : fmt::format("has no routine '{}'", options.routine),
-        names.empty() ? "give the .src file too" : fmt::format("name one of: {}", fmt::join(names, ", ")));
+    if (options.routine.empty())  // other files' routines are not what the user names
+      problems.add({code.files.empty() ? "" : code.files[0].name(), 1, 1}, "holds no DEF",
+                   "name the .src file that holds the program, or write DEF NAME() .. END");
+    else
+      problems.add({code.files.empty() ? "" : code.files[0].name(), 1, 1},
+                   fmt::format("has no routine '{}'", options.routine),
+                   names.empty() ? "give the .src file too" : fmt::format("name one of: {}", fmt::join(names, ", ")));
     return;
   }
   explore(

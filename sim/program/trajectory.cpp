@@ -108,7 +108,7 @@ class Columns {
     bool points = false;
     for (const auto& [name, line, column] : cells) {
       if (number_in(name))
-        return refuse("begins with numbers", "put a line of names first: time, axis 1, axis 2, ...");
+        return refuse("begins with numbers", "put a line of names first: time, axis 1, axis 2 and so on");
       const ColumnName read = column_name(name);
       if (read.kind == ColumnName::Kind::time && !time_) {
         time_ = names_.size();

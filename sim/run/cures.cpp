@@ -12,7 +12,7 @@
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
-#include "pipeline/job/setup.h"
+#include "pipeline/job/line_key.h"
 #include "sim/run/equilibrium.h"
 
 namespace dresslife::sim {
@@ -38,8 +38,7 @@ std::string in_words(double value, const std::string& unit) {
 std::string at_least_metres(double value) { return fmt::format("{:.3f}", std::ceil(1e3 * value) / 1e3); }
 
 std::string key_of(const pipeline::Setup& setup, int dresspack, const std::string& key) {
-  const bool list = setup.dresspacks.size() > 1 || !setup.dresspacks.front().name.empty();
-  return list ? fmt::format("dresspacks[{}].{}", dresspack + 1, key) : key;
+  return pipeline::line_key(setup, static_cast<std::size_t>(dresspack), key);
 }
 
 const pipeline::MountedDresspack& mounted_of(const CheckedMotion& motion, const Check& check) {

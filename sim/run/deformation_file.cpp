@@ -40,7 +40,7 @@ class Reader {
         length_(setup.dresspacks.front().routing.free_length),
         segment_(length_ / setup.simulation.segments),
         stiffness_(axial_stiffness(setup.dresspacks.front().dresspack)) {
-    pipeline::CsvReader reader(pipeline::read_text(setup.motion.deformation), file_, ",");
+    pipeline::CsvReader reader(pipeline::read_text(setup.motion.deformation), file_);
     for (CsvRow cells = reader.next(); !cells.empty(); cells = reader.next()) {
       line_ = reader.line();
       columns_.empty() ? read_header(cells) : read_row(cells);

@@ -37,7 +37,7 @@ constexpr double smallest_dot = 0.5;
 class Rows {
  public:
   explicit Rows(const std::filesystem::path& file) : where_{file.string(), 0, 0} {
-    pipeline::CsvReader reader(pipeline::read_text(file), file.string(), ",");
+    pipeline::CsvReader reader(pipeline::read_text(file), file.string());
     for (CsvRow cells = reader.next(); !cells.empty(); cells = reader.next()) {
       where_.line = reader.line();
       add(cells);

@@ -309,7 +309,7 @@ std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const R
                     "simulation.periodic_tolerance_mm {:.3g}); the last repeat is evaluated",
                     summary.repeats, 1e3 * summary.distance, 1e3 * settings.periodic_tolerance),
         "friction and contact leave the dresspack several resting places",
-        fmt::format("simulation.most_repeats: {}, or simulation.periodic_tolerance_mm: {:.2g} if repeats may differ so",
+        fmt::format("simulation.most_repeats: {}, or simulation.periodic_tolerance_mm: {:g} if repeats may differ so",
                     std::min(1000, 2 * settings.most_repeats), std::ceil(2e4 * summary.distance) / 10)));
   warnings = pipeline::joined(std::move(warnings), one_link_warnings(simulation.setup()));
   return pipeline::joined(

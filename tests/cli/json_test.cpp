@@ -19,11 +19,15 @@ for row, cells in zip(rows, table):
         assert not isinstance(row[key], float) or row[key] == float(text), key
 job = json.load(open("job.json"))
 assert job["routing"]["free_length_m"] == 0.9 and job["motion"]["clamp_poses"].endswith("poses.csv")
+dry = json.load(open("dry.json"))
+assert [job["job"] for job in dry] == sorted(row["job"] for row in rows) and all(job["state"] != "done" for job in dry)
+assert json.load(open("nothing.json")) == []
 assert json.load(open("states.json")) == [{"job": row["job"], "state": "done"} for row in sorted(rows, key=lambda r: r["job"])]
 )");
   const std::string program = "'" DRESSLIFE_BIN_DIR "/dresslife'";
   const Outcome outcome = run_shell(
-      scratch, "set -e; " + program + " run study.yaml --json --quiet >ranking.json; " + program +
+      scratch, "set -e; " + program + " run study.yaml --json --quiet -n >dry.json; " + program +
+                   " run study.yaml --json --quiet >ranking.json; " + program + " run study.yaml --json --quiet -n >nothing.json; " + program +
                    " show job.yaml --json >job.json; " + program + " status study.yaml --json >states.json; python3 compare.py");
   CHECK(outcome.err == "");
   CHECK(outcome.status == 0);

@@ -1,5 +1,8 @@
 // Every warning of a stage, from jobs that provoke it to where people look.
 
+#include <regex>
+#include <set>
+
 #include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
 #include "tests/catch.h"
@@ -63,7 +66,58 @@ std::vector<Warning> warnings_in(const fs::path& life) {
       FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("warnings"));
 }
 
+/// Lines of a job that the remedies of warnings propose: "strain.friction_factor: 2.5".
+std::set<std::string> lines_in(const std::string& warnings) {
+  static const std::regex line(R"(([a-z][a-zA-Z_0-9]*(\.[a-zA-Z_0-9]+)+: )(\[[^\]]*\]|[^ ,;()]+))");
+  std::set<std::string> lines;
+  for (std::size_t at = 0; (at = warnings.find("Remedy: ", at)) != std::string::npos; ++at) {
+    const std::string remedy = warnings.substr(at, warnings.find('\n', at) - at);
+    for (std::sregex_iterator found(remedy.begin(), remedy.end(), line), end; found != end; ++found)
+      lines.insert(found->str(1) + found->str(3));
+  }
+  return lines;
+}
+
 }  // namespace
+
+TEST_CASE("a remedy is a line that the job takes: of a shipped dresspack, of one of several, of a part of a cable") {
+  const Scratch scratch;
+  write_jobs(scratch);
+  const std::string job = content(scratch / "robot.yaml");
+  const std::size_t begin = job.find("dresspack:"), routing = job.find("routing:"), end = job.find("simulation:");
+  const std::string shipped = job.substr(0, begin) + "dresspack: handling\n" + job.substr(routing);
+  std::string nested = job.substr(routing, end - routing);
+  for (std::size_t at = 0; (at = nested.find('\n', at)) != std::string::npos; at += 5) nested.replace(at, 1, "\n    ");
+  const std::string several =
+      job.substr(0, begin) + "dresspacks:\n  - name: main hose\n    dresspack: handling\n    " + nested + "\n" + job.substr(end);
+  const auto tight = [](const std::string& pack) {  // no room for so much
+    return fmt::format("{0}.components.2.slack_percent: 2\n{0}.components.2.play_mm: 0.5\n", pack);
+  };
+  std::size_t pasted = 0;
+  for (const auto& [text, pack] : {std::pair{shipped, std::string("dresspack")}, {several, std::string("dresspacks.1.dresspack")}}) {
+    scratch.write("job.yaml", text + tight(pack));
+    const Outcome before = run(scratch, "dresslife", "run job.yaml --set strain.slip=friction");
+    CAPTURE(text, before.out, before.err);
+    REQUIRE(before.status == 0);
+    CHECK(before.err.find(pack + ".components.2: 'control cable' is compressed with ") != std::string::npos);
+    std::set<std::string> lines = lines_in(before.err);
+    CHECK(std::any_of(lines.begin(), lines.end(),
+                      [&](const std::string& of) { return of.starts_with(pack + ".components.2.slack_percent: 0.0"); }));
+    lines.insert(pack + ".components.2.slack_percent: 0.12");  // of the warning whose place is that part
+    for (const std::string& remedy : lines) {
+      const std::string key = remedy.substr(0, remedy.find(':') + 1);
+      std::string changed = content(scratch / "job.yaml");
+      if (const std::size_t at = changed.find(key); at != std::string::npos)
+        changed.erase(at, changed.find('\n', at) + 1 - at);
+      scratch.write("pasted.yaml", changed + remedy + "\n");
+      const Outcome after = run(scratch, "dresslife", "check pasted.yaml");
+      CAPTURE(remedy, after.out, after.err);
+      CHECK((after.status == 0 || after.out.find("The simulation refuses the job: ") != std::string::npos));
+      ++pasted;
+    }
+  }
+  CHECK(pasted >= 4);
+}
 
 TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv and the report") {
   struct Provoked {

@@ -54,6 +54,15 @@ const std::string module =
 
 const std::string study = "base: job.yaml\nvary:\n  routing.free_length_m: [2.0, 2.1]\n";
 
+const std::string axes =
+    "t_s,joint_1_deg,joint_2_deg,joint_3_deg,joint_4_deg,joint_5_deg,joint_6_deg\n0,0,0,0,0,30,0\n1,20,0,0,0,60,90\n2,0,0,0,0,30,0\n";
+const std::string fleet = "name,routing.free_length_m\nR1,2.03\nR2,2.05\n";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
+  return text;
+}
+
 struct Wrong {
   std::string in;              ///< file that is changed
   std::string from, to;        ///< in it; from empty: the file becomes `to`
@@ -63,6 +72,7 @@ struct Wrong {
   int status = 1;
 };
 
+const std::string run_fleet = "dresslife run fleet.yaml";
 const std::string draw = "dresslife draw hose.yaml", run_study = "dresslife run study.yaml", draw_job = "dresslife draw job.yaml";
 std::string free_as(const std::string& range) { return "dresslife improve job.yaml --trials 2 --free '" + range + "'"; }
 
@@ -145,6 +155,41 @@ const Wrong wrong[] = {
     {"job.yaml", "dwell_s: 0.5", "dwell_s: -0.5", "job.yaml:8:29: error: ", "motion.steps[3].dwell_s is -0.5 (must be >= 0 s)", "; "},
     {"hose.yaml", "count: 4", "count: 4.5", "hose.yaml:13:12: error: ", "count is 4.5 (must be a whole number)", "; ", draw},
     {"hose.yaml", "count: 4\n", "count: 400\n", "hose.yaml:12:5: error: ", "the 400 parts 'lead' are 0.2199 mm apart", "give count: 10 or less", draw},
+    // Spreadsheets, units and typing habits
+    {"job.yaml", "free_length_m: 2.035", "free_length_m: 2,035", "job.yaml:13:18: error: ", "'2,035' (must be a number", "write 2.035 with a point"},
+    {"job.yaml", "free_length_m: 2.035", "free_length_m: \"2.035\"", "job.yaml:13:18: error: ", "'2.035' (must be a number", "; "},
+    {"job.yaml", "position_m: [-0.1, 0", "position_m: [\xE2\x88\x92" "0.1, 0", "job.yaml:11:43: error: ", "(must be a number", "; "},
+    {"job.yaml", "dwell_s: 0.5", "dwell_ms: 500", "job.yaml:8:", "unknown key", "; ", "dresslife-sim job.yaml --preview -o out.h5"},
+    {"job.yaml", "simulation: {", "simulation: {gravity_m_per_s2: [0, 0, -9810], ", "job.yaml:14:", "gravity_m_per_s2 is -9810 (its size must be 0 .. 1000 m/s2)", "; "},
+    {"job.yaml", "simulation: {", "simulation: {time_step_ms: 0.005, ", "job.yaml:14:", "time_step_ms is 0.005 (must be 0.01 .. 20 ms)", "; "},
+    {"job.yaml", "simulation: {", "motion.acceleration_percent: 0.5\nsimulation: {", "job.yaml:14:", "acceleration_percent is 0.5 (must be 1 .. 100 %)", "; "},
+    {"job.yaml", "simulation: {", "routing.free_lenght_m: 2\nsimulation: {", "job.yaml:14:", "unknown key 'routing.free_lenght_m'", "did you mean 'free_length_m'?"},
+    {"job.yaml", "simulation: {", "dresspack.components.7.count: 2\nsimulation: {", "job.yaml:14:", "'7' of dresspack.components.7.count is not an item", "items count from 1 to 1"},
+    {"job.yaml", "simulation: {", "motion.program: spot.mod\nsimulation: {", "job.yaml:", "(it has steps and program)", "keep one of them"},
+    {"job.yaml", "", std::string("PK\x03\x04 a spreadsheet"), "job.yaml:1:1: error: ", "holds no job", "; "},
+    {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 1,2", "hose.yaml:5:16: error: ", "'1,2' (must be a number", "write 1.2 with a point", draw},
+    {"hose.yaml", "slack_percent: 1", "slack_percent: -1", "hose.yaml:16:20: error: ", "slack_percent is -1", "; ", draw},
+    {"hose.yaml", "radius_mm: 4.1", "radius_mm: 8.2", "hose.yaml:12:5: error: ", "1.2 mm outside the hose's bore", "helix_radius_mm: 12.8 or less", draw},
+    {"hose.yaml", "helix_radius_mm: 14", "helix_radius_mm: 0.014", "hose.yaml:12:5: error: ", "inside the core", "; ", draw},
+    {"hose.yaml", "name: lead", "name: lead/1", "hose.yaml:12:5: error: ", "holds a '/'", "choose another name", draw},
+    {"hose.yaml", "count: 19, radius_mm: 0.1", "count: 19, radius_mm: 1", "hose.yaml:18:101: error: ", "outside it", "check helix_radius_mm and radius_mm", draw},
+    {"cable.yaml", "outer diameter 8.2 mm", "outer diameter 8,2 mm", "cable.yaml:6:17: error: ", "'outer diameter 8' of a data sheet", "; ", "dresslife draw cable.yaml"},
+    {"cable.yaml", "outer diameter 8.2 mm", "outer diameter 82 mm", "cable.yaml:6:17: error: ", "times its conductor", "check outer_diameter_mm: 82", "dresslife draw cable.yaml"},
+    {"cable.yaml", "wire 0.1 mm", "wire 1 mm", "cable.yaml:6:17: error: ", "0.5 mm2 are 0.637 wires of 1 mm", "check cross_section_mm2", "dresslife draw cable.yaml"},
+    {"cable.yaml", "wire 0.1 mm", "wire 0.001 mm", "cable.yaml:6:17: error: ", "wires of 0.001 mm", "check cross_section_mm2", "dresslife draw cable.yaml"},
+    {"cable.yaml", "7 x 0.5 mm2", "7 x AWG 20", "cable.yaml:6:17: error: ", "'7 x awg 20' of a data sheet is not understood", "; ", "dresslife draw cable.yaml"},
+    {"cable.yaml", "jacket 1.1 mm", "jacket 11 mm", "cable.yaml:6:17: error: ", "leaves no room in 8.2 mm", "check jacket_thickness_mm", "dresslife draw cable.yaml"},
+    {"axes.csv", "", replaced(replaced(axes, ",", ";"), "30;0", "30,5;0"), "axes.csv:2:1: error: ", "has no number in cell 6", "; ", "dresslife-sim axes.yaml --preview -o out.h5"},
+    {"axes.csv", "", replaced(axes, "_deg", "_rad"), "axes.csv:2:1: error: ", "turns joint_5 to 1718.87 deg", "; ", "dresslife-sim axes.yaml --preview -o out.h5"},
+    {"axes.csv", "", replaced(axes, "1,20", "3,20"), "axes.csv:4:1: error: ", "has the time 2 s, not after the one before", "; ", "dresslife-sim axes.yaml --preview -o out.h5"},
+    {"axes.csv", "", replaced(axes, "1,20", "1,#REF!"), "axes.csv:3:1: error: ", "has no number in cell 2", "; ", "dresslife-sim axes.yaml --preview -o out.h5"},
+    {"axes.csv", "", axes.substr(axes.find('\n') + 1), "axes.csv:1:1: error: ", "begins with numbers", "put a line of names first", "dresslife-sim axes.yaml --preview -o out.h5"},
+    {"axes.csv", "", replaced(replaced(axes, "joint_6_deg", "joint_6_deg,joint_7_deg"), "30,0", "30,0,0"), "axes.csv:3:1: error: ", "has 7 cells (there are 8 names)", "; ", "dresslife-sim axes.yaml --preview -o out.h5"},
+    {"fleet.csv", "", "PK\x03\x04", "fleet.csv: error: ", "is no text in UTF-8", "save it as CSV in UTF-8", run_fleet},
+    {"fleet.csv", "name,", "Name,", "fleet.csv:1:1: error: ", "the table has no column 'name' (it has 'Name')", "write 'name' instead of 'Name'", run_fleet},
+    {"fleet.csv", "R1,2.03", "R1,2,03", "fleet.csv:2:6: error: ", "a row of 3 cells (the table has 2 columns)", "; ", run_fleet},
+    {"fleet.csv", "R2", "R1", "fleet.csv:3:1: error: ", "'R1' is the name of line 2", "; ", run_fleet},
+    {"fleet.csv", "free_length_m", "free_length_m,", "fleet.csv:1:28: error: ", "a column has no title", "; ", run_fleet},
     // What a search may change
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.lenght=2.05: error: unknown key 'routing.lenght'", "mend `free`, or --free", free_as("routing.lenght=2 .. 2.1")},
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.free_length_m=2050: error: ", "mend `free`, or --free", free_as("routing.free_length_m=2000 .. 2100")},
@@ -162,6 +207,10 @@ void write_inputs(const Scratch& scratch) {
   scratch.write("spot.mod", module);
   const std::size_t motion = job.find("motion:"), after = job.find("dresspack:");
   scratch.write("module.yaml", job.substr(0, motion) + "motion: {program: spot.mod}\n" + job.substr(after));
+  scratch.write("axes.yaml", job.substr(0, motion) + "motion: {program: axes.csv}\n" + job.substr(after));
+  scratch.write("axes.csv", axes);
+  scratch.write("fleet.yaml", "base: job.yaml\ntable: fleet.csv\n");
+  scratch.write("fleet.csv", fleet);
   scratch.write("study.yaml", study);
   scratch.write("cable.yaml",
                 "name: c\nsource: a data sheet\ncomponents:\n  - name: cable\n    helix_radius_mm: 0\n"
@@ -173,7 +222,8 @@ void write_inputs(const Scratch& scratch) {
 TEST_CASE("the inputs that are changed below are accepted as they are") {
   const Scratch scratch;
   write_inputs(scratch);
-  for (const char* command : {"dresslife-sim job.yaml --preview -o out.h5", "dresslife-sim module.yaml --preview -o out.h5"}) {
+  for (const char* command : {"dresslife-sim job.yaml --preview -o out.h5", "dresslife-sim module.yaml --preview -o out.h5",
+                              "dresslife-sim axes.yaml --preview -o out.h5", "dresslife run -n fleet.yaml"}) {
     const std::string words = command;
     const Outcome outcome = run(scratch, words.substr(0, words.find(' ')), words.substr(words.find(' ') + 1));
     INFO(outcome.err);
@@ -195,7 +245,7 @@ TEST_CASE("45 and more plausible wrong inputs: each answer names file, line, pro
       std::string text = content(scratch / one.in);
       const std::size_t at = text.find(one.from);
       REQUIRE(at != std::string::npos);
-      scratch.write(one.in, text.replace(at, one.from.size(), one.to));
+      scratch.write(one.in, one.from.empty() ? one.to : text.replace(at, one.from.size(), one.to));
     }
     const Outcome outcome =
         run(scratch, one.command.substr(0, one.command.find(' ')), one.command.substr(one.command.find(' ') + 1));
@@ -217,7 +267,16 @@ namespace {
 struct Doubtful {
   std::string in, from, to;
   std::string place, problem, remedy;
+  std::string command = "check job.yaml";
 };
+
+/// Settings in the job, before its simulation.
+Doubtful setting(const std::string& keys, const std::string& problem, const std::string& remedy) {
+  return {"job.yaml", "simulation: {", keys + "\nsimulation: {", "", problem, remedy};
+}
+Doubtful simulation_key(const std::string& key, const std::string& problem, const std::string& remedy) {
+  return {"job.yaml", "simulation: {", "simulation: {" + key + ", ", "", problem, remedy};
+}
 
 const Doubtful doubtful[] = {
     {"job.yaml", "30, 0]}\n    - {text: nod, joints_deg: [20, 0, 0, 0, 60, 90]", "0.52, 0]}\n    - {text: nod, joints_deg: [0.35, 0, 0, 0, 1.05, 1.57]", "job.yaml:6:7", "no joint angle of the motion is larger than 1.57 deg (limit 6.28 or more). Likely cause: radians", "joints_deg in degrees"},
@@ -239,6 +298,28 @@ const Doubtful doubtful[] = {
     {"job.yaml", "segments: 24", "segments: 24, sample_rate_Hz: 0.5", "", "simulation.sample_rate_Hz is 0.5 (limit 5 or more)", "simulation.sample_rate_Hz: 25"},
     {"job.yaml", "simulation: {", "strain: {gate: 0.1}\nsimulation: {", "", "strain.gate is 0.1 (limit 0.0005 or less): cycles below it are left out", "strain.gate: 0.001 if"},
     {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack: too long", "routing.free_length_m: 2.857"},
+    simulation_key("gravity_m_per_s2: [0, 0, 9.81]", "the upward part of simulation.gravity_m_per_s2 is 9.81", "simulation.gravity_m_per_s2: [0, 0, -9.81]"),
+    simulation_key("gravity_m_per_s2: [0, 0, -1]", "the size of simulation.gravity_m_per_s2 is 1 (limit 9.71 .. 9.90). Likely cause: multiples of g", "simulation.gravity_m_per_s2: [0, 0, -9.81]"),
+    simulation_key("gravity_m_per_s2: [0, -9.81, 0]", "the upward part of simulation.gravity_m_per_s2 is 0", "a wall or a ceiling"),
+    simulation_key("periodic_tolerance_mm: 1000", "simulation.periodic_tolerance_mm is 1000 (limit 50 or less)", "simulation.periodic_tolerance_mm: 1"),
+    setting("fatigue: {failed_wires_percent: 0.1}", "fatigue.failed_wires_percent is 0.1 (limit 0, or 1 or more)", "fatigue.failed_wires_percent: 10"),
+    setting("fatigue: {robot_life_hours: 10}", "fatigue.robot_life_hours is 10 (limit 1000 or more). Likely cause: years", "fatigue.robot_life_hours: 40000"),
+    setting("fatigue: {operating_hours_per_week: 0.5}", "fatigue.operating_hours_per_week is 0.5 (limit 5 or more)", "fatigue.operating_hours_per_week: 80"),
+    setting("fatigue: {endurance_strain: 0.05}", "fatigue.endurance_strain is 0.05 (limit 0.005 or less)", "fatigue.endurance_strain: 0.0005"),
+    setting("fatigue: {strength_factor: 100}", "fatigue.strength_factor is 100 (limit 0.033 .. 30)", "fatigue.strength_factor: 1 if that was per cent"),
+    setting("strain: {friction_factor: 0.01}", "strain.friction_factor is 0.01 (limit 0.033 .. 30)", "strain.friction_factor: 1"),
+    setting("motion.spot_time_s: 1000", "motion.spot_time_s is 1000 (limit 10 or less). Likely cause: milliseconds", "motion.spot_time_s: 1 if"),
+    setting("motion.zone_deg: 100", "motion.zone_deg is 100 (limit 30 or less)", "motion.zone_deg: 0"),
+    {"job.yaml", "[20, 0, 0, 0, 60, 90]", "[0, 0, 0, 0, 30, 0]", "job.yaml:6:7", "no axis moves by more than 0 deg (limit 0.1 or more)", "joints_deg: the angles of each target"},
+    {"hose.yaml", "diameter_mm: 50\ninner", "diameter_mm: 480\ninner", "hose.yaml:1:1", "diameter_mm is 480 (limits 1 .. 200)", "diameter_mm: 48 if"},
+    {"hose.yaml", "inner_diameter_mm: 42", "inner_diameter_mm: 49.99", "hose.yaml:1:1", "the wall is 0.005 mm thick", "inner_diameter_mm: 42.5 (ESTIMATE)"},
+    {"hose.yaml", "torsional_stiffness_Nm2: 1.6", "torsional_stiffness_Nm2: 0.000016", "hose.yaml:1:1", "torsional_stiffness_Nm2 is 8e-06 times bending_stiffness_Nm2", "torsional_stiffness_Nm2: from_construction"},
+    {"hose.yaml", "damping_source: a guess", "damping_source: a guess\nleast_bend_radius_mm: 5000", "hose.yaml:1:1", "least_bend_radius_mm is 5000 (limit 2000: 40 diameters)", "least_bend_radius_mm: 500 if"},
+    {"hose.yaml", "slack_percent: 1", "slack_percent: 15", "hose.yaml:12:5", "slack_percent of 'lead' is 15 (limit 5). Likely cause: millimetres in a metre", "slack_percent: 1.5"},
+    {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 30\n    radial_line_load_N_per_m: 5", "hose.yaml:12:5", "friction_coefficient of 'lead' is 30 (limit 1.5)", "friction_coefficient: 0.3"},
+    {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    base_grip_N: 1e9", "hose.yaml:12:5", "base_grip_N of 'lead' is 1e+09 (limit 100000)", "no base_grip_N"},
+    {"axes.csv", "", replaced(replaced(axes, "\n1,", "\n1000,"), "\n2,", "\n2000,"), "axes.csv:2:1", "no axis is faster than 0.09 deg/s", "times in seconds", "check axes.yaml"},
+    {"axes.csv", "", replaced(replaced(axes, "20,0,0,0,60,90", "0.35,0,0,0,1.05,1.57"), "30,0", "0.52,0"), "axes.csv:2:1", "no joint angle of the motion is larger than 1.57 deg", "joints_deg in degrees", "check axes.yaml"},
     {"job.yaml", "direction: [1, 0, -0.35]", "direction: [-1, 0, 0.35]", "", "smallest bend radius at rest: 52.2 mm", "direction"},
 };
 
@@ -268,9 +349,9 @@ TEST_CASE("plausible mistakes that make a job are warned of, with place, limit a
       std::string text = content(scratch / one->in);
       const std::size_t at = text.find(one->from);
       REQUIRE(at != std::string::npos);
-      scratch.write(one->in, text.replace(at, one->from.size(), one->to));
+      scratch.write(one->in, one->from.empty() ? one->to : text.replace(at, one->from.size(), one->to));
     }
-    return run(scratch, "dresslife", "check job.yaml");
+    return run(scratch, "dresslife", one ? one->command : "check job.yaml");
   };
   CHECK(checked(nullptr).out.find("warning: ") == std::string::npos);
   for (const Doubtful& one : doubtful) {
@@ -279,6 +360,24 @@ TEST_CASE("plausible mistakes that make a job are warned of, with place, limit a
     CHECK_THAT(outcome.out, Contains(one.place + (one.place.empty() ? "" : ": ") + "warning: ") && Contains(one.problem) &&
                                 Contains("Remedy: ") && Contains(one.remedy));
   }
+}
+
+TEST_CASE("files as other systems write them are read: byte order marks, line ends, letters, separators") {
+  const auto is_quiet = [](const std::string& file, const std::string& text, const std::string& command) {
+    const Scratch scratch;
+    write_inputs(scratch);
+    scratch.write(file, text);
+    const Outcome outcome = run(scratch, "dresslife", command);
+    CAPTURE(file, text, outcome.out, outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK(outcome.out.find("warning: ") == std::string::npos);
+  };
+  for (const std::string& text : {"\xEF\xBB\xBF" + job, replaced(job, "\n", "\r\n"), replaced(job, "name: nod", "name: \xC3\x96" "ffnen")})
+    is_quiet("job.yaml", text, "check job.yaml");
+  for (const std::string& text : {"\xEF\xBB\xBF" + axes, replaced(axes, "\n", "\r\n"), replaced(axes, ",", ";"), replaced(axes, ",", "\t")})
+    is_quiet("axes.csv", text, "check axes.yaml");
+  for (const std::string& text : {"\xEF\xBB\xBF" + fleet, replaced(fleet, "\n", "\r\n"), replaced(fleet, ",", ";"), fleet + "\n,\n"})
+    is_quiet("fleet.csv", text, "run -n fleet.yaml");
 }
 
 TEST_CASE("a misspelt option is answered with the nearest one, a dry run names jobs that are refused") {

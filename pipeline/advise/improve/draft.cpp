@@ -130,6 +130,7 @@ Draft draft_of(const RouteRequest& request) {
   if (draft.document.find("dresspacks"))
     throw InputError(draft.document.find("dresspacks")->where, "a routing is proposed for one dresspack",
                      "name a job with dresspack and routing");
+  apply_lines(draft.document);
   if (!draft.document.find("robot")) refuse_other_kind(draft.document, DocumentKind::job);
   if (!draft.document.find("robot"))
     throw InputError(draft.document.where, "robot is missing", "name a robot, or a job that has one");

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
@@ -201,6 +202,22 @@ TEST_CASE("set: a catalogue entry may be named, and a key inside a named entry s
       job_from(parse_yaml(from, "job.yaml"), {"strain.slip=free", "dresspack.components.1.count=5"});
   CHECK(other.dresspacks[0].dresspack.components[0].count == 5);
   CHECK(other.dresspacks[0].dresspack.components[0].components.size() == 1);
+}
+
+TEST_CASE("lines: a key path at the first level of a job sets one key, a whole before its parts, --set goes over it") {
+  const std::string named = edited(sample_job, dresspack_block, "dresspack: absent\n");
+  const std::string lines = "dresspack.components.1.count: 5\ndresspack: spot_welding\nsimulation.segments: 31\n";
+  const std::string whole = edited(named, "dresspack: absent\n", "") + lines;
+  const Job job = job_from(parse_yaml(whole, "job.yaml"), {"strain.slip=free"});
+  CHECK(job.dresspacks[0].dresspack.components[0].count == 5);
+  CHECK(job.dresspacks[0].dresspack.components[0].components.size() == 1);
+  CHECK(job.simulation.segments == 31);
+  CHECK(job_from(parse_yaml(whole, "job.yaml"), {"strain.slip=free", "simulation.segments=32"}).simulation.segments == 32);
+  CHECK_THROWS_WITH(job_from(parse_yaml(whole + "simulation.segmets: 3\n", "job.yaml")),
+                    Catch::Contains("unknown key 'simulation.segmets'; did you mean 'segments'?"));
+  Node study = parse_yaml(whole, "job.yaml");
+  set_value(study, "simulation.segments", parse_yaml("33", "study.yaml"), {"study.yaml"});
+  CHECK(job_from(study, {"strain.slip=free"}).simulation.segments == 33);  // a study's change goes over the job's line
 }
 
 TEST_CASE("set: 'from' itself can be set") {

@@ -308,6 +308,22 @@ TEST_CASE("ranking: the hose's wall has columns and a line of its own and does n
   CHECK(unvalidated_life(5.7e10) == "more than 1,000,000 h");
 }
 
+TEST_CASE("ranking: a wall's life by a law that contradicts the published test is called not credible") {
+  UnvalidatedMode wall;
+  wall.mode = UnvalidatedMode::wall;
+  wall.hours[1] = 0.37;
+  const auto words = [&](double bends, double hours) {
+    wall.bends_at_limit = bends, wall.hours[1] = hours;
+    return unvalidated_words(unvalidated_from(unvalidated_text({wall}))[0]);
+  };
+  CHECK(words(1.08e6, 0.37).find("By the model it is 0.370 h. This number is not credible, and no plan should rest on it: the same law "
+                                 "gives 1,080,000 bends from straight to the limit of the bend radius, and a published hose endured "
+                                 "16,000,000 without damage. Keep the maker's bend radius.") != std::string::npos);
+  CHECK(words(17e6, 0.37).find("credible") == std::string::npos);  // the law agrees with the test
+  CHECK(words(0, 0.37).find("credible") == std::string::npos);     // not known, as in older files
+  CHECK(words(1.08e6, 2e5).find("credible") == std::string::npos);
+}
+
 TEST_CASE("ranking: abrasion has words and columns, and the first action names it where it may come first") {
   const Scratch scratch;
   UnvalidatedMode worn;

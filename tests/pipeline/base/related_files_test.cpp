@@ -1,0 +1,25 @@
+// Which files beside a program it can reach.
+#include "pipeline/base/related_files.h"
+
+#include <algorithm>
+
+#include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
+
+using namespace dresslife::pipeline;
+
+TEST_CASE("related files: what a program names in whole words, what those name, and the controller's own") {
+  const Scratch scratch;
+  const auto file = [&](const std::string& name, const std::string& text) { return scratch.write(name, text); };
+  const auto program = file("weld.src", "DEF weld()\nPTP position\n grip(1)\nLIN {X 1,Y 2}\nEND\n");
+  const auto called = file("tongs.src", "GLOBAL DEF grip(x:IN)\nPTP xopen\nEND\n");
+  const auto of_called = file("points.dat", "DEFDAT points PUBLIC\nDECL GLOBAL E6POS xopen={X 1,Y 2}, xshut={X 2,Y 3}\nENDDAT\n");
+  const auto own_data = file("weld.dat", "DEFDAT weld\nENDDAT\n");
+  const auto config = file("$config.dat", "DEFDAT $config\nENDDAT\n");
+  // Its names are parts of words of the program, and its arguments and contents are words of the program.
+  const auto unrelated = file("on.src", "DEF on(position:IN)\nEND\nGLOBAL E6POS xfar={X 1,Y 2}\n");
+  const auto found = related_files({program}, {called, of_called, own_data, config, unrelated});
+  std::vector<std::filesystem::path> expected{called, of_called, own_data, config};
+  std::sort(expected.begin(), expected.end());
+  CHECK(found == expected);
+}
