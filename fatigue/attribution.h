@@ -14,7 +14,7 @@
 // others: without its motion the cycle would have been larger.
 // `explained`, the share of the strain's variance that f takes up, says how far to trust this.
 //
-// Joints that always move together cannot be told apart by any motion; a weak ridge then shares out evenly.
+// No motion distinguishes joints that always move together. A weak ridge then divides the damage evenly among them.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// What the strains of cables ask of them and of their clamps, by the metals of the job (strain/README.md,
-// W37): told, and warned of, beside the lives that rest on them.
+// Forces on cables and clamps that follow from the strains of cables and the metals of the job ((W37) in
+// strain/theory.md). They are results and cause warnings, because the lives depend on them.
 #pragma once
 
 #include <vector>

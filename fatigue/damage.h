@@ -42,9 +42,9 @@ std::vector<double> stress_along(std::span<const double> strain, const pipeline:
 /// (10) over listed cycles.
 double sum_of_damage(std::span<const DamagingCycle> cycles);
 
-/// The two samples on which a cycle's damage may be put: where its range opens, and where it has been run
-/// through. (The loop itself closes later, when the strain next comes back to the cycle's begin.) Both
-/// placings hold the whole damage; who asks what costs the life puts half of it on each.
+/// The two samples to which a cycle's damage may be assigned: where its range opens, and where the range is complete.
+/// (The loop itself closes later, when the strain returns to the cycle's begin.) Both assignments contain the whole
+/// damage. The share of a program line is the mean of the two.
 enum class Moment { opens, closes };
 
 /// Damage placed in time, (sample).

@@ -12,7 +12,7 @@
 
 namespace dresslife::fatigue {
 
-/// Shares of all dresspacks that have failed by the life that is told.
+/// Shares of all dresspacks that have failed by the stated life.
 constexpr std::array<double, 3> percentiles{0.1, 0.5, 0.9};
 using Percentiles = std::array<double, percentiles.size()>;
 

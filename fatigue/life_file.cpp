@@ -433,7 +433,7 @@ void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles,
   c.life.attribute("worst_joint_share", total > 0 ? by_joint.damage[most] / total : 0);
 }
 
-/// What is told of a worst site: of the wires, or of the hose's wall.
+/// Results of a worst site: of the wires, or of the hose's wall.
 struct Worst {
   double damage = 0, repeats = life_in_repeats(0), life_hours = repeats, life_months = repeats;
   double segment_from_tool = 0, position_from_tool = 0, time = 0;

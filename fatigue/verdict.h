@@ -52,8 +52,8 @@ class SiteCounters {
   std::span<const int> component_, material_;  // (site)
 };
 
-/// Damage of all sites, on `threads` threads: each site's is worked out alone, so that any number gives the
-/// same. progress is told the share done.
+/// Damage of all sites, on `threads` threads. Each site is computed alone, so any number of threads gives the same
+/// result. progress is called with the share that is done.
 SiteDamage damage_of(const SiteSet& sites, const SiteCounters& counters, std::size_t threads,
                      const std::function<void(double)>& progress);
 
@@ -62,8 +62,8 @@ SiteDamage damage_of(const SiteSet& sites, const SiteCounters& counters, std::si
 std::vector<std::size_t> worst_by_group(const SiteDamage& all, std::size_t groups,
                                         const std::function<std::size_t(std::size_t)>& group_of);
 
-/// (F24) Where mean stress falls from repeat to repeat, damage_of() told each site's damage with the share of
-/// it that its outermost loop lets expect. Here the worst site of each group gets 1 / life (F23), and the
+/// (F24) Where mean stress falls from repeat to repeat, damage_of() gives each site's damage with the share that
+/// follows from its outermost loop. Here the worst site of each group gets 1 / life (F23), and the
 /// others of the group change by the same factor. strains_of(site): its reversals'.
 void settle(SiteDamage& all, const SiteCounters& counters, std::size_t groups,
             const std::function<std::size_t(std::size_t)>& group_of,

@@ -1,8 +1,7 @@
-// Of every program of ours, and of no test: an allocation that fails ends it with one line and exit status 1,
-// whoever asked. The libraries that allocate - HDF5, the YAML parser, the C library - do not survive it halfway or
-// take it for a damaged file.
+// In every program, not in tests: a failed allocation ends the program with one line and exit status 1, in our code
+// and in libraries. HDF5, the YAML parser and the C library do not survive it, or report a damaged file.
 //
-// These functions stand before the C library's own (and before a library that is preloaded, which is called in turn).
+// These functions replace those of the C library. They call those of a preloaded library.
 #include <dlfcn.h>
 
 #include <atomic>
@@ -24,7 +23,7 @@ void* __libc_memalign(std::size_t, std::size_t);
 
 namespace {
 
-/// More than any machine has: who asks for it has read a damaged number, and knows how to say so.
+/// More than any machine has. The caller has read a damaged number and reports it.
 constexpr std::size_t absurd_bytes = std::size_t{1} << 46;
 
 thread_local bool looking_up = false;  // dlsym() may allocate

@@ -508,9 +508,9 @@ void CablePaths::slide(Cable& cable) {
   cable.grip_slip = {line.travel_at_base() - before[0], line.travel_at_tool() - before[1]};
 }
 
-/// Strains that make forces. A cable's force grows with its strain, so the largest of it has the largest strain. Its wires
-/// are strained by its twist, too: one that shortens as much as that asks for (a weight hangs on it, not a second clamp)
-/// pulls at nothing.
+/// Strains that cause forces. A cable's force grows with its strain, so the largest strain gives the largest force.
+/// Twist also strains its wires. A cable that shortens by this amount has no force (a weight at its end instead of a
+/// second clamp).
 void CablePaths::ask_for_forces() {
   const std::size_t last = lengths_.size() - 1;
   for (Cable& cable : cables_) {

@@ -1,10 +1,10 @@
-// How the cables of one span move, pull and stretch between its two clamps (README W32 to W37): all that is
-// known of parts of the first level that hold parts and slide, before the wires in them are looked at.
+// Path, force and elongation of the cables of one span between its two clamps ((W32) to (W37) in strain/theory.md).
+// Cables are the parts of the first level that hold parts and slide. Their wires are evaluated later.
 //
-// A cable at its place has the path that its place gives it (W5); a loose one lies where it rests (loose/).
-// Either slides along its path under friction and grips (sliding_line.h). What force its strain makes is for
-// whoever knows its metal (pipeline/cable/cable_pulls.h). What clamps and friction keep in memory is that of a
-// motion repeated for long: it is gone through twice, and the second time counts.
+// A cable with a fixed place has the path of this place (W5). A loose cable has the path on which it rests (loose/).
+// Both slide along their paths under friction and grips (sliding_line.h). pipeline/cable/cable_pulls.h computes the
+// force from the strain, because it knows the metal. The memory of clamps and friction is that of a motion that was
+// repeated many times: the motion is computed twice, and the second time counts.
 #pragma once
 
 #include <array>
@@ -100,8 +100,8 @@ class CablePaths {
   std::array<double, 2> grip_slip(std::size_t cable) const { return cables_[cable].grip_slip; }
   /// Radius of the helix into which it can wind [m]; 0: it is held.
   double room(std::size_t cable) const { return cables_[cable].room; }
-  /// What its path gains over the motion, over its length as it was laid in, without its slack: the least, where it
-  /// goes as far outward in each bend as its room allows, and the most, where it goes inward. Cables of a ring move by
+  /// Growth of its path over the motion, relative to its length as installed, without its slack: the least, if it
+  /// goes as far outward in each bend as its room allows, and the most, if it goes inward. Cables of a ring move by
   /// the gap to their neighbours only. Twist counts by what it would take from the cable's length. A slack between
   /// the two is neither too long nor too short at any time.
   const std::array<double, 2>& path_gain(std::size_t cable) const { return cables_[cable].path_gain; }

@@ -73,7 +73,7 @@ struct Bundle {
 
 class Construction {
  public:
-  /// Errors: InputError for wires that could not be told apart, several parts on one axis, nesting beyond
+  /// Errors: InputError for wires with equal names, several parts on one axis, nesting beyond
   /// highest_level.
   Construction(const pipeline::Dresspack& dresspack, pipeline::Kinematics kinematics,
                const pipeline::StrainFactors& factors = {});

@@ -121,7 +121,7 @@ class Evaluation {
   std::string name_of_cable(std::size_t cable) const {
     return (place_.name.empty() ? "" : place_.name + "/") + cables_.name(cable);
   }
-  /// Likewise, without numbers: "signal cable/conductor/layer 1/wire".
+  /// The same of a layer, without numbers: "signal cable/conductor/layer 1/wire".
   std::string name_of_layer(int layer) const;
   std::size_t dresspack() const { return place_.dresspack; }
   /// What the cables do. Precondition: end_first_pass(), or evaluate(), which does the same.
@@ -182,8 +182,8 @@ class Evaluation {
   /// One way of sliding and what it needs.
   struct Bound {
     ClampMeans means;
-    /// Every level of the job itself slips so: the job's own sites are the bound, and the list is read by nobody who
-    /// wants the worst wire.
+    /// Every level of the job slips in this way. Then the job's own sites are the bound, and the list is not needed
+    /// for the worst wire.
     bool own;
     std::vector<std::array<float, Worst::sums.size()>>
         most{};  ///< (layer) the largest sums in the segments so far

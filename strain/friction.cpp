@@ -43,7 +43,7 @@ void hold(const std::vector<double>& deviations, int powers, std::size_t stride,
   }
 }
 
-/// Level of the nearest helical ancestor of the last part of `line`; 0: the part itself, or nobody.
+/// Level of the nearest helical ancestor of the last part of `line`; 0: the part itself, or there is none.
 int turned_level(const Construction& construction, const std::vector<int>& line) {
   for (int k = static_cast<int>(line.size()) - 1; k >= 0; --k) {
     const Layer& layer = construction.layers()[construction.parts()[line[k]].layer];

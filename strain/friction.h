@@ -112,7 +112,7 @@ class HeldStrains {
   struct Rows {
     int part = nobody;
     std::vector<double> own;                                   ///< (power, sample)
-    std::array<std::vector<double>, phases_per_pitch> turned;  ///< empty when nobody asks for them
+    std::array<std::vector<double>, phases_per_pitch> turned;  ///< empty: not needed
   };
 
   bool any_turned() const;

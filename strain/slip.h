@@ -46,7 +46,7 @@ struct LayerSlip {
 std::vector<LayerSlip> plan_slip(const Construction& construction, const std::vector<pipeline::Slip>& slip,
                                  double free_length);
 
-/// Of the wave length of a bend: strains that even out over more are not told well.
+/// Of the wave length of a bend: the model is not accurate for strains that even out over more.
 constexpr double believable_evening = 0.25;
 
 /// The same with friction that gathers over no more than a wave of the bend [m], and the layer that

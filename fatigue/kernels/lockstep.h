@@ -58,8 +58,7 @@ struct Lockstep {
   std::size_t lanes;
   /// Lines that it needs for lists of up to this many reversals.
   std::size_t (*lines)(std::size_t longest);
-  /// Damage of up to `lanes` histories. Returns bits: of those that do not alternate, whose damage is not
-  /// told.
+  /// Damage of up to `lanes` histories. Returns bits: set for those that do not alternate. Their damage is undefined.
   unsigned (*sum)(const LockstepTables&, const StrainList* histories, std::size_t count, LockstepLine* memory,
                   double* damage);
 };

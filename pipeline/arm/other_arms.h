@@ -1,11 +1,11 @@
-// The same pose of the flange by another configuration of the arm: axes 1 to 3 put the wrist's centre where
-// it was from the other side of the elbow or the shoulder, and the wrist turns the flange as it was.
+// The same pose of the flange by another configuration of the arm: axes 1 to 3 reach the same wrist centre from the
+// other side of the elbow or the shoulder, and the wrist gives the flange the same orientation.
 //
-// For a robot whose axes 4, 5, 6 cross in one point, axis 5 at right angles to the others, which lie along
-// each other at axis 5 = 0. The centre c(q1, q2, q3) is found by Newton's method from many places within the
-// axes' limits, which asks nothing of how the arm is built; sides are told by the sign of det(dc/dq), which
-// changes where the arm is stretched or the centre passes the axis that it turns about. The wrist follows
-// from R = R_a(q4) R_b(q5) R_a(q6) in closed form.
+// Assumption: axes 4, 5, 6 intersect in one point; axis 5 is at right angles to the others, which coincide at axis 5
+// = 0. Newton's method finds the wrist centre c(q1, q2, q3) from many starts within the axes' limits. It needs no
+// assumption about axes 1 to 3. The sign of det(dc/dq) distinguishes the sides: it changes where the arm is stretched
+// or the centre crosses the axis about which it turns. The wrist follows from R = R_a(q4) R_b(q5) R_a(q6) in closed
+// form.
 #pragma once
 
 #include <array>

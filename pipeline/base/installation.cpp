@@ -64,8 +64,8 @@ fs::path program_file() {
   std::error_code failure;
   const fs::path told = fs::read_symlink("/proc/self/exe", failure);
   if (!failure) return told;
-  // What the kernel was asked to start, as it stands beside the arguments; relative names lead there while
-  // nobody has changed the folder, which our programs do not.
+  // The path that the kernel started, from the auxiliary vector. A relative one is valid as long as the current
+  // folder is unchanged, and our programs do not change it.
   const char* const name = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
   return program_called(name ? name : "");
 }

@@ -100,8 +100,8 @@ std::uint64_t installed_memory_mb() {
 
 namespace {
 
-/// Letters that nobody sees and that turn or hide the text around them: how many bytes of UTF-8 one takes here, and
-/// its number; 0 bytes: none of them.
+/// Invisible characters that reverse or hide the text around them: the bytes of UTF-8 at this place, and the code
+/// point; 0 bytes: there is none.
 struct InvisibleCharacter {
   std::size_t bytes;
   unsigned code;

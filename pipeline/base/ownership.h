@@ -14,10 +14,10 @@ namespace dresslife::pipeline {
 
 enum class Mark {
   yaml,    ///< "# ...": the user's once it is edited
-  script,  ///< behind "#!...": likewise
-  xml,     ///< "<!-- ... -->", behind "<?xml ...>": likewise; SVG, XDMF, Markdown
-  page,    ///< behind "<!DOCTYPE html>": ours for ever; is_as_marked() finds damage
-  png,     ///< a chunk of text: ours for ever
+  script,  ///< after "#!...": the user's once it is edited
+  xml,     ///< "<!-- ... -->", after "<?xml ...>": the user's once it is edited; SVG, XDMF, Markdown
+  page,    ///< after "<!DOCTYPE html>": always ours; is_as_marked() finds damage
+  png,     ///< a chunk of text: always ours
 };
 std::string with_mark(const std::string& text, Mark mark);
 /// Text behind its mark; a text without one as it is.

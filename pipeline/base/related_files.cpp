@@ -80,7 +80,7 @@ std::vector<std::string> names_declared(const fs::path& file, const std::string&
   return names;
 }
 
-/// Whether it counts for whoever stands beside it: registers (.va), and KUKA's own ($config.dat).
+/// Whether it belongs to all programs in its folder: registers (.va) and KUKA's own files ($config.dat).
 bool is_of_the_controller(const fs::path& file) {
   return lower(file.extension().string()) == ".va" || file.filename().string().starts_with('$');
 }

@@ -18,7 +18,7 @@ enum class WarningKind {
   periodic,     ///< the motion did not become periodic
   overlap,      ///< parts of the dresspack lie in each other
   mesh,         ///< segments are too long for what is evaluated
-  force,        ///< strains rest on forces that nobody sees
+  force,        ///< strains need forces that no real cable has
   material,     ///< constants of a material contradict each other
   strain,       ///< strains that no wire is meant for
   calibration,  ///< the job goes beyond the tests from which its calibration was learned

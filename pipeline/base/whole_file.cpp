@@ -44,7 +44,7 @@ std::string part_name(int number) {
   return fmt::format("{}{}-{}{}", part_begin, ::getpid(), number, part_end);
 }
 
-/// Makes and locks a file under a name that nobody has. Nothing: errno says why.
+/// Makes and locks a file under a new name. Nothing: see errno.
 std::pair<int, fs::path> make_part(const fs::path& folder) {
   for (int number = 0; number < most_parts; ++number) {
     fs::path part = folder / part_name(number);

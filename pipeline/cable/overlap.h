@@ -17,20 +17,20 @@ namespace dresslife::pipeline {
 /// Between the axes of neighbours in a layer of `count` > 1 parts [m].
 double neighbour_distance(double helix_radius, double lay_angle, int count);
 
-/// Nearest that parts of two components of one parent come to each other, between their axes [m]: as they lie
-/// in the cross-section where they go on alike (tan(alpha) / R), else R less R, since in a metre they meet.
+/// Smallest distance between the axes of parts of two components of one parent [m]. With equal tan(alpha)/R it is
+/// that in the cross-section. Otherwise it is the difference of their radii, because they meet within a metre.
 double nearest_distance(const Component& one, const Component& other);
 
 /// Whether the parts of a component overlap by more than overlap_warnings() allows.
 bool overlaps(const Component& component);
-/// Likewise those of two components of one parent.
+/// The same for the parts of two components of one parent.
 bool overlap_each_other(const Component& one, const Component& other);
 
-/// A warning for each component whose parts overlap by more than 2 % of their diameter, as much as a caliper
-/// reads wrong and a fit into the parent is allowed: which, by how much, and what would fit. Likewise for
-/// each two components of one parent, and for parts outside a bore that is an ESTIMATE (room_of_parts()). Errors: InputError for parts nearer than half of their diameter, of two
-/// components where they go on alike, as cables at one angle. Insulation gives, but two such parts would
-/// share over a third of their sections.
+/// A warning for each component, and for each pair of components of one parent, whose parts overlap by more than 2 % of
+/// their diameter (the error of a caliper, and the tolerance of a fit into the parent): which parts, by how much, and
+/// what would fit. Also for parts outside a bore that is an ESTIMATE (room_of_parts()). Errors: InputError for parts
+/// nearer than half of their diameter; for two components only if they have the same tan(alpha)/R, as cables at one
+/// angle. Insulation is soft, but such parts would share over a third of their sections.
 std::vector<Warning> overlap_warnings(const Dresspack& dresspack);
 
 /// The errors alone, in a hundredth of the time: what would fit is not computed.

@@ -62,11 +62,11 @@ std::vector<std::string> missing_in_construction(const Dresspack& dresspack);
 /// checked (check_dresspack). Errors: InputError where that has none.
 void take_from_construction(Dresspack& dresspack);
 
-/// Of a hose: a given E I that is not within a factor of two of what its parts have with the friction and
-/// pressures that are given, or below what they have without any; above is judged where nothing of it is
-/// missing. Of a cable in its jacket, whose stiffness by itself nobody knows: one below that of its sliding
-/// wires or above glued ones. And stiffnesses that are taken from a construction of which something is not
-/// known: a hose without its wall has next to no E A.
+/// Warnings of these cases. Hose: the given E I differs by more than a factor of two from that of its parts with the
+/// given friction and pressures, or is below that of its parts without friction. A value above is checked only if the
+/// construction is complete. Cable with a jacket (the jacket's own stiffness is unknown): E I is below that of
+/// sliding wires or above that of glued ones. Stiffnesses from an incomplete construction: a hose without its wall
+/// has hardly any E A.
 std::vector<Warning> stiffness_warnings(const Dresspack& dresspack);
 
 /// For people: "E I 8.23 N m2 from construction (friction at 1 1/m); ...", one line for each of the three,

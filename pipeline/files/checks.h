@@ -20,7 +20,7 @@ struct CheckedValue {
 /// read.
 std::vector<ResultValue> told_checks(const std::filesystem::path& motion_file);
 
-/// What told_checks() told.
+/// The checks in the results of told_checks().
 std::vector<CheckedValue> checks_in(const std::vector<ResultValue>& told);
 
 }  // namespace dresslife::pipeline

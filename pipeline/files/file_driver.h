@@ -1,8 +1,8 @@
 // HDF5 on open files of ours, instead of the library's own driver for files.
 //
-// Writing goes through a WholeFile: when a write fails, the library is told that all is well and the
-// WholeFile keeps the error for whoever commits it. The library believes what a failed close leaves behind
-// and crashes over it when the program ends; with a driver that never fails it has nothing to stumble over.
+// Writing goes through a WholeFile. If a write fails, the driver reports success to the library, and
+// WholeFile::commit() reports the error. Reason: after a failed close the library crashes when the program ends. It
+// never sees a failure.
 //
 // Reading goes through InputBytes, which hold every read to the bytes that were checked and keep the first failure.
 #pragma once

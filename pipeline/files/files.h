@@ -159,7 +159,7 @@ class FileReader {
 /// Whether a file was made by one of our stages, whole or not. Errors: those of PlainFile, where there is a file.
 bool is_dresslife_file(const std::filesystem::path& file);
 
-/// Which format it says it is of; null: none of them, or no file. Errors: likewise.
+/// The format that its attribute names; null: none of them, or no file. Errors: as is_dresslife_file().
 const Format* format_of(const std::filesystem::path& file);
 
 }  // namespace dresslife::pipeline

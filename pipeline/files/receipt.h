@@ -8,10 +8,10 @@
 //   state:  size, inode and both times of the output as the stage left it (FileState). While they are the
 //           same to the nanosecond, the checksum need not be compared again: a later change shows in one of
 //           them, if the file system's clock moved on between the output and its receipt. Both times come
-//           from the file system; nobody can set them. Where the receipt is not younger than the output, the
+//           from the file system; no program can set them. Where the receipt is not younger than the output, the
 //           bytes are compared;
-//   told:   the results in the root of life.h5 and the checks of motion.h5 (checks.h), so that ten thousand
-//           results are gathered without opening them;
+//   told:   the results in the root of life.h5 and the checks of motion.h5 (checks.h), so that a study of ten thousand
+//           jobs is ranked without opening these files;
 //   with:   digests of the program and of each file, one by one: they show which of them changed.
 //
 // The receipt ends with a digest of everything before it.
@@ -54,7 +54,7 @@ struct Receipt {
 /// Digests of files by name, each worked out once.
 class Digests {
  public:
-  /// XXH3; "absent" for a file that cannot be read: whoever needs it will say so.
+  /// XXH3; "absent" for a file that cannot be read: the reader reports the error.
   const std::string& of(const std::filesystem::path& file);
   const std::map<std::filesystem::path, std::string>& all() const { return known_; }
   /// Takes the digests of note_digests() of those files that are as they were then, unread.

@@ -36,7 +36,7 @@ struct LearnedFrom {
   std::string digest;                             ///< of the row and the files that it names
 };
 
-/// What the tests went through; outside nobody has looked.
+/// The ranges that the tests covered. Outside of them the calibration is an extrapolation.
 struct LearnedWithin {
   std::optional<double> least_strain_range, largest_strain_range;  ///< of the worst wires
   std::optional<double> largest_curvature, largest_twist;          ///< of the cables [1/m], [rad/m]

@@ -34,7 +34,7 @@ constexpr std::string_view word(SlipState value) { return word_at({"sliding", "f
 /// How a part of the first level is laid into its dresspack and clamped (strain/README.md, W32 to W37).
 struct Laying {
   Position position = Position::automatic;
-  double slack = 0;                 ///< length beyond the path on which it was laid in [% of that]
+  double slack = 0;                 ///< length beyond the path on which it was installed [% of that]
   std::optional<double> play;       ///< from its place in any direction [m]; absent: what the hose leaves
   std::optional<double> base_grip;  ///< force at which the base clamp lets it slip [N]; absent: never
   std::optional<double> tool_grip;  ///< the same of the tool clamp [N]
@@ -63,7 +63,7 @@ struct Component {
   std::string material;            ///< of a wire; a key of Dresspack::materials; empty for a part with parts
   std::optional<PlainPart> plain;  ///< of a part of the first level that is no wire and holds none
   Laying laying;                   ///< of a part of the first level that is no wire
-  std::vector<Rating> ratings;     ///< likewise, a cable
+  std::vector<Rating> ratings;     ///< of a cable
   std::vector<Component> components;
   Where where;
 };

@@ -34,7 +34,7 @@ struct MotionStep {
   std::vector<double> position;       ///< target of the tool: x, y, z [m]; empty: none
   std::vector<double> quaternion;     ///< of the tool: w, x, y, z
   std::vector<double> via_position;   ///< of a circular move: a point on the way [m]
-  std::vector<double> circle_joints;  ///< likewise, of one by joints: a point of its circle beyond its way [rad]
+  std::vector<double> circle_joints;  ///< the same of a move by joints: a point of its circle outside the move [rad]
   std::string configuration;          ///< "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0", "motoman 0 0 0 0 0 0", "near 0 -90 90 0 90 0"; empty: the nearest
   std::vector<double> external_axes;  ///< as programmed: mm or deg, in the order of the robot's
   std::string tool, work_object;      ///< names in Motion; empty: flange, robot base

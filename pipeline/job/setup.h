@@ -1,5 +1,5 @@
-// What moves and how: all of a job that dresslife-sim needs. Whoever stays with it is not compiled again for a
-// key of strain or fatigue.
+// What moves and how: all of a job that dresslife-sim needs. A file that includes only this header is not compiled
+// again after a change of the keys of strain or fatigue.
 #pragma once
 
 #include <string>

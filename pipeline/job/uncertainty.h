@@ -26,12 +26,12 @@ class Fields;
 enum class Uncertain { friction_inside, friction_hose, slack, play, grip, strength, slope, scatter, model, motion };
 constexpr std::size_t uncertain_count = 10;
 
-/// What has the same value of it.
+/// Which jobs share one value of a parameter.
 enum class SharedBy {
-  construction,  ///< dresspacks of one name: bought alike
+  construction,  ///< dresspacks of one name: of the same make
   material,      ///< wires of one material
-  everything,    ///< all that this model says
-  installation   ///< nothing else: each dresspack as it was laid in
+  everything,    ///< all jobs: it belongs to the model
+  installation   ///< none: each dresspack as it was installed
 };
 
 struct UncertainParameter {

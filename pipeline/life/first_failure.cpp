@@ -289,7 +289,7 @@ std::array<double, cause_count> shares_of(const FailureModes& modes, const std::
 
 // ---- the test that narrows most ---------------------------------------------------------------------------
 
-/// What is known once a test has told one parameter, as its median is today.
+/// The knowledge after a test has measured one parameter, if the result is its present median.
 ParameterKnowledge tested(const ParameterKnowledge& known, std::size_t parameter) {
   const UncertainParameter& of = uncertain_parameters()[parameter];
   const auto at = static_cast<Eigen::Index>(parameter);

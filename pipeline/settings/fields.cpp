@@ -254,8 +254,8 @@ class FieldReader final : public Fields {
     return first;
   }
 
-  /// Hands the key's value to `take`, where the map has one that nobody has refused; what take throws is a
-  /// problem of this key.
+  /// Calls `take` with the key's value, if the map has one that was not refused. An exception of take is a problem of
+  /// this key.
   template <class Take>
   void read(Key key, Need need, std::string_view meaning, const Take& take) {
     Level& level = levels_.back();

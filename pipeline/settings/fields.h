@@ -125,7 +125,7 @@ class Fields {
   virtual void leave_list() = 0;
 };
 
-/// Something that describes a struct to whoever walks it.
+/// A function that describes a struct: it calls Fields once for each key.
 using Describe = std::function<void(Fields&)>;
 
 /// From a document's map. Errors: see above; all at once.

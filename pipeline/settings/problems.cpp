@@ -6,7 +6,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// More are read by nobody, and those of a million wrong steps would be longer than their file.
+/// Nobody reads more. Those of a million wrong steps would be longer than their file.
 constexpr std::size_t most_problems = 100;
 
 std::string lines_of(const std::vector<Problem>& problems) {

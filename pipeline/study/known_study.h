@@ -1,5 +1,6 @@
 // The noted expansion of a study: names, recipes and settings of all jobs, and every file that was read or searched for
-// them. While all of these are unchanged, the study need not be expanded again.
+// them. While all of these are unchanged, the study need not be expanded again. 10,000 jobs: 0.6 s in place of 3.5 to
+// 5 s (two idle cores, pipeline/study/README.md).
 //
 // Texts are compared by their digests, searches by their results, not by file times. Exception: a job.yaml that the run
 // wrote is unchanged if size, inode and both times are as noted and the note is younger (pipeline/files/receipt.h).

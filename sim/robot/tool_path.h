@@ -38,7 +38,7 @@ class ToolPath {
   /// Makes it the arc through `via`; a point on the line leaves it straight.
   void bend(const Vector3& via) { bend_round(via, to_.position); }
 
-  /// Likewise the arc of the circle through `other`, a point before the start or behind the end: it is not passed.
+  /// Makes it the arc of the circle through `other`, a point of the circle before the start or after the end.
   void bend_beside(const Vector3& other) { bend_round(to_.position, other); }
 
   double length() const { return length_; }  ///< of the tool's way [m]

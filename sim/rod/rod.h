@@ -198,8 +198,8 @@ class Rod {
   bool hysteretic_ = false;
 };
 
-/// From the base end of span k, slid out as far as it helps, straight through the points, to its tool end
-/// [m].
+/// Length of the straight way from the base end of span k through the points to its tool end [m]. A sliding base
+/// clamp is pulled out as far as that shortens the way.
 double shortest_way(const Rod& rod, const ClampFrames& clamps, int k, std::span<const Vector3> through = {});
 
 /// By how much the distance between the ends of span k exceeds its free length [m]; 0 when it does not.

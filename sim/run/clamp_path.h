@@ -100,7 +100,7 @@ class RecordedPath final : public ClampPath {
   /// Reads a CSV file; a header line, blank lines and lines that begin with # are allowed. Throws InputError
   /// at line and column (of the character) of a bad cell: not a finite number, too few or too many cells,
   /// times that do not start at 0 and increase, a quaternion whose length is off by more than 1e-3, a turn of
-  /// more than 120 deg from one row to the next (which way it goes cannot be told).
+  /// more than 120 deg from one row to the next (its direction would be ambiguous).
   explicit RecordedPath(const std::filesystem::path& file);
 
   double duration() const override { return duration_; }

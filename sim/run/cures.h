@@ -25,7 +25,7 @@ struct CheckedMotion {
   const pipeline::Setup& setup;
   std::function<std::string(double)> moment;  ///< "at 1.2 s, program step 3 'text'"
   const Rod* rod = nullptr;                   ///< null: a prescribed deformation
-  const ClampPath* path = nullptr;            ///< likewise
+  const ClampPath* path = nullptr;            ///< null: a prescribed deformation
 };
 
 struct Cure {

@@ -1,17 +1,17 @@
 // From strains to turning points, sixteen wires side by side (W14), for one instruction set: part of
 // body.h.
 //
-// A wire that moves to and fro carries a slot of the gate's width g along, whose upper edge h only moves when
-// strain x pushes against one of its ends:
+// A slot of the gate's width g follows the strain x of a wire. Its upper edge h moves only when x reaches an end of the
+// slot:
 //     h <- min(max(h, x), x + g)
-// Where h rises x is a new highest strain, where it falls a new lowest one; the last place before it changes
-// its direction is a turning point. So one bit each for rising and falling is all that the loop over samples
-// keeps; 32 of them make a word per wire, and the turning points are found in the words. What the edge was
-// when it moved last is told by the edge: h after a rise, h - g after a fall.
+// If h rises, x is a new highest strain; if it falls, a new lowest one. The last sample before h changes its direction
+// is a turning point. So the loop over samples keeps only one bit for rising and one for falling. 32 of them are a
+// word per wire, and the turning points are found in the words. The strain at the last movement follows from the
+// edge: h after a rise, h - g after a fall.
 //
-// The first turn: a wire is decided once it has moved by the gate. Started in a valley (h = x + g), h rises
-// where the wire is decided by a rise; started on a peak (h = x), it falls where it is decided by a fall.
-// From there on both are the same, so the second only has to run until then, for the peak before the fall.
+// The first turn is known when a wire has moved by the gate. A slot that starts in a valley (h = x + g) rises if the
+// first movement is a rise; one that starts on a peak (h = x) falls if it is a fall. After that both are equal. So
+// the second one runs only until then, for the peak before the fall.
 #pragma once
 
 #include "pipeline/base/simd.h"
@@ -236,9 +236,9 @@ struct Scan {
 
   /// Puts the extremes of which the moves of a word from sample `first` on tell that they are turns.
   ///
-  /// A rise is a turn if the next move is a fall. In down - up - 1 = down + ~up a fall, being the lower bit,
-  /// carries through all that are no rises up to the rise before it, and leaves its mark there; a rise that
-  /// another one follows catches no carry. Falls likewise, in up + ~down.
+  /// A rise is a turn if the next move is a fall. In down - up - 1 = down + ~up the bit of a fall carries through all
+  /// bits without a rise to the rise before it, and sets that bit. A rise that is followed by another rise gets no
+  /// carry. Falls are found in the same way in up + ~down.
   inline void put_turns(const Moves& moves, std::int32_t first) {
     const IntPack event = moves.up | moves.down, last = event & -event;
     const IntPack away = moves.down - moves.up;
