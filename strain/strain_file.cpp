@@ -429,7 +429,7 @@ class CableRows {
 
 /// What the cables of all spans do, of which their forces follow. Nothing where there is no cable. Returns
 /// what a person should look at: pieces that are too long.
-std::vector<Warning> write_cables(FileWriter& file, const pipeline::Simulation& settings,
+std::vector<Warning> write_cables(FileWriter& file, const pipeline::SimulationSettings& settings,
                                   const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   CableRows rows;
   std::vector<const std::vector<double>*> hose_moment;  // of spans with cables

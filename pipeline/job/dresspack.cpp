@@ -118,7 +118,8 @@ void describe(Fields& f, Dresspack& dresspack) {
       "left out where a rig or a deformation moves it.");
   const Need need = dresspack.cable_alone ? Need::optional : Need::required;
   const Range range = dresspack.cable_alone ? at_least(0) : above(0);
-  f.number("diameter_mm", dresspack.diameter, Need::required, above(0), "The outer diameter of the hose.");
+  constexpr Range up_to_a_metre{0, 1000, true};  // no robot carries more, and its search for contacts takes minutes
+  f.number("diameter_mm", dresspack.diameter, Need::required, up_to_a_metre, "The outer diameter of the hose.");
   constexpr std::string_view from = "from_construction";
   f.number_or_word("mass_kg_per_m", dresspack.mass_per_length, dresspack.mass_from_construction, from, need,
                    range,
