@@ -7,6 +7,7 @@
 #include <charconv>
 #include <limits>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/setup.h"
@@ -76,8 +77,9 @@ std::vector<SpanPreview> spans_of(const FileReader& file, const Setup& setup) {
   return spans;
 }
 
-/// Lengths that are bent no harder at rest than allowed, or the one that is bent least.
-std::string bend_words(const SpanPreview& span) {
+/// Lengths that are bent no harder at rest than allowed, or the one that is bent least. bends: whether a check, which knows
+/// what the dresspack lies on, warns of its bends.
+std::string bend_words(const SpanPreview& span, bool bends) {
   const TriedLength *first = nullptr, *last = nullptr, *best = nullptr;
   for (const TriedLength& tried : span.tried) {
     if (!(tried.bend_radius > 0)) continue;
@@ -86,11 +88,11 @@ std::string bend_words(const SpanPreview& span) {
     if (!first) first = &tried;
     last = &tried;
   }
-  if (!best) return "";
+  if (!best || (!first && !bends)) return "";
   const double allowed = 1e3 * span.least_bend_radius;
   if (!first)
     return fmt::format(
-        "; at rest none of them keeps the bend radius of {:.0f} mm that is allowed: {:.2f} m comes nearest "
+        "; at rest and without the robot none of them keeps the bend radius of {:.0f} mm that is allowed: {:.2f} m comes nearest "
         "with {:.0f} mm "
         "(turn the clamps toward each other, or move them apart)",
         allowed, best->length, 1e3 * best->bend_radius);
@@ -99,7 +101,7 @@ std::string bend_words(const SpanPreview& span) {
       first->length, last->length, allowed);
 }
 
-std::string words(const SpanPreview& span) {
+std::string words(const SpanPreview& span, bool bends) {
   if (span.hangs())
     return fmt::format("{} hangs {:.3f} m long from its last clamp", span.subject, span.length);
   return fmt::format(
@@ -112,7 +114,13 @@ std::string words(const SpanPreview& span) {
       : span.length < span.most_way   ? "too short"
       : span.length < span.program[0] ? "hardly any slack"
                                       : "long",
-      span.here[0], span.here[1], span.program[0], span.program[1], bend_words(span));
+      span.here[0], span.here[1], span.program[0], span.program[1], bend_words(span, bends));
+}
+
+bool warns_of_bends(const FileReader& preview) {
+  if (!preview.has_attribute("warnings")) return true;
+  const std::vector<Warning> warnings = warnings_from(preview.text_attribute("warnings"));
+  return std::any_of(warnings.begin(), warnings.end(), [](const Warning& one) { return one.kind == WarningKind::bend_radius; });
 }
 
 std::string scan_table(const std::vector<SpanPreview>& spans) {
@@ -196,7 +204,7 @@ double place_in(const std::string& refusal) {
 std::vector<std::string> length_words(const std::filesystem::path& preview_file) {
   const FileReader file(preview_file, preview_format());
   std::vector<std::string> lines;
-  for (const SpanPreview& span : spans_of(file, setup_of(file))) lines.push_back(words(span));
+  for (const SpanPreview& span : spans_of(file, setup_of(file))) lines.push_back(words(span, warns_of_bends(file)));
   return lines;
 }
 
@@ -229,9 +237,10 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
   std::string body = fmt::format("<h1>{}: before the run</h1>\n", escaped(name));
   body += refusal.empty() ? "<p>The simulation takes this job.</p>\n"
                           : fmt::format("<p class=\"failed\" id=\"refusal\">{}</p>\n", escaped(refusal));
+  const bool bends = warns_of_bends(file);
   std::string well, ill;
   for (const SpanPreview& span : spans)
-    (span.works() ? well : ill) += fmt::format("<p>{}.</p>\n", escaped(words(span)));
+    (span.works() ? well : ill) += fmt::format("<p>{}.</p>\n", escaped(words(span, bends)));
   body += ill;
   for (const std::string& note : notes) body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(note));
   body +=
