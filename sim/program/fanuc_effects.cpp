@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/program/fanuc_values.h"
 #include "sim/program/tokens.h"
 
 namespace dresslife::sim {
@@ -151,6 +152,26 @@ FanucWord fanuc_word(const std::string& word) {
   return shaping.contains(word) ? FanucWord::shapes_motion : FanucWord::other;
 }
 
+FanucSetting fanuc_setting(const std::string& statement) {
+  const std::string left = plain_fanuc_name(std::string_view(statement).substr(0, statement.find('=')));
+  if (left == "$mcr.$genoverride") return {"override"};
+  if (left == "$prgoverride") return {left};
+  for (const auto& [list, name] : {std::pair("$mnuframe[1,", "uframe"), std::pair("$mnutool[1,", "utool")}) {
+    if (!left.starts_with(list)) continue;
+    FanucCursor at(std::string_view(left).substr(std::string_view(list).size()));
+    const auto number = at.number();
+    if (!number) return {};
+    FanucSetting setting{fmt::format("{}[{}]", name, *number), static_cast<int>(*number)};
+    std::string_view field = std::string_view(left).substr(left.find(']') + 1);
+    if (field.starts_with(".")) field.remove_prefix(1);
+    if (field.starts_with("$")) field.remove_prefix(1);
+    if (field.size() == 1)
+      setting.component = static_cast<int>(std::string_view("xyzwpr").find(field[0])) + 1;
+    return setting;
+  }
+  return {};
+}
+
 FanucOutlook::FanucOutlook(const std::vector<FanucListing>& listings,
                            const std::map<std::string, std::string>& macros)
     : listings_(listings), macros_(macros) {
@@ -215,6 +236,8 @@ FanucEffects FanucOutlook::effects(const std::string& action) {
     made.named.insert(word);
   } else if (word == "uframe" || word == "utool") {
     if (const auto index = constant_index(at)) made.named.insert(fmt::format("{}[{}]", word, *index));
+  } else if (const FanucSetting setting = fanuc_setting(action); !setting.name.empty()) {
+    made.named.insert(setting.name);
   } else if (word == "call" || word == "run") {
     if (word == "call") calls(lower_case(at.name()));
   } else if (const FanucListing* called = macro(action)) {

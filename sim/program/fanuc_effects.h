@@ -18,7 +18,7 @@ struct FanucEffects {
   bool leaves = false;        ///< a jump may lead out of these statements
   bool any_register = false;  ///< writes registers and position registers that are not known before
   std::set<int> registers, positions;
-  std::set<std::string> named;  ///< "override", "uframe_num", "utool_num", "uframe[2]"
+  std::set<std::string> named;  ///< "override", "$prgoverride", "uframe_num", "utool_num", "uframe[2]"
 
   void add(const FanucEffects& other);
 };
@@ -54,6 +54,15 @@ class FanucOutlook {
 std::string fanuc_action(const std::string& statement);
 
 enum class FanucWord { motion, logic, shapes_motion, other };
+
+/// A system variable that moves depend on, which a statement assigns.
+struct FanucSetting {
+  std::string name;   ///< as in FanucEffects::named; empty: there is none
+  int number = 0;     ///< of a frame
+  int component = 0;  ///< of a frame: 1 .. 6 for X, Y, Z, W, P, R; 0: the whole frame
+};
+/// "$MNUTOOL[1,2].$Z=..." is {"utool[2]", 2, 3}, "$MCR.$GENOVERRIDE=..." is {"override"}.
+FanucSetting fanuc_setting(const std::string& statement);
 
 /// By the first word of a statement (lower case). shapes_motion: weaving, tracking, touching, soft axes: what
 /// it does lies in the controller. other: control flow, assignments, macros.

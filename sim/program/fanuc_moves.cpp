@@ -102,7 +102,8 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
   missing(fmt::format("{} of {}", name, routine().listing->name),
           fmt::format("moves to {}, which is not {}", name, read ? "taught" : "listed"),
           fmt::format("{}, or give --value '{}=X ... Y ... Z ... W ... P ... R ...'",
-                      read ? "list the program again behind teaching it" : "list the program with its positions (/POS)",
+                      read ? "list the program again behind teaching it"
+                           : "list the program with its positions (/POS)",
                       own_name),
           {{Question::Kind::value, own_name, position_form}});
   return {};
@@ -114,9 +115,10 @@ void FanucRun::missing_position(const std::string& name, const char* what) {
   if (causes.size() != 1 || causes[0].name != name)
     return missing_value(fmt::format("{} {}, which depends on", what, name));
   missing(name, fmt::format("{} {}, which is known only while the robot runs", what, name),
-          fmt::format("give posreg.va of the backup (--module), or --value '{}=X ... Y ... Z ... W ... P ... R ...' "
-                      "(motion.values)",
-                      name),
+          fmt::format(
+              "give posreg.va of the backup (--module), or --value '{}=X ... Y ... Z ... W ... P ... R ...' "
+              "(motion.values)",
+              name),
           {{Question::Kind::value, name, position_form}});
 }
 
@@ -133,13 +135,15 @@ bool FanucRun::active(bool tool, int& number) {
   const bool by_number = !(tool ? around_.variables.tools : around_.variables.frames).empty();
   const Question by_its_number{Question::Kind::value, written, "a number"},
       frame{tool ? Question::Kind::tool : Question::Kind::work_object, list, ""};
-  missing(written,
-          fmt::format("moves in the active {}, and nothing says which that is ({})",
-                      tool ? "tool" : "user frame", written),
-          fmt::format("give it with --value {}=1 (motion.values), its frame in motion.{} (--frames) with the name '{}', or "
-                      "sysframe.va of the backup",
-                      written, tool ? "tools" : "work_objects", list),
-          {by_number ? by_its_number : frame});
+  missing(
+      written,
+      fmt::format("moves in the active {}, and nothing says which that is ({})", tool ? "tool" : "user frame",
+                  written),
+      fmt::format(
+          "give it with --value {}=1 (motion.values), its frame in motion.{} (--frames) with the name '{}', or "
+          "sysframe.va of the backup",
+          written, tool ? "tools" : "work_objects", list),
+      {by_number ? by_its_number : frame});
   return false;
 }
 
@@ -163,16 +167,24 @@ void FanucRun::compare_active(bool tool, int listed) {
        true);
 }
 
-/// UFRAME[n] or UTOOL[n], n above 0: as assigned, else as the user gave it, else as in the backup.
+/// UFRAME[n] or UTOOL[n], n above 0: as assigned, else as the user gave it, else as in the backup. What the value of an
+/// assignment depends on is asked for.
 std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
   const std::string list = tool ? "UTOOL" : "UFRAME";
   NamedFrame made{fmt::format("{}[{}]", list, number), {}, false};
   if (number == 0) return made;
   if (number < 0) return *given_frame(tool, list);  // the active one
   if (const auto own = frames_.find({tool, number}); own != frames_.end()) {
-    if (own->second) {
-      made.frame = *own->second;
+    if (own->second.frame) {
+      made.frame = *own->second.frame;
       return made;
+    }
+    // A frame that is given is the one before the assignment.
+    if (!own->second.why.empty()) {
+      values_.forget_missing();
+      values_.miss(own->second.why);
+      missing_value(fmt::format("uses {}, which depends on", made.name));
+      return {};
     }
   }
   if (const NamedFrame* given = given_frame(tool, made.name)) return *given;
@@ -270,12 +282,13 @@ bool FanucRun::place(const FanucPosition& position, const Options& options, Inst
 
 std::optional<double> FanucRun::override_share() {
   double share = 1;
-  for (const char* name : {"override", "$prgoverride"}) {
+  for (const auto& [name, written] :
+       {std::pair("override", "OVERRIDE"), std::pair("$prgoverride", "$PRGOVERRIDE")}) {
     const auto percent = values_.override_percent(name);
     if (!percent || !(*percent > 0) || *percent > 100) {
-      missing("OVERRIDE", "moves under an OVERRIDE that is known only while the robot runs",
-              "give it with --value OVERRIDE=100 (motion.values)",
-              {{Question::Kind::value, "OVERRIDE", "a number in %", "100"}});
+      missing(written, fmt::format("moves under an {} that is known only while the robot runs", written),
+              fmt::format("give it with --value '{}=100' (motion.values)", written),
+              {{Question::Kind::value, written, "a number in %", "100"}});
       return {};
     }
     share *= *percent / 100;
@@ -380,9 +393,10 @@ void FanucRun::offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& i
   const std::string name = fmt::format("VR[{}]", index && index->number ? whole(*index->number) : 1);
   into = values_.given_position(name);
   if (!into)
-    missing(name, fmt::format("is offset by what a camera finds ({})", name),
-            fmt::format("give it with --value '{}=X ... Y ... Z ... W ... P ... R ...' (motion.values)", name),
-            {{Question::Kind::value, name, position_form}});
+    missing(
+        name, fmt::format("is offset by what a camera finds ({})", name),
+        fmt::format("give it with --value '{}=X ... Y ... Z ... W ... P ... R ...' (motion.values)", name),
+        {{Question::Kind::value, name, position_form}});
 }
 
 /// Whether the condition of SKIP CONDITION comes before a move ends. Skip goes on with the next line when it comes,
@@ -395,13 +409,17 @@ bool FanucRun::skip_condition_comes(bool jumps) {
   if (!comes && jumps) {
     comes = ask("jumps or not (SkipJump) by SKIP CONDITION, which depends on", 2, "then or =else") == 0;
   } else if (!comes) {
-    note(fmt::format("SKIP: the condition comes at the end of the move, and the program goes on with the next line (--assume "
-                     "{}=else: it does not come)",
-                     line_name()),
-         true);
+    note(
+        fmt::format(
+            "SKIP: the condition comes at the end of the move, and the program goes on with the next line (--assume "
+            "{}=else: it does not come)",
+            line_name()),
+        true);
     return true;
   }
-  note(fmt::format("SKIP: the move goes to its end, and its condition {}", *comes ? "comes there" : "does not come"), true);
+  note(fmt::format("SKIP: the move goes to its end, and its condition {}",
+                   *comes ? "comes there" : "does not come"),
+       true);
   return *comes;
 }
 

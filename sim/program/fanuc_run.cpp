@@ -94,7 +94,8 @@ std::string form_of(const std::string& name) {
   if (name.starts_with("PR[") && name.find(',') == std::string::npos)
     return "X .. Y .. Z .. W .. P .. R .. in mm and deg, or J1 .. J2 .. J3 .. J4 .. J5 .. J6 ..";
   if (name.find(' ') != std::string::npos) return "nothing, or the registers that it sets: R[5]=3 R[6]=0";
-  for (const char* signal : {"DI[", "DO[", "RI[", "RO[", "UI[", "UO[", "SI[", "SO[", "WI[", "WO[", "F[", "M["})
+  for (const char* signal :
+       {"DI[", "DO[", "RI[", "RO[", "UI[", "UO[", "SI[", "SO[", "WI[", "WO[", "F[", "M["})
     if (name.starts_with(signal)) return "ON or OFF";
   return "a number";
 }
@@ -104,14 +105,16 @@ std::string names_in(const FanucCauses& causes) {
   std::string names;
   for (const FanucCause& cause : causes)
     if (const bool call = cause.name.find(' ') != std::string::npos; !cause.name.empty())
-      names += fmt::format("{}{}{}", names.empty() ? "" : " and ", call ? "a register behind " : "", cause.name);
+      names +=
+          fmt::format("{}{}{}", names.empty() ? "" : " and ", call ? "a register behind " : "", cause.name);
   return names;
 }
 
 std::string options_for(const FanucCauses& causes) {
   std::string options;
   for (const FanucCause& cause : causes)
-    if (!cause.name.empty()) options += fmt::format("{}--value '{}=...'", options.empty() ? "" : " ", cause.name);
+    if (!cause.name.empty())
+      options += fmt::format("{}--value '{}=...'", options.empty() ? "" : " ", cause.name);
   return options;
 }
 
@@ -186,7 +189,8 @@ void FanucRun::call(const FanucListing& listing, std::vector<FanucValues::Argume
   }
   if (const Problems& parsing = around_.parsing[listing.file]; !parsing.empty()) {
     if (!exploration_.guessing())
-      for (const Problem& problem : parsing.list()) problems_.add(problem.where, problem.what, problem.remedy);
+      for (const Problem& problem : parsing.list())
+        problems_.add(problem.where, problem.what, problem.remedy);
     throw Stop{};
   }
   routines_.push_back({&listing, 0, {}, {}});
@@ -326,11 +330,12 @@ void FanucRun::assignment(const std::string& word, FanucCursor& at) {
                              number);
   }
   if (left.starts_with("$mnuframe[") || left.starts_with("$mnutool[")) {  // [group,number]
-    const bool tool = left.starts_with("$mnutool[");
-    FanucCursor of(std::string_view(left).substr(left.find('[') + 1));
-    const FanucNumber group = of.number(), number = of.take_sign(',') ? of.number() : FanucNumber{};
+    const FanucSetting setting = fanuc_setting(text);
+    const bool tool = left.starts_with("$mnutool["), whole_frame = left.ends_with("]");
     at.skip_to('=');
-    if (group == FanucNumber(1) && number) return set_frame(tool, whole(*number), position_sum(at));
+    if (setting.number > 0 && whole_frame) return set_frame(tool, setting.number, at);
+    if (setting.number > 0 && setting.component > 0)
+      return set_frame_component(tool, setting.number, setting.component, at);
     return note(word + ": changes a frame of the controller", true);
   }
   switch (fanuc_word(word)) {
@@ -503,8 +508,7 @@ void FanucRun::assign_position(FanucCursor& at) {
   }
   const auto sum = position_sum(at);
   const bool told = values_.given(fmt::format("pr[{}]", number)).has_value();  // counts where this is unknown
-  if (sum && sum->known())
-    return values_.set_position(number, *sum);
+  if (sum && sum->known()) return values_.set_position(number, *sum);
   values_.forget_position(number, told ? FanucCauses{} : values_.causes());
 }
 
@@ -564,15 +568,33 @@ void FanucRun::assign_frame(const std::string& word, FanucCursor& at) {
     return note(word + ": a frame of another group or number", true);
   if (whole(*index->number) == 0)
     return note(word + "[0] is fixed, nothing can be assigned to it: the controller stops here", true);
-  set_frame(word == "utool", whole(*index->number), position_sum(at));
+  set_frame(word == "utool", whole(*index->number), at);
 }
 
 /// Six components that a program wrote are a pose here; what is not known makes the frame unknown.
-void FanucRun::set_frame(bool tool, int number, const std::optional<FanucPosition>& read) {
-  auto& frame = frames_[{tool, number}];
-  frame.reset();
+void FanucRun::set_frame(bool tool, int number, FanucCursor& at) {
+  values_.forget_missing();
+  const std::optional<FanucPosition> read = position_sum(at);
   if (read && read->form != FanucPosition::Form::joints && read->known() && read->values.size() == 6)
-    frame = frame_of_fanuc(read->values);
+    frames_[{tool, number}] = {frame_of_fanuc(read->values), {}};
+  else
+    frames_[{tool, number}] = {{}, values_.causes()};
+}
+
+/// The other components are asked for where nothing says them.
+void FanucRun::set_frame_component(bool tool, int number, int component, FanucCursor& at) {
+  values_.forget_missing();
+  const FanucNumber value = values_.expression(at);
+  const FanucCauses why = values_.causes();
+  const auto before = frame(tool, number);
+  if (!before) return;
+  if (!value) {
+    frames_[{tool, number}] = {{}, why};
+    return;
+  }
+  std::vector<double> values = fanuc_values_of(before->frame);
+  values[static_cast<std::size_t>(component) - 1] = *value;
+  frames_[{tool, number}] = {frame_of_fanuc(values), {}};
 }
 
 // ---- branches and loops ----------------------------------------------------------------------------------
@@ -623,7 +645,7 @@ void FanucRun::forget(const FanucEffects& effects, const FanucCauses& why) {
     FanucCursor at(name);
     const bool tool = at.word() == "utool";
     if (const auto number = at.take_sign('[') ? at.number() : std::nullopt)
-      frames_[{tool, whole(*number)}].reset();
+      frames_[{tool, whole(*number)}] = {{}, why};
   }
 }
 
@@ -797,7 +819,8 @@ std::optional<std::size_t> FanucRun::undecided_select(const std::vector<Case>& c
   }
   if (whole_program_no_matter()) return {};
   const int ways = static_cast<int>(cases.size()) + 1;
-  return static_cast<std::size_t>(ask("selects by", ways, fmt::format("VALUE ({})", fmt::join(values, ", "))));
+  return static_cast<std::size_t>(
+      ask("selects by", ways, fmt::format("VALUE ({})", fmt::join(values, ", "))));
 }
 
 void FanucRun::for_statement(FanucCursor& at) {
@@ -817,7 +840,8 @@ void FanucRun::for_statement(FanucCursor& at) {
       return;
     }
     values_.set_register(whole(*index->number), from.value_or(1));
-    routine().loops[here] = {whole(*index->number), from.value_or(1), 1.0};  // one pass, in search of further questions
+    routine().loops[here] = {whole(*index->number), from.value_or(1),
+                             1.0};  // one pass, in search of further questions
     return;
   }
   const int number = whole(*index->number);

@@ -79,7 +79,8 @@ class FanucRun {
   void assign_position(FanucCursor& at);
   std::optional<FanucPosition> position_sum(FanucCursor& at);
   void assign_frame(const std::string& word, FanucCursor& at);
-  void set_frame(bool tool, int number, const std::optional<FanucPosition>& read);
+  void set_frame(bool tool, int number, FanucCursor& at);
+  void set_frame_component(bool tool, int number, int component, FanucCursor& at);
   void if_statement(FanucCursor& at);
   std::optional<bool> undecided(const std::string& action);
   bool no_matter(const FanucEffects& effects);
@@ -99,8 +100,8 @@ class FanucRun {
     std::optional<FanucPosition> offset, tool_offset;
     bool remote = false, failed = false, skips = false, coordinated = false;
     bool camera = false;  // the offset is what a camera finds
-    std::string calls;  // programs that run before or behind the point
-    std::string jumps;  // "[1]": the label of Skip or SkipJump, where the move goes on there
+    std::string calls;    // programs that run before or behind the point
+    std::string jumps;    // "[1]": the label of Skip or SkipJump, where the move goes on there
   };
   bool read_options(FanucCursor& at, Instruction& move, Options& options);
   bool read_option(FanucCursor& at, Instruction& move, Options& options);
@@ -150,9 +151,13 @@ class FanucRun {
   FanucValues values_;
   FanucOutlook outlook_;
   std::vector<Routine> routines_;
-  std::map<std::pair<bool, int>, std::optional<Frame>> frames_;  // (tool?, number) that the program assigned
-  std::optional<FanucPosition> last_;                            // where the robot is: JPOS and LPOS
-  std::string offset_condition_, tool_offset_condition_;         // PR[n] of OFFSET CONDITION
+  struct AssignedFrame {
+    std::optional<Frame> frame;  // absent: not known
+    FanucCauses why;             // it is not
+  };
+  std::map<std::pair<bool, int>, AssignedFrame> frames_;  // (tool?, number) that the program assigned
+  std::optional<FanucPosition> last_;                     // where the robot is: JPOS and LPOS
+  std::string offset_condition_, tool_offset_condition_;  // PR[n] of OFFSET CONDITION
   std::string skip_condition_;
   std::map<std::pair<const FanucListing*, std::size_t>, Endless> endless_;
   std::set<std::string> noted_;

@@ -46,6 +46,7 @@ class FanucValues {
   std::string missing() const { return missing_.empty() ? "" : missing_[0].name; }
   const FanucCauses& causes() const { return missing_; }  ///< of all of them
   void forget_missing() { missing_.clear(); }
+  void miss(const FanucCauses& causes) { add_causes(missing_, causes); }
   /// Adds what makes a position register unknown, or unknown in parts.
   void miss_position(int number);
 
@@ -110,11 +111,11 @@ class FanucValues {
   std::set<int> taught_;  // position registers of the backup or the user that the program has not written
   bool doubt_ = false;
   FanucCauses missing_;
-  std::map<int, FanucCauses> register_causes_, position_causes_;     // of unknown ones
-  std::map<int, std::map<int, FanucCauses>> component_causes_;       // of position registers
-  FanucCauses forgotten_by_;                                         // of those that nothing else says of
-  std::set<int> written_;                                            // registers that the program has set
-  long charged_ = 0;  // operators read
+  std::map<int, FanucCauses> register_causes_, position_causes_;  // of unknown ones
+  std::map<int, std::map<int, FanucCauses>> component_causes_;    // of position registers
+  FanucCauses forgotten_by_;                                      // of those that nothing else says of
+  std::set<int> written_;                                         // registers that the program has set
+  long charged_ = 0;                                              // operators read
 };
 
 /// "R[ 5 :speed]" -> "r[5]".

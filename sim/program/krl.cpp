@@ -81,7 +81,8 @@ void Krl::ask_for_target(const Expression& written, const Value& value, Interpre
   std::vector<Question> questions;
   if (!path.empty()) questions = {{Question::Kind::value, answer, target_form}};
   if (is_unset(value)) {
-    run.miss(answer.empty() ? name : answer, written.place, fmt::format("moves to {}, which has no value yet", name),
+    run.miss(answer.empty() ? name : answer, written.place,
+             fmt::format("moves to {}, which has no value yet", name),
              fmt::format("assign it before the move, give the file that holds its value (.dat), or --value "
                          "'{}={{X ...}}'",
                          path.empty() ? "NAME" : answer),
@@ -110,23 +111,25 @@ void Krl::ask_for_part(const Expression& written, const Coordinates& read, Inter
 /// Numbers of where the robot stands that the user gives: "cell.src:12:$pos_act".
 std::optional<std::array<double, 6>> Krl::given_place(bool axes, Interpreter& run) {
   const auto value = run.given_here(axes ? "$axis_act" : "$pos_act");
-  const Coordinates read = value ? axes ? coordinates(*value, axis_names) : coordinates(*value, frame_names) : Coordinates{};
+  const Coordinates read =
+      value ? axes ? coordinates(*value, axis_names) : coordinates(*value, frame_names) : Coordinates{};
   return read.all() ? std::optional(read.numbers) : std::nullopt;
 }
 
 /// What a target leaves out stays as it was where the robot stands.
 void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter& run) {
-  run.ask_for(place_here(axes, run), written.place,
-              "gives some coordinates only, from a place whose other coordinates are not known: the move before goes to axis "
-              "angles or is not known",
-              "move to a pose with X, Y, Z, A, B, C before", "");
+  run.ask_for(
+      place_here(axes, run), written.place,
+      "gives some coordinates only, from a place whose other coordinates are not known: the move before goes to axis "
+      "angles or is not known",
+      "move to a pose with X, Y, Z, A, B, C before", "");
 }
 
 /// Where the robot stands is unknown: what the last move's target depends on is asked for too, but that may be given
 /// in the other form.
 Value Krl::place_here(bool axes, Interpreter& run) const {
-  const Value here = unknown_value(run.name_here(axes ? "$axis_act" : "$pos_act"), "is where the robot stands",
-                                   form_of(axes ? "axis" : "frame"));
+  const Value here = unknown_value(run.name_here(axes ? "$axis_act" : "$pos_act"),
+                                   "is where the robot stands", form_of(axes ? "axis" : "frame"));
   return lost_.cause ? unknown_value(lost_, here) : here;
 }
 
@@ -197,9 +200,17 @@ bool Krl::read_via(const Expression& via, From from, const Frames& frames, Instr
   return true;
 }
 
+/// A setting by name (#VAR, #BASE) that depends on what is known only while the robot runs.
+void Krl::ask_for_kind(const Value* kind, const char* what, const Place& place, Interpreter& run) {
+  if (kind && kind->kind == Value::Kind::unknown && !is_unset(*kind))
+    run.ask_for(*kind, place, fmt::format("{} that is known only while the robot runs", what),
+                "assign a constant", "a name");
+}
+
 /// $ORI_TYPE = #CONSTANT: the tool keeps the orientation that it has, whatever the target says.
 bool Krl::keeps_orientation(const Place& place, bool unknown, Interpreter& run) {
   const Value* type = run.variable("$ori_type");
+  ask_for_kind(type, "turns the tool by an $ORI_TYPE", place, run);
   const std::string kind = type && type->kind == Value::Kind::text ? type->text : "";
   if (kind == "#joint")
     run.note(place, "turns the tool by the wrist's axes ($ORI_TYPE #JOINT): it is turned evenly", true);
@@ -296,8 +307,9 @@ bool Krl::read_axis_speed(const Statement& statement, Instruction& move, Interpr
       if (!value.is_number() || !(value.number > 0)) {
         run.ask_for(value, statement.place,
                     fmt::format("moves with {}[{}] that is not a known number above 0", list, axis + 1),
-                    value.causes().empty() ? "assign a constant"
-                                           : "give the file that holds it (PDEFAULT and its like: $CONFIG.DAT)",
+                    value.causes().empty()
+                        ? "assign a constant"
+                        : "give the file that holds it (PDEFAULT and its like: $CONFIG.DAT)",
                     "a number in %");
         return {};
       }
@@ -335,6 +347,14 @@ bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpr
   move.speed.tool = speed->number;
   if (const auto turn = setting("$vel", "ori1", run); turn && *turn > 0)
     move.speed.orientation = *turn * degree;
+  const Value* accelerations = run.variable("$acc");
+  const Value* path = accelerations ? accelerations->field("cp") : nullptr;
+  if (path && path->kind == Value::Kind::unknown && !is_unset(*path) && path->first_cause()) {
+    run.ask_for(*path, statement.place,
+                "moves along a path at an $ACC.CP that is known only while the robot runs",
+                "assign a constant in m/s2", "an acceleration in m/s2");
+    return false;
+  }
   const auto acceleration = setting("$acc", "cp", run), whole = setting("def_acc_cp", "", run);
   if (acceleration && *acceleration > 0)
     move.acceleration_percent =
@@ -366,7 +386,8 @@ bool Krl::read_speed(const Statement& statement, Instruction& move, Interpreter&
 void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& run) {
   const auto known = [&](const char* field, const char* written) {
     auto number = setting("$apo", field, run);
-    if (const auto given = number ? std::nullopt : run.given(lower_case(written)); given && given->is_number())
+    if (const auto given = number ? std::nullopt : run.given(lower_case(written));
+        given && given->is_number())
       number = given->number;
     const Value part = number ? Value{} : run.evaluate(field_at("$apo", field, statement.place));
     const Cause* cause = is_unset(part) ? nullptr : part.first_cause();
@@ -376,8 +397,9 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
                   "assign a constant", "a number");
     else if (!number)
       run.note(statement.place,
-               fmt::format("approximates without a known {0}: the robot stops at the target (give --value '{0}=...')",
-                           written),
+               fmt::format(
+                   "approximates without a known {0}: the robot stops at the target (give --value '{0}=...')",
+                   written),
                true);
     return number;
   };
@@ -385,6 +407,8 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
     move.zone.percent = 100;  // a spline does not stop between its points
     return;
   }
+  if (const auto ahead = setting("$advance", "", run); ahead && *ahead <= 0)
+    return;  // moves are not known ahead
   const bool joint = move.kind == Instruction::Kind::joint,
              by_distance = has(statement, "c_dis") || has(statement, "c_spl");
   const auto distance = setting("$apo", "cdis", run);
@@ -469,7 +493,8 @@ void Krl::ask_for_frame(const Value& unknown, const Statement& statement, Interp
                  tool ? "tools" : "work_objects", cause->name),
              {{kind, cause->name, ""}});
   } else {
-    run.ask_for(unknown, statement.place, "moves with a $TOOL or $BASE that is known only while the robot runs",
+    run.ask_for(unknown, statement.place,
+                "moves with a $TOOL or $BASE that is known only while the robot runs",
                 "assign a constant frame", "{X .., Y .., Z .., A .., B .., C ..} in mm and deg");
   }
 }
@@ -478,6 +503,7 @@ void Krl::ask_for_frame(const Value& unknown, const Statement& statement, Interp
 void Krl::go_round(const Statement& statement, const Expression* whole_angle,
                    const std::optional<std::array<double, 6>>& start, Instruction move, Interpreter& run) {
   const Value* type = run.variable("$circ_type");
+  ask_for_kind(type, "turns the tool on its arc by a $CIRC_TYPE", statement.place, run);
   const bool by_path = type && type->kind == Value::Kind::text && type->text == "#path";
   const bool turning = by_path && start && keeps_orientation(statement.place, false, run);
   if (by_path && !turning)
@@ -488,7 +514,8 @@ void Krl::go_round(const Statement& statement, const Expression* whole_angle,
     return run.ask_for(given, statement.place, "goes round by a CA that is known only while the robot runs",
                        "write a constant", "an angle in deg");
   if (!start)
-    return run.complain(statement.place, "goes round by CA from a place that is not known", "write a LIN before");
+    return run.complain(statement.place, "goes round by CA from a place that is not known",
+                        "write a LIN before");
 
   const Frame from = frame_from(*start), to = move.target.pose;
   const auto arc = arc_through(from.position, move.via.position, to.position);
@@ -662,6 +689,12 @@ bool Krl::wait(const Statement& statement, Interpreter& run) {
 bool Krl::instruction(const Statement& statement, Interpreter& run) {
   if (const auto kind = kind_of(statement.name)) return move(*kind, statement, run);
   if (statement.name == "wait_sec") return wait(statement, run);
+  if (statement.name == advance_stop) {  // the move before ends at its target
+    if (auto& made = run.program().instructions;
+        !made.empty() && made.back().kind != Instruction::Kind::dwell)
+      made.back().zone = {};
+    return true;
+  }
   if (statement.name == "asyptp") {
     run.note(statement.place, "ASYPTP: external axes move on their own, beside the robot", true);
     return true;

@@ -16,6 +16,10 @@
 
 namespace dresslife::sim {
 
+/// The instruction where the controller, which runs ahead of the robot, waits for it (in a $OUT, $IN, WAIT without CONTINUE
+/// before it): no name that a program can have.
+inline constexpr const char* advance_stop = "advance stop";
+
 /// The structures and system variables of every controller, as a last file; to be called before parsing.
 void add_krl_types(Code& code);
 

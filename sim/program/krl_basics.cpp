@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/program/krl.h"
 #include "sim/program/krl_dialect.h"
 #include "sim/program/tokens.h"
 
@@ -19,7 +20,7 @@ constexpr const char* harmless_names[] = {
     "cclose",   "gripper", "err_raise", "err_clear",   "eb_test",      "sync",     "on_error_proceed",
     "continue", "sread",   "swrite",    "sopen",       "strclear",     "stradd",   "strcopy",
     "strfind",  "h50",     "$timer",    "$timer_flag", "clear_krlmsg", "ir_stopm", "$cycflag",
-    "$in",      "$anin",   "$err",      "ciostate"};
+    "$in",      "$anin",   "$err",      "ciostate",    advance_stop};
 constexpr const char* harmless_beginnings[] = {"eki_", "msg", "set_krl", "exists_krl", "diag_"};
 /// Of these, those that write to what they are given.
 constexpr const char* writing_names[] = {"cread",  "sread",    "copen",     "sopen",
@@ -188,12 +189,14 @@ bool Krl::shares(const std::string& name, int module) const {
 /// What the editor of inline forms puts into the data list of the program; other names that no file declares are
 /// taken to be those of $CONFIG.DAT.
 bool Krl::is_of_module(const std::string& name) const {
-  static const std::set<std::string> of_all{"fhome", "xhome", "xhome1", "xhome2", "xhome3", "xhome4", "xhome5"};
+  static const std::set<std::string> of_all{"fhome",  "xhome",  "xhome1", "xhome2",
+                                            "xhome3", "xhome4", "xhome5"};
   const auto numbered = [&](const char* beginning) {
     return name.starts_with(beginning) && !name.empty() && name.back() >= '0' && name.back() <= '9';
   };
-  return !of_all.contains(name) && (name.starts_with("x") || name.starts_with("f") || numbered("ppdat") || numbered("lcpdat") ||
-                                    numbered("cpdat") || numbered("pdat") || numbered("ldat"));
+  return !of_all.contains(name) &&
+         (name.starts_with("x") || name.starts_with("f") || numbered("ppdat") || numbered("lcpdat") ||
+          numbered("cpdat") || numbered("pdat") || numbered("ldat"));
 }
 
 /// An unknown value that an inline form takes from its data, asked for as those are kept: the whole FDAT, PDAT or
@@ -307,6 +310,8 @@ Krl::Frames Krl::current_frames(Interpreter& run) {
   if (const Value* root = run.variable("$robroot"))
     if (const Coordinates place = coordinates(*root, frame_names); place.all())
       frames.base = inverse(frame_from(place.numbers)) * frames.base;
+    else if (!place.unknown.known() && frames.unknown.known())
+      frames.unknown = place.unknown;
   return frames;
 }
 
@@ -452,14 +457,14 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
   } else if (what == "#ptp_dat" || what == "#ptp_params") {
     joint_data(place, run);
     if (what == "#ptp_params") form_frames(place, run);
-    const Value percent = what == "#ptp_params"
-                              ? number
-                              : of_form(run.evaluate(field_at("pdat_act", "vel", place)), "pdat");
+    const Value percent =
+        what == "#ptp_params" ? number : of_form(run.evaluate(field_at("pdat_act", "vel", place)), "pdat");
     set_axes("$vel_axis", axis_speed(percent, run), place, run);
   } else if (what == "#cp_dat" || what == "#cp_params") {
     path_data(place, run);
     if (what == "#cp_params") form_frames(place, run);
-    set_speed(what == "#cp_params" ? number : of_form(run.evaluate(field_at("ldat_act", "vel", place)), "ldat"));
+    set_speed(what == "#cp_params" ? number
+                                   : of_form(run.evaluate(field_at("ldat_act", "vel", place)), "ldat"));
   } else if (!what.starts_with("#out_") && what != "#group") {
     run.note(place, fmt::format("BAS({}): not a known case", what.empty() ? "?" : what), true);
   }
@@ -476,9 +481,9 @@ std::optional<Value> Krl::spline_function(const Expression& call, const std::vec
   };
   const bool of_whole = !call.items.empty() && call.items[0].kind == Expression::Kind::field;
   const char* data = is({"stool2"}) || (of_whole && is({"sbase", "sipo_mode"})) ? "fdat"
-                     : is({"sacc_joint", "sapo_ptp"})                          ? "pdat"
-                     : is({"sacc_cp", "sapo", "sori_typ", "scirc_typ"})        ? "ldat"
-                                                                               : "";
+                     : is({"sacc_joint", "sapo_ptp"})                           ? "pdat"
+                     : is({"sacc_cp", "sapo", "sori_typ", "scirc_typ"})         ? "ldat"
+                                                                                : "";
   const Value first = values.empty() ? Value{} : *data ? of_form(values[0], data) : values[0];
   const auto part = [&](const Value& whole, const char* field) {
     const Value* value = whole.field(field);

@@ -68,6 +68,7 @@ class Krl final : public Dialect {
   void move_now(Instruction::Kind kind, const Statement& statement, Interpreter& run);
   void go_round(const Statement& statement, const Expression* whole_angle,
                 const std::optional<std::array<double, 6>>& start, Instruction move, Interpreter& run);
+  static void ask_for_kind(const Value* kind, const char* what, const Place& place, Interpreter& run);
   static bool keeps_orientation(const Place& place, bool unknown, Interpreter& run);
   bool stands_still(const Expression& target, Interpreter& run) const;
   bool read_via(const Expression& via, From from, const Frames& frames, Instruction& move, Interpreter& run);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "sim/program/krl.h"
 #include "sim/program/parser.h"
@@ -24,6 +25,11 @@ constexpr const char* left_out_words[] = {"signal",    "enum",   "ext",     "ext
 /// System variables that the controller changes: values that a program writes to them do not last.
 constexpr const char* living_names[] = {"$timer", "$timer_flag", "$cycflag", "$in", "$anin", "$err"};
 
+/// What needs the robot where the program is: the controller, which runs ahead of the robot, waits for it here.
+constexpr const char* present_words[] = {"wait",         "halt",      "pulse",   "$in",
+                                         "$out",         "$anin",     "$anout",  "$pos_act",
+                                         "$pos_act_mes", "$axis_act", "$digin1", "$axis_act_meas"};
+
 class KrlParser : StatementParser {
  public:
   KrlParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems)
@@ -40,10 +46,11 @@ class KrlParser : StatementParser {
 
  private:
   int module_ = -1;
-  bool shared_ = false;  ///< in a data list of the system, whose names are everybody's
-  bool global_ = false;    ///< the declaration at hand says GLOBAL
-  bool constant_ = false;  ///< it says CONST
-  bool first_ = true;    ///< no routine of this file was read: the next one is everybody's
+  bool shared_ = false;     ///< in a data list of the system, whose names are everybody's
+  bool global_ = false;     ///< the declaration at hand says GLOBAL
+  bool constant_ = false;   ///< it says CONST
+  bool first_ = true;       ///< no routine of this file was read: the next one is everybody's
+  bool continued_ = false;  ///< CONTINUE stands before
 
   /// A program and the data list of its name are one module; where names repeat, the folder decides.
   int module_of_file() {
@@ -199,6 +206,12 @@ class KrlParser : StatementParser {
     s.place = at_.place();
     s.text = std::string(at_.peek().text);
     global_ = constant_ = false;
+    if (!std::exchange(continued_, false) && waits_for_robot()) {
+      Statement waiting = s;
+      waiting.kind = Kind::instruction;
+      waiting.name = advance_stop;
+      into.push_back(std::move(waiting));
+    }
     if (at_.at_word("global") || at_.at_word("decl") || at_.at_word("const")) {
       while (at_.at_word("global") || at_.at_word("decl") || at_.at_word("const")) {
         global_ |= at_.at_word("global");
@@ -237,9 +250,10 @@ class KrlParser : StatementParser {
       return_statement(s);
     else if (at_.take_word("exit"))
       s.kind = Kind::leave_loop;
-    else if (at_.take_word("continue"))
+    else if (at_.take_word("continue")) {
+      continued_ = true;
       return;
-    else if (at_.at_word("wait"))
+    } else if (at_.at_word("wait"))
       wait_statement(s);
     else if (at_.take_word("goto"))
       s = labelled(Kind::jump);
@@ -254,6 +268,19 @@ class KrlParser : StatementParser {
       assignment_or_call(s);
     need_line_end();
     into.push_back(std::move(s));
+  }
+
+  /// A line with one of present_words, unless it only says what happens later or what a name means.
+  bool waits_for_robot() const {
+    for (const char* later : {"trigger", "interrupt", "global", "decl", "const", "signal", "ext", "extfct"})
+      if (at_.at_word(later)) return false;
+    for (int ahead = 0;
+         at_.peek(ahead).kind != Token::Kind::line_end && at_.peek(ahead).kind != Token::Kind::end; ++ahead)
+      if (at_.peek(ahead).kind == Token::Kind::word &&
+          std::find(std::begin(present_words), std::end(present_words), lower_case(at_.peek(ahead).text)) !=
+              std::end(present_words))
+        return true;
+    return false;
   }
 
   bool is_move() const {

@@ -46,7 +46,10 @@ void write_inputs(const Scratch& scratch) {
       "MODULE swing\n  CONST jointtarget home := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  PROC main()\n    "
       "MoveAbsJ home, v500, fine, tool0;\n";
   scratch.write("swing.mod", module + "  ENDPROC\nENDMODULE\n");
-  scratch.write("asks.mod", module + "    IF di1=1 THEN\n      MoveAbsJ home, v100, fine, tool0;\n    ENDIF\n  ENDPROC\nENDMODULE\n");
+  scratch.write(
+      "asks.mod",
+      module +
+          "    IF di1=1 THEN\n      MoveAbsJ home, v100, fine, tool0;\n    ENDIF\n  ENDPROC\nENDMODULE\n");
   REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
   // The same results are those of a study that keeps less.
   scratch.write("lives.yaml", "base: job.yaml\njobs: {a: {}}\nkeep: lives\n");
@@ -58,7 +61,8 @@ void write_inputs(const Scratch& scratch) {
 
 }  // namespace
 
-TEST_CASE("each call that fails in each command is told or does no harm: no result is false, no file of the user goes") {
+TEST_CASE(
+    "each call that fails in each command is told or does no harm: no result is false, no file of the user goes") {
   Scratch scratch;
   write_inputs(scratch);
   const std::map<std::string, std::string> before = files_in(scratch.folder());
@@ -74,20 +78,24 @@ TEST_CASE("each call that fails in each command is told or does no harm: no resu
     INFO(command.program << ' ' << command.arguments << ": " << right.err);
     REQUIRE(right.status == (asks ? 1 : 0));
     int refused = 0, whole = 0;
+    long calls = 0;
     for (const Kind& kind : kinds) {
       if (!is_long && random() % 4 != 0) continue;
       const auto fail_at = [&](int at) {
         restore(scratch, before);
-        return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path}, command.program, command.arguments);
+        return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path}, command.program,
+                           command.arguments);
       };
       fail_at(0);
       const int total = calls_counted(scratch);
       if (total == 0) continue;
+      calls += total;
       for (const int at : some_of(total, rounds(2), random)) {
         const Outcome outcome = fail_at(at);
         const std::map<std::string, std::string> now = files_in(scratch.folder());
-        INFO(command.program << ' ' << command.arguments << ": " << kind.call << ' ' << kind.mode << ' ' << at << " of "
-                             << total << ": " << outcome.status << '\n' << outcome.err);
+        INFO(command.program << ' ' << command.arguments << ": " << kind.call << ' ' << kind.mode << ' ' << at
+                             << " of " << total << ": " << outcome.status << '\n'
+                             << outcome.err);
         REQUIRE((outcome.status == 0 || outcome.status == 1));
         REQUIRE_FALSE(holds_parts(scratch.folder()));
         if (outcome.status == right.status && (!asks || outcome.err == right.err)) {
@@ -106,8 +114,9 @@ TEST_CASE("each call that fails in each command is told or does no harm: no resu
         for (const auto& [name, bytes] : before) {
           INFO(name);
           const bool as_it_was = now.contains(name) && now.at(name) == bytes;
-          const bool as_it_is_to_be =
-              after.contains(name) ? now.contains(name) && now.at(name) == after.at(name) : !now.contains(name);
+          const bool as_it_is_to_be = after.contains(name)
+                                          ? now.contains(name) && now.at(name) == after.at(name)
+                                          : !now.contains(name);
           REQUIRE((as_it_was || as_it_is_to_be || is_a_note(name) || name.ends_with(".html")));
         }
         for (const auto& [name, bytes] : now) {
@@ -118,6 +127,6 @@ TEST_CASE("each call that fails in each command is told or does no harm: no resu
       }
     }
     std::cout << command.program << ' ' << command.arguments << ": " << refused << " refused, " << whole
-              << " whole, 0 false, 0 lost\n";
+              << " whole, 0 false, 0 lost, of " << calls << " calls\n";
   }
 }

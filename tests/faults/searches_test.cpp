@@ -94,72 +94,75 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
   std::mt19937 random(seed);
   std::cout << "failing calls of searches with seed " << seed << '\n';
   const bool is_long = rounds(1) > 1;
-  for (const Command& command : commands) {
-    Scratch scratch;
-    write_inputs(scratch);
-    const std::map<std::string, std::string> inputs = files_in(scratch.folder());
-    const Outcome right = run(scratch, "dresslife", command.arguments);
-    INFO(command.arguments << ": " << right.out << right.err);
-    REQUIRE(right.status == 0);
-    scratch.write("runs/" + command.results + "/notes.txt", "mine\n");
-    const std::map<std::string, std::string> after = files_in(scratch.folder());
-    // The stages' results are there, those of the command itself are not.
-    const std::map<std::string, std::string> half = [&] {
-      std::map<std::string, std::string> files = after;
-      std::erase_if(files, [&](const auto& file) {
-        const fs::path parent = fs::path(file.first).parent_path();
-        return !inputs.contains(file.first) && fs::path(file.first).filename() != "notes.txt" &&
-               (parent.empty() || parent == fs::path("runs") / command.results);
-      });
-      return files;
-    }();
-    int refused = 0, whole = 0;
-    const auto check_after = [&](const Outcome& outcome) {
-      const std::map<std::string, std::string> now = files_in(scratch.folder());
-      REQUIRE(outcome.out == right.out);
-      for (const auto& [name, bytes] : after) {
-        INFO(name);
-        REQUIRE((is_a_note(name) || (now.contains(name) && now.at(name) == bytes)));
-      }
-    };
-    for (const auto& [kind, more] : kinds_with_memory())
-      for (const auto* before : {&half, &inputs}) {
-        // From nothing each takes seconds.
-        if (!is_long && (before == &inputs || random() % 4 != 0)) continue;
-        const auto fail_at = [&](int at) {
-          restore(scratch, *before);
-          return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path, more}, "dresslife",
-                             command.arguments);
-        };
-        fail_at(0);
-        const int total = calls_counted(scratch);
-        if (total == 0) continue;
-        for (const int at :
-             some_of(total, before == &half ? rounds(2) : std::max(1, rounds(1) / 4), random)) {
-          const Outcome outcome = fail_at(at);
-          INFO(kind.call << ' ' << kind.mode << ' ' << at << " of " << total << " (" << more << " more), "
-                         << (before == &half ? "resumed" : "from nothing") << ": " << outcome.status << '\n'
-                         << outcome.out << outcome.err);
-          REQUIRE((outcome.status == 0 || outcome.status == 1));
-          REQUIRE_FALSE(holds_parts(scratch.folder()));
-          for (const auto& [name, bytes] : inputs) REQUIRE(content(scratch / name) == bytes);
-          if (before == &half)
-            REQUIRE(content(scratch / ("runs/" + command.results + "/notes.txt")) == "mine\n");
-          scratch.write("runs/" + command.results + "/notes.txt", "mine\n");
-          if (outcome.status == 0) {
-            check_after(outcome);
-            ++whole;
-          } else {
-            REQUIRE((outcome.err + outcome.out).find("error: ") != std::string::npos);
-            ++refused;
-            const Outcome next = run(scratch, "dresslife", command.arguments);
-            INFO("the next time: " << next.out << next.err);
-            REQUIRE(next.status == 0);
-            check_after(next);
+  for (const Command& command : commands)
+    DYNAMIC_SECTION(command.arguments.substr(0, command.arguments.find(' '))) {
+      Scratch scratch;
+      write_inputs(scratch);
+      const std::map<std::string, std::string> inputs = files_in(scratch.folder());
+      const Outcome right = run(scratch, "dresslife", command.arguments);
+      INFO(command.arguments << ": " << right.out << right.err);
+      REQUIRE(right.status == 0);
+      scratch.write("runs/" + command.results + "/notes.txt", "mine\n");
+      const std::map<std::string, std::string> after = files_in(scratch.folder());
+      // The stages' results are there, those of the command itself are not.
+      const std::map<std::string, std::string> half = [&] {
+        std::map<std::string, std::string> files = after;
+        std::erase_if(files, [&](const auto& file) {
+          const fs::path parent = fs::path(file.first).parent_path();
+          return !inputs.contains(file.first) && fs::path(file.first).filename() != "notes.txt" &&
+                 (parent.empty() || parent == fs::path("runs") / command.results);
+        });
+        return files;
+      }();
+      int refused = 0, whole = 0;
+      long calls = 0;
+      const auto check_after = [&](const Outcome& outcome) {
+        const std::map<std::string, std::string> now = files_in(scratch.folder());
+        REQUIRE(outcome.out == right.out);
+        for (const auto& [name, bytes] : after) {
+          INFO(name);
+          REQUIRE((is_a_note(name) || (now.contains(name) && now.at(name) == bytes)));
+        }
+      };
+      for (const auto& [kind, more] : kinds_with_memory())
+        for (const auto* before : {&half, &inputs}) {
+          // From nothing each takes seconds.
+          if (!is_long && (before == &inputs || random() % 4 != 0)) continue;
+          const auto fail_at = [&](int at) {
+            restore(scratch, *before);
+            return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path, more}, "dresslife",
+                               command.arguments);
+          };
+          fail_at(0);
+          const int total = calls_counted(scratch);
+          if (total == 0) continue;
+          calls += total;
+          for (const int at :
+               some_of(total, before == &half ? rounds(2) : std::max(1, rounds(1) / 4), random)) {
+            const Outcome outcome = fail_at(at);
+            INFO(kind.call << ' ' << kind.mode << ' ' << at << " of " << total << " (" << more << " more), "
+                           << (before == &half ? "resumed" : "from nothing") << ": " << outcome.status << '\n'
+                           << outcome.out << outcome.err);
+            REQUIRE((outcome.status == 0 || outcome.status == 1));
+            REQUIRE_FALSE(holds_parts(scratch.folder()));
+            for (const auto& [name, bytes] : inputs) REQUIRE(content(scratch / name) == bytes);
+            if (before == &half)
+              REQUIRE(content(scratch / ("runs/" + command.results + "/notes.txt")) == "mine\n");
+            scratch.write("runs/" + command.results + "/notes.txt", "mine\n");
+            if (outcome.status == 0) {
+              check_after(outcome);
+              ++whole;
+            } else {
+              REQUIRE((outcome.err + outcome.out).find("error: ") != std::string::npos);
+              ++refused;
+              const Outcome next = run(scratch, "dresslife", command.arguments);
+              INFO("the next time: " << next.out << next.err);
+              REQUIRE(next.status == 0);
+              check_after(next);
+            }
           }
         }
-      }
-    std::cout << command.arguments.substr(0, command.arguments.find(' ')) << ": " << refused << " refused, "
-              << whole << " whole, 0 false, 0 lost\n";
-  }
+      std::cout << command.arguments.substr(0, command.arguments.find(' ')) << ": " << refused << " refused, "
+                << whole << " whole, 0 false, 0 lost, of " << calls << " calls\n";
+    }
 }

@@ -214,6 +214,8 @@ TEST_CASE("urdf: what is wrong is told with its line") {
   refused("lower=\"-6\" upper=\"6\" effort=\"0\" velocity=\"6\"",
           "lower=\"-6\" upper=\"6\" effort=\"0\" velocity=\"0\"", "<joint name=\"j4\"",
           "joints[5].speed_deg_per_s is 0 (must be > 0 deg/s); give the highest speed");
+  refused("<link name=\"turret\"/>", "<xacro:arm name=\"turret\"/>", "<xacro:arm",
+          "is xacro, from which a URDF is made (<xacro:arm>); run xacro first: xacro palletizer.urdf > robot.urdf");
   UrdfRequest slow = request();
   slow.accelerations.pop_back();
   told(palletizer, "<joint name=\"j4\"", "joints[5].acceleration_deg_per_s2 is missing", slow);

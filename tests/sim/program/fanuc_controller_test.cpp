@@ -302,12 +302,50 @@ TEST_CASE("fanuc values: components of position registers, with names and in sum
           jig);
   CHECK(frame.program.work_objects.at(0).frame.position.x() == Approx(0.5).epsilon(rounding));
   REQUIRE(frame.problems.size() == 1);  // PR[5] is not known, and the frame is what it was no more
-  CHECK(frame.problems[0].what == "uses UFRAME[4], which lies in the controller");
+  CHECK(frame.problems[0].what == "uses UFRAME[4], which depends on PR[5], which is known only while the robot runs");
   // One component of an unknown register makes no position of zeros.
   const Reading unknown = run("   1:  PR[9,3]=50 ;\n   2:L PR[9] 100mm/sec FINE ;\n", known);
   CHECK(unknown.problems.at(0).what == "moves to PR[9], which is known only while the robot runs");
   CHECK(run("   1:L PR[1] 100mm/sec FINE ;\n", {.values = {{"PR[1]", "1,2,3,4,5,6"}}}).problems.at(0).what ==
         "moves in the active user frame, and nothing says which that is (UFRAME_NUM)");
+}
+
+TEST_CASE("fanuc frames: a system variable's component is written, the others stay") {
+  const Asked known{.values = {{"PR[1]", "X 500 Y 0 Z 100 W 180 P 0 R 0"}, {"UFRAME_NUM", "3"}, {"UTOOL_NUM", "2"}}};
+  const Reading r = run("   1:  $MNUTOOL[1,2].$Z=77 ;\n   2:  $MNUFRAME[1,3].$R=90 ;\n   3:L PR[1] 100mm/sec FINE ;\n", known);
+  REQUIRE(r.problem() == "no such problem");
+  const Frame tool = r.program.tools.at(r.move(0).tool).frame,
+              object = r.program.work_objects.at(r.move(0).work_object).frame;
+  CHECK((tool.position - Vector3(0, 0, 0.077)).norm() < rounding);  // X and Y of the tool that run() gives
+  CHECK((object.position - Vector3(1, 0, 0)).norm() < rounding);
+  CHECK((object.orientation * Vector3::UnitX() - Vector3::UnitY()).norm() < rounding);
+}
+
+TEST_CASE("fanuc: what an undecided branch may set is asked for where a move needs it, whatever was given or backed up") {
+  const std::vector<std::pair<std::string, std::string>> backup{
+      {"sysframe.va", "[*SYSTEM*]$MNUTOOL  Storage: CMOS  Access: RW  : ARRAY[1,9] OF POSITION\n     [1,2] =\n  Group: 1   "
+                      "Config: N D B, 0, 0, 0\n  X:     0.000   Y:     0.000   Z:   100.000\n  W:     0.000   P:     0.000   "
+                      "R:     0.000\n"}};
+  for (const auto& [sets, what] :
+       {std::pair("$MCR.$GENOVERRIDE=10", "moves under an OVERRIDE that is known only while the robot runs"),
+        std::pair("$PRGOVERRIDE=10", "moves under an $PRGOVERRIDE that is known only while the robot runs"),
+        std::pair("OVERRIDE=10%", "moves under an OVERRIDE that is known only while the robot runs"),
+        std::pair("$MNUTOOL[1,2]=PR[1]", "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
+        std::pair("$MNUTOOL[1,2].$Z=5", "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
+        std::pair("UTOOL[2]=PR[1]", "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs")}) {
+    INFO(sets);
+    const std::string lines = fmt::format("   1:L P[3] 100mm/sec FINE ;\n   2:  IF (DI[1]=ON) THEN ;\n   3:  {} ;\n"
+                                          "   4:  ENDIF ;\n   5:L P[8] 100mm/sec FINE ;\n", sets);
+    const Asked known{.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}}};
+    for (const auto& files : {std::vector<std::pair<std::string, std::string>>{}, backup}) {
+      const Reading r = run(lines, known, files);
+      REQUIRE(!r.problems.empty());
+      CHECK(r.problems[0].what == what);
+      Asked told = known;
+      told.values[r.problems[0].questions.at(0).name] = r.problems[0].questions[0].name == "DI[1]" ? "OFF" : "100";
+      CHECK(run(lines, told, files).problem() == "no such problem");
+    }
+  }
 }
 
 TEST_CASE("fanuc values: arguments, and the program that is named with them") {

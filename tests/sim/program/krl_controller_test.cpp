@@ -378,6 +378,42 @@ TEST_CASE("krl: an assignment by aggregate leaves nothing of the value before") 
   CHECK(unset.problem() == "no such problem");
 }
 
+TEST_CASE("krl: the robot stops where the controller, which runs ahead, waits for it") {
+  const auto blends = [](const std::string& between) {
+    const Reading r = run("$VEL.CP=1\n$APO.CDIS=10\nLIN " + pose + " C_DIS\n" + between + "\nLIN {X 900}");
+    INFO(between);
+    REQUIRE(r.problem() == "no such problem");
+    return r.move(0).zone.distance > 0;
+  };
+  for (const char* waits : {"WAIT SEC 0", "$OUT[1]=TRUE", "PULSE($OUT[1],TRUE,0.5)", "HALT", "WAIT FOR $IN[1]",
+                            "IF $IN[1] THEN\n$FLAG[1]=TRUE\nENDIF", "CONTINUE\n$OUT[1]=TRUE\n$OUT[2]=TRUE"})
+    CHECK_FALSE(blends(waits));
+  for (const char* goes_on : {"", "; a comment with $OUT[1]", "CONTINUE\n$OUT[1]=TRUE", "CONTINUE\nWAIT FOR $IN[1]", "$FLAG[1]=TRUE",
+                              "TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE", "INTERRUPT DECL 9 WHEN $IN[1] DO halted()"})
+    CHECK(blends(goes_on));
+  // Without moves read ahead none is approximated.
+  const Reading none = run("$VEL.CP=1\n$APO.CDIS=10\n$ADVANCE=0\nLIN " + pose + " C_DIS\n$ADVANCE=3\nLIN {X 900} C_DIS\nLIN {X 800}");
+  CHECK(none.move(0).zone.distance == 0);
+  CHECK(none.move(1).zone.distance == Approx(0.01));
+}
+
+TEST_CASE("krl: what an undecided branch may set is asked for where a move needs it") {
+  for (const char* sets : {"$VEL.CP=0.1", "$ACC.CP=0.5", "$APO.CDIS=50", "$ORI_TYPE=#CONSTANT", "$CIRC_TYPE=#PATH", "$IPO_MODE=#TCP",
+                           "$TOOL.Z=200", "$BASE=$NULLFRAME", "$OV_PRO=50", "$VEL_AXIS[1]=10", "f.X=950", "slow()"}) {
+    INFO(sets);
+    const std::string body = "DECL FRAME f\n$TOOL={X 0,Y 0,Z 100,A 0,B 0,C 0}\n$BASE=$NULLFRAME\n$VEL.CP=0.5\n$ACC.CP=1\n"
+                             "$APO.CDIS=10\nf={X 900,Y 0,Z 900,A 0,B 80,C 0}\nPTP " + axes(0) + "\nIF $IN[1] THEN\n" + sets +
+                             "\nENDIF\nLIN " + pose + "\nCIRC {X 950,Y 0,Z 1000,A 0,B 80,C 0},f C_DIS\nPTP " + axes(5) +
+                             "\nEND\nDEF slow()\n$VEL.CP=0.01";
+    const Reading r = run(body);
+    REQUIRE(!r.problems.empty());
+    const auto& questions = r.problems[0].questions;
+    CHECK(std::any_of(questions.begin(), questions.end(), [](const Question& q) { return q.name == "$in[1]"; }));
+    CHECK(run(body, "", {}, {.language = Language::krl, .options = {.values = {{"$IN[1]", "FALSE"}}}}).problem() ==
+          "no such problem");
+  }
+}
+
 TEST_CASE("krl: the override of the program slows its moves down") {
   const Reading r = run("$OV_PRO=50\n$VEL.CP=1\nPTP " + pose + "\nLIN {X 900}");
   REQUIRE(r.problem() == "no such problem");
