@@ -3,6 +3,8 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/job/calibration.h"
+#include "pipeline/job/job.h"
+#include "pipeline/job/learned_settings.h"
 #include "pipeline/job/motion.h"
 #include "pipeline/job/plain_part.h"
 #include "pipeline/job/robot.h"
@@ -230,4 +232,22 @@ TEST_CASE("checks: a job is beyond its calibration by more than the margins only
   CHECK(count(0, 0, 0) == 0);  // no wire was evaluated
   within.left_out = "rubbing was left out";
   CHECK(beyond(within, {}) == std::vector<std::string>{"rubbing was left out"});
+}
+
+TEST_CASE("learned: what lies in a hose is a cable by its own name, a dresspack without one is the cable", "[new]") {
+  Job job;
+  Dresspack& dresspack = job.dresspacks[0].dresspack;
+  dresspack.name = "pack";
+  Component cable, wire;
+  cable.name = "cable", wire.name = "wire", wire.material = "copper", wire.radius = 1e-4;
+  cable.components = {wire};
+  dresspack.components = {cable};
+  for (const bool bore : {false, true})
+    for (const bool material : {false, true}) {
+      dresspack.inner_diameter = bore ? std::optional(0.05) : std::nullopt;
+      dresspack.hose_material = material ? "polyamide" : "";
+      const std::vector<LearnedCable> cables = learned_under({&job}).cables;
+      REQUIRE(cables.size() == 1);
+      CHECK(cables[0].name == (bore || material ? "cable" : "pack"));
+    }
 }
