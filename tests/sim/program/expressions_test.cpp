@@ -151,7 +151,7 @@ class Random {
     if (kind == 0) {
       const int a = below(3), b = below(3), op = below(6);
       const std::string names[]{"<", "<=", ">", ">=", syntax_.equal, syntax_.unequal};
-      const bool holds[] = {a < b, a <= b, a > b, a >= b, a == b, a != b};
+      const bool holds[] = {a<b, a <= b, a> b, a >= b, a == b, a != b};
       return {fmt::format("({}{}{})", a, names[op], b), double(holds[op]), 3};
     }
     const Part a = condition(depth - 1);

@@ -109,12 +109,12 @@ TEST_CASE("fanuc: inputs are asked for, missing frames and programs named") {
 }
 
 TEST_CASE("fanuc: every unit of speed under an override, every way to end a move") {
-  const Reading r = run(
-      "   1:  OVERRIDE=50% ;\n   2:J P[1] 40% CNT150 ACC200 ;\n   3:L P[2] 500mm/sec CD20 ;\n"
-      "   4:L P[2] 90cm/min CR30 ;\n"
-      "   5:L P[2] 60inch/min FINE ;\n   6:L P[2] 90deg/sec FINE ;\n   7:J P[1] 1500msec FINE ;\n"
-      "   8:J P[1] 3sec CNT0 ACC0 ;\n"
-      "   9:J P[1] 250% FINE ;\n");
+  const Reading r =
+      run("   1:  OVERRIDE=50% ;\n   2:J P[1] 40% CNT150 ACC200 ;\n   3:L P[2] 500mm/sec CD20 ;\n"
+          "   4:L P[2] 90cm/min CR30 ;\n"
+          "   5:L P[2] 60inch/min FINE ;\n   6:L P[2] 90deg/sec FINE ;\n   7:J P[1] 1500msec FINE ;\n"
+          "   8:J P[1] 3sec CNT0 ACC0 ;\n"
+          "   9:J P[1] 250% FINE ;\n");
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == 8);
   CHECK(r.move(0).speed.axis_percent.value() == Approx(20));

@@ -378,6 +378,10 @@ TEST_CASE("legs: an axis that carries nothing takes its time and keeps to its li
   const JointMotion run(motion({start, same}), robot);
   // 1.5 m at 0.5 m/s with A = 0.75 m/s2: L/v + v/A.
   CHECK(run.duration() == Approx(1.5 / 0.5 + 0.5 / 0.75).epsilon(1e-9));
+  for (const double limit : {-1000.0, 2000.0}) {  // to the full
+    same.external_axes = {limit};
+    CHECK_NOTHROW(JointMotion(motion({start, same}), robot));
+  }
   same.external_axes = {2500};
   same.where = {"main.mod", 7, 1};
   try {
