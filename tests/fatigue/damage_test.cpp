@@ -383,7 +383,7 @@ TEST_CASE("histories without cycles do no damage") {
   CHECK(evaluate_cycles(std::vector<Reversal>{{0.1, 0}}, copper(), {}).empty());
 }
 
-TEST_CASE("two reversals that are counted once are half a cycle", "[new]") {
+TEST_CASE("two reversals that are counted once are half a cycle") {
   pipeline::Fatigue settings;
   settings.counting = Counting::half_cycles;
   const DamageCounter counter(copper(), settings);

@@ -319,7 +319,7 @@ TEST_CASE("life.h5: cycles, time, steps, segments and layers add up") {
   CHECK(life.read<double>("/layer/damage") == std::vector<double>{damage[3], damage[4]});
 }
 
-TEST_CASE("life.h5: forces of the cables by span, and the span where they ask most of the hose", "[new]") {
+TEST_CASE("life.h5: forces of the cables by span, and the span where they ask most of the hose") {
   const Folder folder;
   pipeline::Job job = test_job();
   pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;

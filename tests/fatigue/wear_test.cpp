@@ -39,10 +39,11 @@ std::vector<RubbedPatch> rubbed(double work, double from, double to, double cell
 
 }  // namespace
 
-TEST_CASE("wear: every obstacle has the rate of its own surface, and where there is none that of the robot", "[new]") {
+TEST_CASE("wear: every obstacle has the rate of its own surface, and where there is none that of the robot") {
   using pipeline::Counterface;
   pipeline::Material material = polymer();
-  material.wear.push_back({Counterface::cell, 3, 1, "test"}), material.wear.push_back({Counterface::floor, 4, 1, "test"});
+  material.wear.push_back({Counterface::cell, 3, 1, "test"}),
+      material.wear.push_back({Counterface::floor, 4, 1, "test"});
   for (const auto& [obstacle, expected] :
        {std::pair{"link_4", rate}, {"ring 2", rate / 2}, {"cell", 3.0}, {"floor", 4.0}, {"dresspack", rate}})
     CHECK(wear_rate(material, obstacle).rate == expected);

@@ -76,8 +76,7 @@ TEST_CASE("turns of wrist and arm keep the pose, a robot without such a wrist ha
 }
 
 TEST_CASE(
-    "other configurations: what they are called, the wrist next to the one before, and every limit kept",
-    "[new]") {
+    "other configurations: what they are called, the wrist next to the one before, and every limit kept") {
   Robot robot = shipped().robot;
   for (Joint& joint : robot.joints) joint.lower = -6.5, joint.upper = 6.5;
   for (const std::size_t axis : {1, 2}) robot.joints[axis].lower = -3.1, robot.joints[axis].upper = 3.1;
@@ -129,7 +128,7 @@ TEST_CASE(
   CHECK(kinds.size() >= 3);
 }
 
-TEST_CASE("turns of the wrist are those in their names", "[new]") {
+TEST_CASE("turns of the wrist are those in their names") {
   Robot robot = shipped().robot;
   for (Joint& joint : robot.joints) joint.lower = -7, joint.upper = 7;
   const std::vector<double> joints{0.1, -0.2, 0.3, 0.5, 0.6, -0.7};
@@ -160,7 +159,7 @@ TEST_CASE("turns of the wrist are those in their names", "[new]") {
     }
 }
 
-TEST_CASE("a wrist whose axes do not cross in one point at right angles is none", "[new]") {
+TEST_CASE("a wrist whose axes do not cross in one point at right angles is none") {
   const Robot robot = shipped().robot;
   const Vector3d along = robot.joints[3].axis.normalized(), five = robot.joints[4].axis.normalized();
   const auto is_one = [&](const std::function<void(Robot&)>& change) {

@@ -52,7 +52,7 @@ TEST_CASE("CSV: a number is one whole decimal number") {
   for (const char* none : {"", "1 2", "1,5", "0x1", "two"}) CHECK_FALSE(number_in(none));
 }
 
-TEST_CASE("CSV: what is written is read again, and no spreadsheet takes it for a formula", "[new]") {
+TEST_CASE("CSV: what is written is read again, and no spreadsheet takes it for a formula") {
   for (const char* as_it_is : {"", "plain", "5", "-5", "+1.5e3", "-.5", "1=2", "a-b"})
     CHECK(harmless(as_it_is) == as_it_is);
   for (const char* formula : {"=1+2", "-a", "+a", "@x", "-5 m", "="})

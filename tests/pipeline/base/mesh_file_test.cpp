@@ -46,7 +46,7 @@ std::vector<Triangle> read(const std::string& name, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("meshes: STL of both kinds and OBJ give the same triangles", "[new]") {
+TEST_CASE("meshes: STL of both kinds and OBJ give the same triangles") {
   std::string ascii = "solid two\n", obj, relative,
               shared = vertices("v", two[0]) + vertices("v", two[1]) + "f 1 2 3\nf 4/1 5//2 6/1/1\n";
   for (const Triangle& triangle : two) {
@@ -70,7 +70,7 @@ TEST_CASE("meshes: STL of both kinds and OBJ give the same triangles", "[new]") 
   CHECK(quad[1][2] == Vector3{0, 1, 0});
 }
 
-TEST_CASE("meshes: what is none is refused with its line", "[new]") {
+TEST_CASE("meshes: what is none is refused with its line") {
   const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
                     facet = "solid\nfacet\n" + vertices("vertex", two[0]);
   for (const auto& [name, text, words] : std::initializer_list<std::array<std::string, 3>>{

@@ -17,7 +17,7 @@ TEST_CASE("readable: every double has words, the smallest and the largest too") 
   CHECK(calendar_words(Limits::denorm_min()) == "less than a day");
 }
 
-TEST_CASE("readable: three figures, thousands apart, powers of ten only far out", "[new]") {
+TEST_CASE("readable: three figures, thousands apart, powers of ten only far out") {
   CHECK(calendar_words(68.24) == "5.7 years");
   CHECK(calendar_words(13.24) == "13.2 months");
   CHECK(calendar_words(1) == "1.00 months");
@@ -62,7 +62,7 @@ TEST_CASE("readable: digits in groups") {
   CHECK(grouped("-1234567.8901") == "-1,234,567.8901");
 }
 
-TEST_CASE("readable: text is measured and cut in characters, not bytes", "[new]") {
+TEST_CASE("readable: text is measured and cut in characters, not bytes") {
   CHECK(columns_of("Käfig") == 5);
   CHECK(shortened("Käfig", 5) == "Käfig");
   CHECK(shortened("Kääfig", 5) == "Kä...");

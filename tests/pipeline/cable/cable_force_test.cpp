@@ -81,7 +81,7 @@ TEST_CASE("a strength that one material lacks is not known") {
   CHECK(CableForce(dresspack, signal_cable).strength() == 0);
 }
 
-TEST_CASE("cables pull at both clamps with the moment of their forces about the hose's axis", "[new]") {
+TEST_CASE("cables pull at both clamps with the moment of their forces about the hose's axis") {
   pipeline::Component wire = test_dresspacks::part("cable", 1, 5.3e-3, 0, 0);
   wire.components = {test_dresspacks::wires("", 1, 75e-6, 0.5e-3, 0, pipeline::Hand::right)};
   const CableForce force(copper_only(), wire);

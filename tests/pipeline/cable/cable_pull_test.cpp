@@ -45,8 +45,7 @@ double unrolled(double R, double a, double elongation, double twist) {
 
 }  // namespace
 
-TEST_CASE("cable pull: a layer's wires strain as unrolled helices do, and each layer adds its pull",
-          "[new]") {
+TEST_CASE("cable pull: a layer's wires strain as unrolled helices do, and each layer adds its pull") {
   const Dresspack dresspack = copper_only();
   const double r = 1e-4, R = 2e-3, a = 0.3, area = pi * r * r, elongation = 2e-3;
   double sum = 0;
@@ -68,7 +67,7 @@ TEST_CASE("cable pull: a layer's wires strain as unrolled helices do, and each l
   CHECK(pull_of_wires(dresspack, {unknown}, elongation, 0) == 0);
 }
 
-TEST_CASE("cable pull: wires in strands in layers strain as curves in space do", "[new]") {
+TEST_CASE("cable pull: wires in strands in layers strain as curves in space do") {
   // The strand's bending is left out. It strains a wire by at most r sin(a)^2 / R of the twist's and stretch's share.
   const Dresspack dresspack = copper_only();
   const double r = 1e-4, R = 8e-3, a = 0.25, inner = 1.5e-4, b = 0.35, elongation = 1e-3, bent = 2e-3;
@@ -94,8 +93,7 @@ TEST_CASE("cable pull: wires in strands in layers strain as curves in space do",
 }
 
 TEST_CASE(
-    "cable pull: the elongation under a pull is its inverse, and a twisted layer shortens by Pythagoras",
-    "[new]") {
+    "cable pull: the elongation under a pull is its inverse, and a twisted layer shortens by Pythagoras") {
   const Dresspack dresspack = copper_only();
   const double R = 2e-3, a = 0.3;
   const std::vector<Component> layers{part(12, 1e-4, R, a), part(6, 1e-4, 1e-3, 0.2, Hand::left),
@@ -124,8 +122,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "cable pull: the hose's bending stiffness is its own, or that of wires, cables and plain parts added up",
-    "[new]") {
+    "cable pull: the hose's bending stiffness is its own, or that of wires, cables and plain parts added up") {
   Dresspack dresspack = copper_only();
   const Component wire = part(7, 2e-4, 1e-3, 0.2);
   dresspack.components = {wire};

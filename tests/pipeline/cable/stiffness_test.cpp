@@ -354,7 +354,7 @@ TEST_CASE("stiffness: a hose whose wall nobody named is warned of, with what it 
           Contains("lacks its wall (hose_material)") && Contains("Remedy: hose_material: hose_polyamide"));
 }
 
-TEST_CASE("stiffness: a given one is warned of beyond its limits, and not up to them", "[new]") {
+TEST_CASE("stiffness: a given one is warned of beyond its limits, and not up to them") {
   Component cable = cable_of({wires(7, 3e-4, 1e-3, 10 * degree), wires(1, 3e-4, 0, 0)});
   cable.polymer_bending_stiffness = 0.01;
   Dresspack alone = of({cable}), bare = of(cable.components), hose, walled;
@@ -367,7 +367,8 @@ TEST_CASE("stiffness: a given one is warned of beyond its limits, and not up to 
   const auto bending = [](const Dresspack& dresspack, SlipState state) {
     return stiffness_of_construction(dresspack, state, dresspack.construction_curvature).bending;
   };
-  // A hose without a wall may have a solid bar's of 3.3 GPa; one that is known has at most twice what friction makes of it.
+  // A hose without a wall may have a solid bar's of 3.3 GPa; one that is known has at most twice what friction makes of
+  // it.
   const double bar = 3.3e9 * pi / 64 * std::pow(0.06, 4);
   const struct {
     Dresspack dresspack;

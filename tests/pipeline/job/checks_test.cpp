@@ -3,6 +3,8 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/job/calibration.h"
+#include "pipeline/job/job.h"
+#include "pipeline/job/learned_settings.h"
 #include "pipeline/job/motion.h"
 #include "pipeline/job/plain_part.h"
 #include "pipeline/job/robot.h"
@@ -51,7 +53,7 @@ Clamp clamp_on(const std::string& link) {
 
 }  // namespace
 
-TEST_CASE("checks: a motion has exactly one source and begins with a move", "[new]") {
+TEST_CASE("checks: a motion has exactly one source and begins with a move") {
   for (int given = 0; given < 32; ++given) {
     Motion motion;
     if (given & 1) motion.steps = {move()};
@@ -78,7 +80,7 @@ TEST_CASE("checks: a motion has exactly one source and begins with a move", "[ne
     }
 }
 
-TEST_CASE("checks: of a move's speeds and zones there is at most one of each", "[new]") {
+TEST_CASE("checks: of a move's speeds and zones there is at most one of each") {
   for (int given = 0; given < 8; ++given) {
     MotionStep speed = move(), zone = move();
     if (given & 1) speed.speed = 1, zone.zone = 1;
@@ -102,7 +104,7 @@ TEST_CASE("checks: of a move's speeds and zones there is at most one of each", "
   }
 }
 
-TEST_CASE("checks: a step is a move, a dwell or a block, and a move has one target", "[new]") {
+TEST_CASE("checks: a step is a move, a dwell or a block, and a move has one target") {
   for (int given = 0; given < 8; ++given) {
     MotionStep step;
     if (given & 1) step = move();
@@ -131,7 +133,7 @@ TEST_CASE("checks: a step is a move, a dwell or a block, and a move has one targ
   CHECK(is_refused(pose));
 }
 
-TEST_CASE("checks: a circular move has one point on its way, and no other move has any", "[new]") {
+TEST_CASE("checks: a circular move has one point on its way, and no other move has any") {
   for (const PathKind path : {PathKind::joint, PathKind::linear, PathKind::circular})
     for (const std::size_t via : {0, 2, 3})
       for (const std::size_t angles : {0, 1, 2}) {
@@ -145,8 +147,7 @@ TEST_CASE("checks: a circular move has one point on its way, and no other move h
       }
 }
 
-TEST_CASE("checks: clamps and rings stand in their order on links of the robot, and let the hose through",
-          "[new]") {
+TEST_CASE("checks: clamps and rings stand in their order on links of the robot, and let the hose through") {
   Routing routing;
   routing.free_length = 2;
   routing.base_clamp = clamp_on("base"), routing.tool_clamp = clamp_on("hand");
@@ -201,7 +202,7 @@ TEST_CASE("checks: clamps and rings stand in their order on links of the robot, 
   CHECK_FALSE(refused(of));
 }
 
-TEST_CASE("checks: only a hose has a bore or a filling, and its bore is the smaller diameter", "[new]") {
+TEST_CASE("checks: only a hose has a bore or a filling, and its bore is the smaller diameter") {
   for (const PlainKind kind : {PlainKind::filler, PlainKind::hose, PlainKind::fibre})
     for (const double bore : {0.0, 0.0079, 0.008, 0.009})
       for (const Medium medium : {Medium::air, Medium::water}) {
@@ -213,7 +214,7 @@ TEST_CASE("checks: only a hose has a bore or a filling, and its bore is the smal
       }
 }
 
-TEST_CASE("checks: a job is beyond its calibration by more than the margins only", "[new]") {
+TEST_CASE("checks: a job is beyond its calibration by more than the margins only") {
   LearnedWithin within;
   CHECK(beyond(within, {1, 100, 100}).empty());  // nothing is known of its tests
   within.largest_strain_range = 0.01, within.least_strain_range = 0.002, within.largest_curvature = 8,
@@ -230,4 +231,22 @@ TEST_CASE("checks: a job is beyond its calibration by more than the margins only
   CHECK(count(0, 0, 0) == 0);  // no wire was evaluated
   within.left_out = "rubbing was left out";
   CHECK(beyond(within, {}) == std::vector<std::string>{"rubbing was left out"});
+}
+
+TEST_CASE("learned: what lies in a hose is a cable by its own name, a dresspack without one is the cable") {
+  Job job;
+  Dresspack& dresspack = job.dresspacks[0].dresspack;
+  dresspack.name = "pack";
+  Component cable, wire;
+  cable.name = "cable", wire.name = "wire", wire.material = "copper", wire.radius = 1e-4;
+  cable.components = {wire};
+  dresspack.components = {cable};
+  for (const bool bore : {false, true})
+    for (const bool material : {false, true}) {
+      dresspack.inner_diameter = bore ? std::optional(0.05) : std::nullopt;
+      dresspack.hose_material = material ? "polyamide" : "";
+      const std::vector<LearnedCable> cables = learned_under({&job}).cables;
+      REQUIRE(cables.size() == 1);
+      CHECK(cables[0].name == (bore || material ? "cable" : "pack"));
+    }
 }

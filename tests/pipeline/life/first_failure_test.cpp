@@ -121,8 +121,7 @@ TEST_CASE("shares of causes that were learned together: by the conditional distr
   }
 }
 
-TEST_CASE("shares of two causes that were learned together have the closed form of a straight response",
-          "[new]") {
+TEST_CASE("shares of two causes that were learned together have the closed form of a straight response") {
   // With a, b and the correlation r: V(1) = (a + b r)^2, V(2) = (b + a r)^2, V(1, 2) = a^2 + b^2 + 2 a b r.
   for (const double r : {-0.6, 0.6, 0.9}) {
     const double a = 1, b = 0.5, of_a = std::pow(a + b * r, 2), of_b = std::pow(b + a * r, 2),
@@ -288,8 +287,7 @@ TEST_CASE("modes and their text lead to each other, also from a response alone, 
   CHECK_THROWS_AS(modes_from_text(one.text() + "mode second\n"), std::exception);
 }
 
-TEST_CASE("percentiles are straight between the middles of samples, shares of outliving count pairs",
-          "[new]") {
+TEST_CASE("percentiles are straight between the middles of samples, shares of outliving count pairs") {
   std::vector<double> lives;
   for (int k = 19; k >= 0; --k) lives.push_back(k / 10.0);
   const LifePercentiles of =
@@ -305,7 +303,7 @@ TEST_CASE("percentiles are straight between the middles of samples, shares of ou
   CHECK(share_outliving({2, 2, 1, 1, 1}, {1, 2, 3, 4, 5}) == Approx(0.3));
 }
 
-TEST_CASE("two modes of one dresspack share the part of their scatter that is given", "[new]") {
+TEST_CASE("two modes of one dresspack share the part of their scatter that is given") {
   for (const double shared : {1.0, 0.5, 0.0}) {
     LifeResponse one = straight(0, 0, 0), other = one;
     for (LifeResponse* mode : {&one, &other})

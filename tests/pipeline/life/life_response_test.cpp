@@ -128,7 +128,7 @@ struct RandomTable {
 
 }  // namespace
 
-TEST_CASE("a response has the values of its table at every combination of nodes", "[new]") {
+TEST_CASE("a response has the values of its table at every combination of nodes") {
   RandomTable table;
   const LifeResponse& of = table.response;
   for (int k = 0; k < 300; ++k) {
@@ -165,8 +165,7 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
 }
 
 TEST_CASE(
-    "a response is straight along each axis between neighbouring nodes and beyond the last, as far as 3.5",
-    "[new]") {
+    "a response is straight along each axis between neighbouring nodes and beyond the last, as far as 3.5") {
   RandomTable table;
   const LifeResponse& of = table.response;
   for (int k = 0; k < 40; ++k)
@@ -191,8 +190,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a response depends on what its table varies over, and on nothing else of the strain and the material",
-    "[new]") {
+    "a response depends on what its table varies over, and on nothing else of the strain and the material") {
   const LifeResponse full = RandomTable().response;
   for (const std::size_t varied : {friction, slack, play, strength, slope, scatter}) {
     LifeResponse response = full;

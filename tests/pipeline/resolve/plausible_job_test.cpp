@@ -24,7 +24,7 @@ std::size_t doubts(std::vector<MotionStep> steps) {
 
 }  // namespace
 
-TEST_CASE("plausible steps: angles that are all below a turn in radians and yet move", "[new]") {
+TEST_CASE("plausible steps: angles that are all below a turn in radians and yet move") {
   CHECK(doubts({}) == 0);
   CHECK(doubts({move_to({1, 2}), move_to({1.2, 2})}) == 1);
   CHECK(doubts({move_to({1, 2}), move_to({1.05, 2})}) == 0);  // it stands
@@ -36,7 +36,7 @@ TEST_CASE("plausible steps: angles that are all below a turn in radians and yet 
   CHECK(doubts({move_to({1, 2}), move_to({3, 2}), block}) == 0);  // also what a block holds
 }
 
-TEST_CASE("plausible steps: speeds that are shares or in mm/s, dwells in ms, told once with their number", "[new]") {
+TEST_CASE("plausible steps: speeds that are shares or in mm/s, dwells in ms, told once with their number") {
   const auto with = [](std::optional<double> percent, std::optional<double> tool, double dwell) {
     MotionStep step = move_to({90, 0});
     step.speed_percent = percent, step.tool_speed = tool, step.dwell = dwell;
@@ -51,10 +51,11 @@ TEST_CASE("plausible steps: speeds that are shares or in mm/s, dwells in ms, tol
   motion.steps = {with(0.5, {}, 0), with(0.6, {}, 0), with(0.7, {}, 0)};
   const std::vector<Warning> warnings = plausibility_of_steps(motion);
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0].line(), Catch::Contains("speed_percent is 0.5") && Catch::Contains("(and 2 more)") && Catch::Contains("speed_percent: 50"));
+  CHECK_THAT(warnings[0].line(), Catch::Contains("speed_percent is 0.5") && Catch::Contains("(and 2 more)") &&
+                                     Catch::Contains("speed_percent: 50"));
 }
 
-TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hides cycles", "[new]") {
+TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hides cycles") {
   const auto doubts_of = [](double rate, double gate, bool prescribed) {
     Job job;
     job.simulation.sample_rate = rate, job.strain.gate = gate;

@@ -67,11 +67,11 @@ std::string refusal(const std::string& keys) {
 
 }  // namespace
 
-TEST_CASE("fields: every kind of value is read in SI units, each item of a list by itself, and comes back",
-          "[new]") {
+TEST_CASE("fields: every kind of value is read in SI units, each item of a list by itself, and comes back") {
   const Whole of = read(
       "share: 1\nmass_kg: measured\nwhole: true\ncount: 9\nangle_deg: 180\nplace_mm: [10, -20, 30]\nlist: [4, 5, 6]\n"
-      "colours: [blue, red]\nparts:\n  - {width_mm: 5, colour: red}\n  - {width_mm: 7}\n  - {width_mm: 9, colour: blue}\nspare: {width_mm: 2}\n");
+      "colours: [blue, red]\nparts:\n  - {width_mm: 5, colour: red}\n  - {width_mm: 7}\n"
+      "  - {width_mm: 9, colour: blue}\nspare: {width_mm: 2}\n");
   CHECK(of.share == 1);
   CHECK(of.by_word);
   CHECK(of.mass == 2);
@@ -98,7 +98,7 @@ TEST_CASE("fields: every kind of value is read in SI units, each item of a list 
   CHECK_FALSE(read("").angle);
 }
 
-TEST_CASE("fields: the ends of a range are in it, and what lies beyond is refused", "[new]") {
+TEST_CASE("fields: the ends of a range are in it, and what lies beyond is refused") {
   for (const char* fits : {"share: 0", "share: 1", "mass_kg: 1", "count: 1", "count: 9", "count: 5.0",
                            "angle_deg: -400", "share: +0.5", "share: 5e-1"})
     CHECK(refusal(fits) == "read");
@@ -135,7 +135,7 @@ TEST_CASE("fields: the ends of a range are in it, and what lies beyond is refuse
              Catch::Contains("file.yaml:2:8") && Catch::Contains("file.yaml:3:8"));
 }
 
-TEST_CASE("fields: a range in words holds what it says", "[new]") {
+TEST_CASE("fields: a range in words holds what it says") {
   CHECK(any_number().text() == "any");
   CHECK(above(2).text() == "> 2");
   CHECK(at_least(2).text() == ">= 2");
@@ -148,7 +148,7 @@ TEST_CASE("fields: a range in words holds what it says", "[new]") {
   CHECK_FALSE(between(-1, 2).holds(2.001));
 }
 
-TEST_CASE("fields: the nearest word is that of the least edit distance, by its definition", "[new]") {
+TEST_CASE("fields: the nearest word is that of the least edit distance, by its definition") {
   const std::function<std::size_t(std::string_view, std::string_view)> distance =
       [&](std::string_view a, std::string_view b) -> std::size_t {
     if (a.empty() || b.empty()) return a.size() + b.size();
@@ -177,7 +177,7 @@ TEST_CASE("fields: the nearest word is that of the least edit distance, by its d
   CHECK(nearest_word("damping_time", {"damping_time_ms"}) == "damping_time_ms");
 }
 
-TEST_CASE("fields: the manual has a row for every key with its unit, range and default", "[new]") {
+TEST_CASE("fields: the manual has a row for every key with its unit, range and default") {
   const std::vector<KeyRow> rows = key_rows<Whole>("whole");
   const auto row = [&](const std::string& map, const std::string& key) {
     for (const KeyRow& one : rows)

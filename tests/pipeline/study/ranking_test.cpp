@@ -48,7 +48,7 @@ TEST_CASE("ranking: best life first, equal lives by name, failed jobs last") {
   CHECK(names(rows) == std::vector<std::string>{"endless", "twin a", "twin b", "short", "aborted", "broken"});
 }
 
-TEST_CASE("ranking: a row of a study says how its job stands and which values it has", "[new]") {
+TEST_CASE("ranking: a row of a study says how its job stands and which values it has") {
   const Scratch scratch;
   Study study;
   study.varied = {"length", "slip"};
@@ -85,7 +85,7 @@ TEST_CASE("ranking: a row of a study says how its job stands and which values it
   CHECK(rows[3].varied.empty());
 }
 
-TEST_CASE("ranking: of several unvalidated modes of one name the first to fail counts", "[new]") {
+TEST_CASE("ranking: of several unvalidated modes of one name the first to fail counts") {
   RankingRow row;
   const auto add = [&](const char* mode, double median) {
     UnvalidatedMode& one = row.unvalidated.emplace_back();

@@ -84,8 +84,7 @@ TEST_CASE("urdf: limits and a joint that mimics another") {
   CHECK(robot.joints[4].speed == Approx(6));
 }
 
-TEST_CASE("urdf: a joint that mimics another by a factor bounds its range and its speed by that factor",
-          "[new]") {
+TEST_CASE("urdf: a joint that mimics another by a factor bounds its range and its speed by that factor") {
   for (const double ratio : {-0.5, 0.5}) {
     const std::string slower = edited(changed("multiplier=\"-1\"", fmt::format("multiplier=\"{}\"", ratio)),
                                       "lower=\"-3\" upper=\"0.8\" effort=\"0\" velocity=\"9\"",
@@ -100,7 +99,7 @@ TEST_CASE("urdf: a joint that mimics another by a factor bounds its range and it
   }
 }
 
-TEST_CASE("urdf: turns of fixed joints are kept as three angles, also at a right angle", "[new]") {
+TEST_CASE("urdf: turns of fixed joints are kept as three angles, also at a right angle") {
   for (const Vector3d& angles :
        {Vector3d(0.3, 0.4, 0.5), Vector3d(-2, 1, 3), Vector3d(0.3, std::numbers::pi / 2, 0.5),
         Vector3d(1, -std::numbers::pi / 2, 0)}) {

@@ -63,8 +63,7 @@ TEST_CASE("a hose dragged over the floor is rubbed evenly along its underside, a
 }
 
 TEST_CASE(
-    "a contact's work lies evenly over a segment's length about where it was before the step, in its sector",
-    "[new]") {
+    "a contact's work lies evenly over a segment's length about where it was before the step, in its sector") {
   const RodProperties p = hose(10, 1);
   const Rod rod(p);
   const double h = 0.01, length = 0.1;

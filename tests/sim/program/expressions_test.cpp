@@ -151,7 +151,7 @@ class Random {
     if (kind == 0) {
       const int a = below(3), b = below(3), op = below(6);
       const std::string names[]{"<", "<=", ">", ">=", syntax_.equal, syntax_.unequal};
-      const bool holds[]{a<b, a <= b, a> b, a >= b, a == b, a != b};
+      const bool holds[] = {a<b, a <= b, a> b, a >= b, a == b, a != b};
       return {fmt::format("({}{}{})", a, names[op], b), double(holds[op]), 3};
     }
     const Part a = condition(depth - 1);
@@ -168,10 +168,6 @@ class Random {
   const Syntax& syntax_;
   std::mt19937 engine_{11};
 };
-
-}  // namespace
-
-namespace {
 
 /// Waits of 1000 s and each of these; `before`: declarations and assignments.
 void check_values(const Syntax& syntax, const std::string& before,
@@ -191,16 +187,21 @@ void check_values(const Syntax& syntax, const std::string& before,
 
 }  // namespace
 
-TEST_CASE("rapid: functions of numbers, texts, vectors and poses have their values", "[new]") {
+TEST_CASE("rapid: functions of numbers, texts, vectors and poses have their values") {
   check_values(
       languages[0],
-      "VAR num list{3,2}:=[[1,2],[3,4],[5,6]];\nVAR pose one:=[[100,20,3],[1,0,0,0]];\nVAR pose other:=[[10,20,30],[1,0,0,0]];\n"
-      "VAR pose product;\nVAR pose back;\nVAR pos moved;\nVAR orient turned;\nVAR orient pole;\nVAR orient unit;\nVAR pos sum;\n"
+      "VAR num list{3,2}:=[[1,2],[3,4],[5,6]];\nVAR pose one:=[[100,20,3],[1,0,0,0]];\n"
+      "VAR pose other:=[[10,20,30],[1,0,0,0]];\n"
+      "VAR pose product;\nVAR pose back;\nVAR pos moved;\nVAR orient turned;\nVAR orient pole;\n"
+      "VAR orient unit;\nVAR pos sum;\n"
       "VAR pos less;\nVAR pos across;\nVAR pos twice;\nVAR pos half;\nVAR pos minus;\nVAR pose made;\n"
       "VAR robtarget p1:=[[100,200,300],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
-      "turned:=OrientZYX(30,40,50);\npole:=OrientZYX(30,90,0);\nunit:=NOrient([0,3,0,4]);\none.rot:=OrientZYX(90,0,0);\n"
-      "other.rot:=OrientZYX(0,0,90);\nproduct:=PoseMult(one,other);\nback:=PoseInv(one);\nmoved:=PoseVect(one,[10,20,30]);\n"
-      "sum:=[1,2,3]+[4,6,8];\nless:=[1,2,3]-[4,6,8];\nacross:=[1,2,3]*[4,6,9];\ntwice:=2*[1,2,3];\nhalf:=[1,2,3]/2;\nminus:=-sum;\n"
+      "turned:=OrientZYX(30,40,50);\npole:=OrientZYX(30,90,0);\nunit:=NOrient([0,3,0,4]);\n"
+      "one.rot:=OrientZYX(90,0,0);\n"
+      "other.rot:=OrientZYX(0,0,90);\nproduct:=PoseMult(one,other);\nback:=PoseInv(one);\n"
+      "moved:=PoseVect(one,[10,20,30]);\n"
+      "sum:=[1,2,3]+[4,6,8];\nless:=[1,2,3]-[4,6,8];\nacross:=[1,2,3]*[4,6,9];\ntwice:=2*[1,2,3];\n"
+      "half:=[1,2,3]/2;\nminus:=-sum;\n"
       "made:=DefFrame(p1,Offs(p1,0,50,0),Offs(p1,-20,30,0));\n",
       {{"Sqrt(6.25)", 2.5},
        {"ASin(0.5)", 30},
@@ -274,7 +275,7 @@ TEST_CASE("rapid: functions of numbers, texts, vectors and poses have their valu
        {"EulerZYX(\\X,made.rot)", 0}});
 }
 
-TEST_CASE("krl: functions of numbers and bits, and frames in frames", "[new]") {
+TEST_CASE("krl: functions of numbers and bits, and frames in frames") {
   check_values(
       languages[1],
       "DECL FRAME f,g,h\nf={X 100,Y 20,Z 3,A 90,B 0,C 0}\ng=f:{X 10,Y 20,Z 30,A 0,B 0,C 90}\nh=INV_POS(f)\n",
@@ -299,11 +300,13 @@ TEST_CASE("krl: functions of numbers and bits, and frames in frames", "[new]") {
        {"h.A", -90}});
 }
 
-TEST_CASE("urscript: functions of numbers, lists and poses", "[new]") {
+TEST_CASE("urscript: functions of numbers, lists and poses") {
   check_values(
       languages[3],
-      "f=p[0.1,0.02,0.003,0,0,d2r(90)]\ng=pose_trans(f,p[0.01,0.02,0.03,0,0,d2r(30)])\nh=pose_inv(f)\nsum=pose_add(f,g)\n"
-      "less=pose_sub(g,f)\nbetween=interpolate_pose(f,g,0.25)\nturn=rpy2rotvec([0,0,0.5])\nrpy=rotvec2rpy(rpy2rotvec([0.3,0.4,0.5]))\n",
+      "f=p[0.1,0.02,0.003,0,0,d2r(90)]\ng=pose_trans(f,p[0.01,0.02,0.03,0,0,d2r(30)])\nh=pose_inv(f)\n"
+      "sum=pose_add(f,g)\n"
+      "less=pose_sub(g,f)\nbetween=interpolate_pose(f,g,0.25)\nturn=rpy2rotvec([0,0,0.5])\n"
+      "rpy=rotvec2rpy(rpy2rotvec([0.3,0.4,0.5]))\n",
       {{"sqrt(6.25)", 2.5},     {"r2d(asin(0.5))", 30},    {"r2d(acos(0.5))", 60},
        {"r2d(atan(1))", 45},    {"r2d(atan2(1,-1))", 135}, {"pow(2,5)", 32},
        {"log10(1000)", 3},      {"floor(-2.5)", -3},       {"ceil(2.5)", 3},
@@ -316,8 +319,7 @@ TEST_CASE("urscript: functions of numbers, lists and poses", "[new]") {
        {"rpy[0]", 0.3},         {"rpy[1]", 0.4},           {"rpy[2]", 0.5}});
 }
 
-TEST_CASE("every language reckons random expressions as arithmetic does, and decides as logic does",
-          "[new]") {
+TEST_CASE("every language reckons random expressions as arithmetic does, and decides as logic does") {
   for (const Syntax& syntax : languages) {
     Random random(syntax);
     std::string text = syntax.begin;

@@ -108,11 +108,13 @@ TEST_CASE("fanuc: inputs are asked for, missing frames and programs named") {
             .program.instructions.size() == 1);
 }
 
-TEST_CASE("fanuc: every unit of speed under an override, every way to end a move", "[new]") {
-  const Reading r = run(
-      "   1:  OVERRIDE=50% ;\n   2:J P[1] 40% CNT150 ACC200 ;\n   3:L P[2] 500mm/sec CD20 ;\n   4:L P[2] 90cm/min CR30 ;\n"
-      "   5:L P[2] 60inch/min FINE ;\n   6:L P[2] 90deg/sec FINE ;\n   7:J P[1] 1500msec FINE ;\n   8:J P[1] 3sec CNT0 ACC0 ;\n"
-      "   9:J P[1] 250% FINE ;\n");
+TEST_CASE("fanuc: every unit of speed under an override, every way to end a move") {
+  const Reading r =
+      run("   1:  OVERRIDE=50% ;\n   2:J P[1] 40% CNT150 ACC200 ;\n   3:L P[2] 500mm/sec CD20 ;\n"
+          "   4:L P[2] 90cm/min CR30 ;\n"
+          "   5:L P[2] 60inch/min FINE ;\n   6:L P[2] 90deg/sec FINE ;\n   7:J P[1] 1500msec FINE ;\n"
+          "   8:J P[1] 3sec CNT0 ACC0 ;\n"
+          "   9:J P[1] 250% FINE ;\n");
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == 8);
   CHECK(r.move(0).speed.axis_percent.value() == Approx(20));
@@ -130,7 +132,7 @@ TEST_CASE("fanuc: every unit of speed under an override, every way to end a move
   CHECK(r.move(7).speed.axis_percent.value() == Approx(50));
 }
 
-TEST_CASE("fanuc: frames as six numbers and back, also where the second turn is a right angle", "[new]") {
+TEST_CASE("fanuc: frames as six numbers and back, also where the second turn is a right angle") {
   for (const double p : {-90.0, -35.0, 0.0, 80.0, 90.0})
     for (const double w : {-150.0, 20.0, 120.0})
       for (const double r : {-100.0, 0.0, 170.0}) {
@@ -148,7 +150,7 @@ TEST_CASE("fanuc: frames as six numbers and back, also where the second turn is 
       }
 }
 
-TEST_CASE("fanuc: joint angles are offset one by one, and only by joint angles", "[new]") {
+TEST_CASE("fanuc: joint angles are offset one by one, and only by joint angles") {
   const auto moved = [](const std::string& offset) {
     ImportOptions options;
     options.values["PR[1]"] = offset;

@@ -111,7 +111,7 @@ TEST_CASE("krl: SPL points lie on a smooth curve") {
   CHECK(r.move(5).where.line == 6);
 }
 
-TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas through three of them", "[new]") {
+TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas through three of them") {
   std::vector<Instruction> moves(7);
   const std::vector<Vector3> at{{0, 0, 0}, {0.1, 0, 0.02}, {0.3, 0.1, 0}, {0.35, 0.25, 0.05}, {0.2, 0.3, 0}};
   for (std::size_t k = 0; k < at.size(); ++k) {
@@ -201,7 +201,7 @@ TEST_CASE("krl: external axes are kept where one of them is used") {
   CHECK(used.move(1).target.external_axes[0] == 0);
 }
 
-TEST_CASE("krl: each external axis keeps its own place, also where it is moved by a way", "[new]") {
+TEST_CASE("krl: each external axis keeps its own place, also where it is moved by a way") {
   const std::string axes = "A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0";
   const Reading r = run("PTP {" + axes + ",E1 10,E3 30}\nPTP_REL {E3 5}\nPTP_REL {A1 1,E2 -2,E1 1}\nPTP {" +
                         axes + ",E2 7}");

@@ -45,8 +45,7 @@ TEST_CASE("program ways: those of the shipped program read back as the program b
 }
 
 TEST_CASE(
-    "program ways: a line is changed for what it and the stands behind it cost, by a point with the arm or the wrist moved",
-    "[new]") {
+    "program ways: a line is changed for what it and the stands behind it cost, a point moves arm or wrist") {
   Job job = shipped("side_panel.yaml");
   const Scratch scratch;
   const std::string no_more = ",[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n";

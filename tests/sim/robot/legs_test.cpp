@@ -378,6 +378,10 @@ TEST_CASE("legs: an axis that carries nothing takes its time and keeps to its li
   const JointMotion run(motion({start, same}), robot);
   // 1.5 m at 0.5 m/s with A = 0.75 m/s2: L/v + v/A.
   CHECK(run.duration() == Approx(1.5 / 0.5 + 0.5 / 0.75).epsilon(1e-9));
+  for (const double limit : {-1000.0, 2000.0}) {  // to the full
+    same.external_axes = {limit};
+    CHECK_NOTHROW(JointMotion(motion({start, same}), robot));
+  }
   same.external_axes = {2500};
   same.where = {"main.mod", 7, 1};
   try {
@@ -391,8 +395,7 @@ TEST_CASE("legs: an axis that carries nothing takes its time and keeps to its li
   }
 }
 
-TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes', its tool's and its own",
-          "[new]") {
+TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes', its tool's and its own") {
   const pipeline::Robot robot = arm(10, 100);  // the flange is 1 m from axis 1
   const VectorXd mean = VectorXd::Constant(6, 50);
   constexpr double chords = 2e-3;  // of arcs of 0.8 rad in 24 parts
@@ -428,8 +431,7 @@ TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes
   CHECK(0.8 / cruise + cruise / 50 == Approx(4));
 }
 
-TEST_CASE("legs: a tool's zone between two joint moves is as large a share of each as of its tool's way",
-          "[new]") {
+TEST_CASE("legs: a tool's zone between two joint moves is as large a share of each as of its tool's way") {
   pipeline::MotionStep start, turn, lift;
   start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0},
   lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
@@ -445,8 +447,7 @@ TEST_CASE("legs: a tool's zone between two joint moves is as large a share of ea
   }
 }
 
-TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within their angular zone",
-          "[new]") {
+TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within their angular zone") {
   pipeline::MotionStep start, turn, lift, line;
   start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0},
   lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};

@@ -253,7 +253,7 @@ TEST_CASE("motion: a blended path stays within the zone and leaves the legs") {
   }
 }
 
-TEST_CASE("motion: a blend takes at most half of either leg, whatever its zone", "[new]") {
+TEST_CASE("motion: a blend takes at most half of either leg, whatever its zone") {
   for (const double first : {1.0, 0.1}) {  // the second leg is the other of them
     const double second = first == 1 ? 0.1 : 1;
     const JointMotion motion(motion_of({move_to({0, 0}), move_to({first, 0}, 3), move_to({first, second})}),
@@ -269,6 +269,14 @@ TEST_CASE("motion: a blend takes at most half of either leg, whatever its zone",
     // The short leg bounds the blend. A step of the search above is a few per mil of its way.
     CHECK((first < second ? begins - first / 2 : second / 2 - ends) < 0.01 * std::min(first, second));
   }
+  // The second axis brakes eight times as hard: more than half of its leg could be blended, and is not.
+  const JointMotion motion(
+      motion_of({move_to({0, 0}), move_to({1, 0}, 3), move_to({1, 0.1}, 0.01), move_to({2, 0.1})}),
+      robot_with({2, 2}, {1, 8}));
+  double ends = 0;
+  for (double t = 1e-4; motion.velocity(t)[0] > 0; t += 1e-4) ends = motion.position(t)[1];
+  CHECK(ends <= 0.05 * (1 + rounding));
+  CHECK(ends > 0.049);
 }
 
 TEST_CASE("motion: a right-angled blend takes the closed form's time") {

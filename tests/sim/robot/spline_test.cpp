@@ -8,7 +8,7 @@ namespace dresslife::sim {
 
 constexpr double rounding = 1e-13;  // some tens of roundings of numbers near 1
 
-TEST_CASE("spline: a spline goes through a cubic as it is", "[new]") {
+TEST_CASE("spline: a spline goes through a cubic as it is") {
   const std::vector<double> times{0, 0.3, 1, 1.2, 2, 3.5};
   const auto cubic = [](double t) { return 1 - 2 * t + 0.7 * t * t - 0.3 * t * t * t; };
   Eigen::MatrixXd values(2, 6);
@@ -22,7 +22,7 @@ TEST_CASE("spline: a spline goes through a cubic as it is", "[new]") {
   CHECK(spline.at(9)[0] == cubic(3.5));
 }
 
-TEST_CASE("spline: few knots give a parabola, a line, a constant", "[new]") {
+TEST_CASE("spline: few knots give a parabola, a line, a constant") {
   const CubicSpline parabola({0, 1, 3}, Eigen::RowVector3d(0, 1, 9));
   CHECK(parabola.at(2)[0] == Approx(4).epsilon(rounding));
   const CubicSpline line({0, 2}, Eigen::RowVector2d(1, 5));
@@ -31,7 +31,7 @@ TEST_CASE("spline: few knots give a parabola, a line, a constant", "[new]") {
   CHECK(constant.at(4)[0] == 7);
 }
 
-TEST_CASE("spline: a spline's error falls with the fourth power of the step", "[new]") {
+TEST_CASE("spline: a spline's error falls with the fourth power of the step") {
   const auto largest_error = [](int steps) {
     std::vector<double> times;
     Eigen::MatrixXd values(1, steps + 1);

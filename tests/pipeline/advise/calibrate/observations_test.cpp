@@ -39,8 +39,7 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TEST_CASE("observations: exactly one thing is observed, and what cannot be is refused with its remedy",
-          "[new]") {
+TEST_CASE("observations: exactly one thing is observed, and what cannot be is refused with its remedy") {
   const std::vector<std::string> observed{"    cycles: 100\n", "    hours: 3\n", "    stiffness_Nm2: 0.2\n",
                                           "    decrement: 0.3\n", "    bending: table.csv\n"};
   for (const std::string& first : observed) {
@@ -65,7 +64,7 @@ TEST_CASE("observations: exactly one thing is observed, and what cannot be is re
   CHECK_THAT(refusal(one + "    cycles: 3\nmore: 1\n"), Contains("unknown key 'more'"));
 }
 
-TEST_CASE("observations: every combination of what is not known is a variant", "[new]") {
+TEST_CASE("observations: every combination of what is not known is a variant") {
   const std::vector<ObservedTest> tests = tests_of(
       one +
       "    stiffness_Nm2: 2\n    vary: {strain.friction_factor: [1, 2, 3], fatigue.material: [a, b]}\n");
@@ -85,7 +84,7 @@ TEST_CASE("observations: every combination of what is not known is a variant", "
   CHECK_THAT(refusal(one + "    cycles: 3\n    vary: [1]\n"), Contains("must be a map"));
 }
 
-TEST_CASE("observations: lives in the observer's unit, over all variants that ran", "[new]") {
+TEST_CASE("observations: lives in the observer's unit, over all variants that ran") {
   Study study;
   for (const char* name : {"a", "b", "c", "d", "lost"}) study.jobs.push_back({name, nullptr, ""});
   std::vector<RankingRow> rows(4);
@@ -132,7 +131,7 @@ TEST_CASE("observations: lives in the observer's unit, over all variants that ra
   CHECK(std::isinf(lives_of(observation, rows[2])[1]));
 }
 
-TEST_CASE("observations: a prediction misses where its whole range is on the wrong side", "[new]") {
+TEST_CASE("observations: a prediction misses where its whole range is on the wrong side") {
   Prediction prediction;
   prediction.low = 10, prediction.shortest = 20, prediction.longest = 50, prediction.high = 100;
   const auto judged_at = [&](double life, ObservedEnd outcome) {
