@@ -1,5 +1,10 @@
 #include "pipeline/resolve/apply_calibration.h"
 
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "pipeline/base/installation.h"
 #include "pipeline/job/learned_settings.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/sources.h"
@@ -16,6 +21,57 @@ bool gives(const Node& job, const UncertainParameter& parameter) {
   const Node* section = job.find(parameter.key.substr(0, dot));
   const Node* value = section && section->is_map() ? section->find(parameter.key.substr(dot + 1)) : nullptr;
   return value && value->text != shortest_text(parameter.value(0));
+}
+
+bool is_measured(const std::vector<Component>& parts) {
+  return std::any_of(parts.begin(), parts.end(), [](const Component& part) {
+    return part.measured_bending_stiffness || is_measured(part.components);
+  });
+}
+
+/// Names of parameters that the job itself states: their keys, their deviations, or a measured bending stiffness.
+std::set<std::string> stated_by(const Node& tree, const Job& job) {
+  const std::array<double, uncertain_count> usual = Uncertainty::default_spread();
+  std::set<std::string> names;
+  for (std::size_t p = 0; p < uncertain_count; ++p) {
+    const UncertainParameter& parameter = uncertain_parameters()[p];
+    if (gives(tree, parameter) || job.uncertainty.spread[p] != usual[p]) names.emplace(parameter.name);
+  }
+  for (const MountedDresspack& mounted : job.dresspacks)
+    if (is_measured(mounted.dresspack.components))
+      names.emplace(uncertain_parameters()[index_of(Uncertain::friction_inside)].name);
+  return names;
+}
+
+/// Puts the medians into the keys that stand at their defaults.
+void put_medians(Node& tree, Job& job) {
+  put_medians(tree, job);
+}
+
+void apply_ratings(Node& tree, Job& job) {
+  if (job.calibration || !job.uncertainty.enabled || job.uncertainty.ratings == KnownRatings::none) return;
+  const std::filesystem::path file = shipped_catalogue() / typical_ratings_file;
+  if (!std::filesystem::exists(file)) return;  // a catalogue of the user's own
+  Node written = read_document(file);
+  Calibration& calibration = job.calibration.emplace();
+  read_fields(written, calibration);
+  check_calibration(calibration);
+  try {
+    check_learned_settings(job);
+  } catch (const InputError&) {  // what was learned under other settings says nothing of this job
+    job.calibration.reset();
+    return;
+  }
+  leave_out_foreign_parameters(job);
+  leave_out(calibration, stated_by(tree, job));
+  if (calibration.parameters.empty()) {
+    job.calibration.reset();
+    return;
+  }
+  calibration.under = {};  // checked; a job that names no calibration is not refused later
+  calibration.within = {};
+  calibration.observations.clear();
+  put_medians(tree, job);
 }
 
 }  // namespace
