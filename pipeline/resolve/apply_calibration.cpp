@@ -45,6 +45,41 @@ std::set<std::string> stated_by(const Node& tree, const Job& job) {
 
 /// Puts the medians into the keys that stand at their defaults.
 void put_medians(Node& tree, Job& job) {
+  job.calibration->applied = true;
+  for (const LearnedParameter& learned : job.calibration->parameters) {
+    const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
+    if (gives(tree, parameter)) continue;
+    Node value = scalar(shortest_text(parameter.value(learned.median)));
+    value.where = learned.where;
+    set_value(tree, std::string(parameter.key), std::move(value), job.calibration->where);
+  }
+  if (const Node* strain = tree.find("strain")) read_fields(*strain, job.strain);
+  if (const Node* fatigue = tree.find("fatigue")) read_fields(*fatigue, job.fatigue);
+}
+
+}  // namespace
+
+void read_calibration(Node& job) {
+  Node* written = job.find("calibration");
+  if (!written) return;
+  if (written->is_scalar()) {
+    const Node asked = *written;
+    *written = read_document((folder_of(asked.where) / asked.text).lexically_normal());
+    if (!written->is_map())
+      throw InputError(written->where, "holds no calibration", "name a file that dresslife calibrate wrote");
+  }
+  Calibration calibration;
+  read_fields(*written, calibration);
+  check_calibration(calibration);
+}
+
+void apply_calibration(Node& tree, Job& job) {
+  if (!job.calibration) return;
+  const bool applied = job.calibration->applied;
+  if (!applied || !job.calibration->under.settings.empty())
+    check_learned_settings(job);  // older resolved jobs have none
+  if (applied) return;
+  leave_out_foreign_parameters(job);
   put_medians(tree, job);
 }
 
@@ -72,41 +107,6 @@ void apply_ratings(Node& tree, Job& job) {
   calibration.within = {};
   calibration.observations.clear();
   put_medians(tree, job);
-}
-
-}  // namespace
-
-void read_calibration(Node& job) {
-  Node* written = job.find("calibration");
-  if (!written) return;
-  if (written->is_scalar()) {
-    const Node asked = *written;
-    *written = read_document((folder_of(asked.where) / asked.text).lexically_normal());
-    if (!written->is_map())
-      throw InputError(written->where, "holds no calibration", "name a file that dresslife calibrate wrote");
-  }
-  Calibration calibration;
-  read_fields(*written, calibration);
-  check_calibration(calibration);
-}
-
-void apply_calibration(Node& tree, Job& job) {
-  if (!job.calibration) return;
-  const bool applied = job.calibration->applied;
-  if (!applied || !job.calibration->under.settings.empty())
-    check_learned_settings(job);  // older resolved jobs have none
-  if (applied) return;
-  leave_out_foreign_parameters(job);
-  job.calibration->applied = true;
-  for (const LearnedParameter& learned : job.calibration->parameters) {
-    const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
-    if (gives(tree, parameter)) continue;
-    Node value = scalar(shortest_text(parameter.value(learned.median)));
-    value.where = learned.where;
-    set_value(tree, std::string(parameter.key), std::move(value), job.calibration->where);
-  }
-  if (const Node* strain = tree.find("strain")) read_fields(*strain, job.strain);
-  if (const Node* fatigue = tree.find("fatigue")) read_fields(*fatigue, job.fatigue);
 }
 
 }  // namespace dresslife::pipeline

@@ -3,6 +3,11 @@
 #include <cmath>
 #include <random>
 
+#include "pipeline/advise/calibrate/observations.h"
+#include "pipeline/base/digest.h"
+#include "pipeline/job/calibration.h"
+#include "pipeline/resolve/sources.h"
+#include "pipeline/settings/fields.h"
 #include "tests/catch.h"
 
 using namespace dresslife::pipeline;
@@ -111,4 +116,18 @@ TEST_CASE("typical cables: a new cable lies in the 80 % interval as often as it 
   CHECK(program_within / trials > 0.75);
   CHECK(program_within / trials < 0.85);
   CHECK(pooled_within / trials < 0.75);  // as if all makers' cables were one
+}
+
+TEST_CASE("typical cables: the shipped file was learned from the shipped ratings") {
+  const std::filesystem::path folder = std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/observations";
+  Calibration calibration;
+  read_fields(read_document(folder / "typical_cables.yaml"), calibration);
+  CHECK(calibration.typical);
+  const std::vector<ObservedTest> tests = read_observed_tests(folder / "ratings.yaml");
+  REQUIRE(tests.size() == calibration.observations.size());
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    INFO("run scripts/ratings after a change of " << tests[t].observation.name);
+    CHECK(calibration.observations[t].observation == tests[t].observation.name);
+    CHECK(calibration.observations[t].digest == xxh3(tests[t].text));
+  }
 }
