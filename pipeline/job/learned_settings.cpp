@@ -310,12 +310,10 @@ void leave_out_foreign_parameters(Job& job) {
   const auto shared_by = [](SharedBy what) {
     return [what](std::size_t p) { return uncertain_parameters()[p].shared == what; };
   };
-  if (!calibration.typical) {
-    leave(cables, "the cable", shared_by(SharedBy::construction));
-    leave(hoses, "the hose", [](std::size_t p) {
-      return p == index_of(Uncertain::friction_hose) || p == index_of(Uncertain::play);
-    });
-  }
+  leave(cables, "the cable", shared_by(SharedBy::construction));
+  leave(hoses, "the hose", [](std::size_t p) {
+    return p == index_of(Uncertain::friction_hose) || p == index_of(Uncertain::play);
+  });
   leave(materials, "wires of", shared_by(SharedBy::material));
   leave_out(calibration, out);
   calibration.within.left_out = listed(words, "; ");

@@ -21,8 +21,7 @@ void check_learned_settings(const Job& job);
 void leave_out(Calibration& calibration, const std::set<std::string>& names);
 
 /// Takes the parameters out of the calibration that do not hold for the job: those of a construction (SharedBy) if the job
-/// has a cable, for friction_hose and play a hose, that no test had, unless the calibration is of typical cables; those of a
-/// material if no test had one of the job's.
+/// has a cable, for friction_hose and play a hose, that no test had; those of a material if no test had one of the job's.
 /// The others keep their joint normal distribution without them, which is exact. within.left_out says it in words.
 void leave_out_foreign_parameters(Job& job);
 

@@ -1,6 +1,6 @@
 #include "pipeline/resolve/apply_calibration.h"
 
-#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <set>
 
@@ -23,13 +23,7 @@ bool gives(const Node& job, const UncertainParameter& parameter) {
   return value && value->text != shortest_text(parameter.value(0));
 }
 
-bool is_measured(const std::vector<Component>& parts) {
-  return std::any_of(parts.begin(), parts.end(), [](const Component& part) {
-    return part.measured_bending_stiffness || is_measured(part.components);
-  });
-}
-
-/// Names of parameters that the job itself states: their keys, their deviations, or a measured bending stiffness.
+/// Names of parameters that the job itself states: their keys or their deviations.
 std::set<std::string> stated_by(const Node& tree, const Job& job) {
   const std::array<double, uncertain_count> usual = Uncertainty::default_spread();
   std::set<std::string> names;
@@ -37,9 +31,6 @@ std::set<std::string> stated_by(const Node& tree, const Job& job) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
     if (gives(tree, parameter) || job.uncertainty.spread[p] != usual[p]) names.emplace(parameter.name);
   }
-  for (const MountedDresspack& mounted : job.dresspacks)
-    if (is_measured(mounted.dresspack.components))
-      names.emplace(uncertain_parameters()[index_of(Uncertain::friction_inside)].name);
   return names;
 }
 
@@ -85,8 +76,12 @@ void apply_calibration(Node& tree, Job& job) {
 
 void apply_ratings(Node& tree, Job& job) {
   if (job.calibration || !job.uncertainty.enabled || job.uncertainty.ratings == KnownRatings::none) return;
+  const auto without = [&] {
+    job.calibration.reset();
+    job.uncertainty.ratings = KnownRatings::none;
+  };
   const std::filesystem::path file = shipped_catalogue() / typical_ratings_file;
-  if (!std::filesystem::exists(file)) return;  // a catalogue of the user's own
+  if (!std::filesystem::exists(file)) return without();  // a catalogue of the user's own
   Node written = read_document(file);
   Calibration& calibration = job.calibration.emplace();
   read_fields(written, calibration);
@@ -94,15 +89,11 @@ void apply_ratings(Node& tree, Job& job) {
   try {
     check_learned_settings(job);
   } catch (const InputError&) {  // what was learned under other settings says nothing of this job
-    job.calibration.reset();
-    return;
+    return without();
   }
   leave_out_foreign_parameters(job);
   leave_out(calibration, stated_by(tree, job));
-  if (calibration.parameters.empty()) {
-    job.calibration.reset();
-    return;
-  }
+  if (calibration.parameters.empty()) return without();
   calibration.under = {};  // checked; a job that names no calibration is not refused later
   calibration.within = {};
   calibration.observations.clear();

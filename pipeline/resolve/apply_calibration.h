@@ -20,7 +20,8 @@ inline constexpr const char* typical_ratings_file = "observations/typical_cables
 
 /// The same with typical_ratings_file for a job that names no calibration, unless uncertainty.ratings is none or
 /// uncertainty.enabled false. Without effect on a job with other settings than the tests, and on parameters that the job
-/// states itself. Errors: InputError where the file is none.
+/// states itself. Where it has none, ratings becomes none: a resolved job is the same with any catalogue. Errors:
+/// InputError where the file is no calibration.
 void apply_ratings(Node& tree, Job& job);
 
 }  // namespace dresslife::pipeline

@@ -245,6 +245,7 @@ TEST_CASE("ratings: a job without a calibration starts from what makers state of
   // All ratings are lower bounds: they can only raise lives.
   CHECK(job.fatigue.strength_factor > 1);
   CHECK(job.fatigue.model_factor > 1);
+  CHECK(job.strain.factors == StrainFactors{});  // friction is the single cable's: strains do not depend on ratings
   const auto strength = static_cast<Eigen::Index>(index_of(Uncertain::strength));
   CHECK(knowledge_of(job).mean[strength] > 0);
   CHECK(knowledge_of(job).covariance(strength, strength) < 1);
