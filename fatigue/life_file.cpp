@@ -1,5 +1,8 @@
 #include "fatigue/life_file.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -465,6 +468,18 @@ void copy_mesh_error(const Context& c) {
   if (c.strain.has_attribute(name)) c.life.attribute(name, c.strain.number_attribute(name));
 }
 
+/// "uncertainty.ratings typical (strength x 1.2, model x 1.3)"; empty: without.
+std::string ratings_words(const pipeline::Job& job) {
+  if (!job.calibration || !job.calibration->typical) return "";
+  std::vector<std::string> words;
+  for (const pipeline::LearnedParameter& learned : job.calibration->parameters) {
+    const pipeline::UncertainParameter& parameter = pipeline::uncertain_parameters()[pipeline::index_of(learned.name)];
+    words.push_back(fmt::format("{} {}{:.3g}", parameter.name, parameter.logarithmic ? "x " : "+ ",
+                                parameter.value(learned.median)));
+  }
+  return fmt::format("uncertainty.ratings typical ({})", fmt::join(words, ", "));
+}
+
 /// What the dresspacks leave out, for everybody who plans with these hours.
 void write_estimates(const Context& c) {
   std::string words;
@@ -473,6 +488,7 @@ void write_estimates(const Context& c) {
     const std::string name = pipeline::name_among(c.job, d);
     if (!of_one.empty()) words += (words.empty() ? "" : "; ") + (name.empty() ? "" : name + ": ") + of_one;
   }
+  if (const std::string ratings = ratings_words(c.job); !ratings.empty()) words += (words.empty() ? "" : "; ") + ratings;
   c.life.attribute("estimates", words);
 }
 
@@ -723,7 +739,7 @@ void judge(Context& c) {
 
 /// Where the job goes beyond the tests from which its calibration was learned.
 std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
-  if (!c.job.calibration || c.worst == no_site) return {};
+  if (!c.job.calibration || c.job.calibration->typical || c.worst == no_site) return {};
   pipeline::Experience experience;
   experience.strain_range = c.damage.range[c.worst];
   const auto curvature = c.strain.read<double>("/deformation/curvature");

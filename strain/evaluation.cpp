@@ -40,6 +40,10 @@ double total(const std::vector<double>& lengths) {
   return std::accumulate(lengths.begin(), lengths.end(), 0.0);
 }
 
+double clamped(const SpanPlace& place, const std::vector<double>& lengths) {
+  return std::max(place.clamped_length, total(lengths));
+}
+
 /// Inside the cables everything sticks or slides; cables themselves do what the job has them do, or where
 /// they stick in the job, what is inside does: stuck to the hose, or sliding at their places.
 std::vector<LayerSlip> bound_plan(const Construction& construction, const std::vector<LayerSlip>& own,
@@ -102,11 +106,11 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       scan_{static_cast<int>(fibres_.size()), static_cast<float>(settings.gate),
             counts_shear(settings.equivalent), settings.surface_fibres == 0},
       with_planes_(judges_planes(settings.equivalent)),
-      means_(construction, plan_slip(construction, settings.slip, total(lengths_)), lengths_, arcs_, samples),
-      stick_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::stick, total(lengths_)),
+      means_(construction, plan_slip(construction, settings.slip, clamped(place, lengths_)), lengths_, arcs_, samples),
+      stick_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::stick, clamped(place, lengths_)),
               lengths_, arcs_, samples},
              slips_only(settings, pipeline::Slip::stick)},
-      free_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::free, total(lengths_)),
+      free_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::free, clamped(place, lengths_)),
              lengths_, arcs_, samples},
             slips_only(settings, pipeline::Slip::free)},
       cables_(construction, free_.means.plan(),

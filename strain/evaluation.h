@@ -60,6 +60,7 @@ struct SpanPlace {
   std::size_t first_segment = 0;    ///< in its dresspack
   std::size_t segments_in_all = 0;  ///< of its dresspack; 0: the span is all
   double first_arc = 0;             ///< of the span's base end, from the dresspack's base clamp [m]
+  double clamped_length = 0;        ///< of a rig's cable, of which the span is a part [m]; 0: the span is all
   bool free_tool_end = false;       ///< no clamp holds it there
   KnownEnds known_ends{};
   // Of the dresspacks before it in the file:

@@ -125,7 +125,8 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
     const double length = std::accumulate(
         lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment),
         lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment + span.segments), 0.0);
-    const Counts counts = counts_of(job.dresspacks[span.dresspack].dresspack, job.strain, length);
+    const Counts counts =
+        counts_of(job.dresspacks[span.dresspack].dresspack, job.strain, std::max(length, clamped_length(job)));
     const double in_span = static_cast<double>(span.segments);
     // Strain of each cable and the three that make its force, strain and pressing along one that rubs
     // (cable_paths.h); curvature along a loose one (segment_rows.h), and the rows of one segment.

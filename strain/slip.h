@@ -42,7 +42,7 @@ struct LayerSlip {
 };
 
 /// One entry per layer of the construction. slip: one for every level or one per level, outermost first; the
-/// last holds for all deeper ones. free_length: of the dresspack between the clamps [m].
+/// last holds for all deeper ones. free_length: of the dresspack from clamp to clamp [m], in a rig of the whole cable.
 std::vector<LayerSlip> plan_slip(const Construction& construction, const std::vector<pipeline::Slip>& slip,
                                  double free_length);
 

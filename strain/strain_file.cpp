@@ -349,6 +349,7 @@ struct Evaluations {
       place.first_segment = spans[k].first_segment - place.segments_before;
       place.free_tool_end = reader.ends_freely(job, k);
       place.known_ends = reader.known_ends(k);
+      place.clamped_length = pipeline::clamped_length(job);
       const std::vector<double> lengths = reader.lengths_of(spans[k]);
       pipeline::Strain settings = settings_of(job, d);
       if (as_told)

@@ -82,6 +82,8 @@ void describe(Fields& f, Calibration& calibration) {
   f.integer("format_version", calibration.format_version, Need::required, at_least(1), "of the file");
   f.boolean("applied", calibration.applied, Need::optional,
             "whether its medians stand in the job's keys already: in resolved jobs");
+  f.boolean("typical", calibration.typical, Need::optional,
+            "whether it was learned from cables of different makers, for a cable that none of its tests had");
   f.text("note", calibration.note, Need::optional, "how it was learned");
   f.list("parameters", calibration.parameters, Need::required, "what was learned");
   f.group("under", calibration.under, Need::optional, "what the tests were computed with");
@@ -145,8 +147,8 @@ void check_calibration(const Calibration& calibration) {
                      "run dresslife calibrate again");
 }
 
-ParameterKnowledge knowledge_of(const Calibration& calibration) {
-  ParameterKnowledge knowledge = prior_of({});
+ParameterKnowledge knowledge_of(const Calibration& calibration, ParameterKnowledge prior) {
+  ParameterKnowledge& knowledge = prior;
   const Eigen::MatrixXd covariance = covariance_of(calibration);
   std::vector<Eigen::Index> place;
   for (const LearnedParameter& parameter : calibration.parameters)

@@ -79,6 +79,7 @@ struct Calibration {
   std::string format = format_word;
   int format_version = newest_version;
   bool applied = false;
+  bool typical = false;  ///< of makers' cables together: its parameters are those of a cable that no test had
   std::string note;
   std::vector<LearnedParameter> parameters;
   LearnedUnder under;
@@ -99,9 +100,8 @@ void describe(Fields& f, Calibration& calibration);
 /// covariance that is not square, symmetric and positive.
 void check_calibration(const Calibration& calibration);
 
-/// In the order of uncertain_parameters(); one that the calibration does not know keeps mean 0 and
-/// variance 1.
-ParameterKnowledge knowledge_of(const Calibration& calibration);
+/// In the order of uncertain_parameters(); one that the calibration does not know keeps its prior.
+ParameterKnowledge knowledge_of(const Calibration& calibration, ParameterKnowledge prior);
 
 /// Where a job goes beyond what a calibration was learned from: "a strain range of 0.012 (0.001 .. 0.006 in
 /// its tests)".

@@ -58,7 +58,8 @@ Material material_of(const Job& job, const std::string& name) {
 }
 
 ParameterKnowledge knowledge_of(const Job& job) {
-  ParameterKnowledge knowledge = job.calibration ? knowledge_of(*job.calibration) : prior_of(job.uncertainty);
+  ParameterKnowledge knowledge = prior_of(job.uncertainty);
+  if (job.calibration) knowledge = knowledge_of(*job.calibration, std::move(knowledge));
   if (job.robot.joints.empty()) {  // no controller's ramps, no swing
     const auto motion = static_cast<Eigen::Index>(index_of(Uncertain::motion));
     knowledge.mean[motion] = 0;

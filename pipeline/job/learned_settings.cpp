@@ -243,20 +243,6 @@ std::vector<std::string> foreign(const std::vector<T>& own, const Known& is_know
   return names;
 }
 
-void take_out(Calibration& calibration, const std::set<std::string>& names) {
-  const std::vector<LearnedParameter> all = std::move(calibration.parameters);
-  const auto is_out = [&](std::size_t i) { return names.count(all[i].name) > 0; };
-  calibration.parameters.clear();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (is_out(i)) continue;
-    LearnedParameter kept = all[i];
-    kept.covariance.clear();
-    for (std::size_t j = 0; j < all.size(); ++j)
-      if (!is_out(j)) kept.covariance.push_back(all[i].covariance[j]);
-    calibration.parameters.push_back(std::move(kept));
-  }
-}
-
 }  // namespace
 
 LearnedUnder learned_under(const std::vector<const Job*>& jobs) {
@@ -277,6 +263,20 @@ void check_learned_settings(const Job& job) {
   check_friction(calibration, own, problems);
   check_constants(calibration, own, problems);
   problems.finish();
+}
+
+void leave_out(Calibration& calibration, const std::set<std::string>& names) {
+  const std::vector<LearnedParameter> all = std::move(calibration.parameters);
+  const auto is_out = [&](std::size_t i) { return names.count(all[i].name) > 0; };
+  calibration.parameters.clear();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (is_out(i)) continue;
+    LearnedParameter kept = all[i];
+    kept.covariance.clear();
+    for (std::size_t j = 0; j < all.size(); ++j)
+      if (!is_out(j)) kept.covariance.push_back(all[i].covariance[j]);
+    calibration.parameters.push_back(std::move(kept));
+  }
 }
 
 void leave_out_foreign_parameters(Job& job) {
@@ -315,7 +315,7 @@ void leave_out_foreign_parameters(Job& job) {
     return p == index_of(Uncertain::friction_hose) || p == index_of(Uncertain::play);
   });
   leave(materials, "wires of", shared_by(SharedBy::material));
-  take_out(calibration, out);
+  leave_out(calibration, out);
   calibration.within.left_out = listed(words, "; ");
 }
 

@@ -2,6 +2,8 @@
 // a friction that explains a test whose parts slip says nothing of a job whose parts stick.
 #pragma once
 
+#include <set>
+#include <string>
 #include <vector>
 
 #include "pipeline/job/job.h"
@@ -14,6 +16,9 @@ LearnedUnder learned_under(const std::vector<const Job*>& jobs);
 /// Errors: InputErrors at the calibration, one for each setting, friction key of a cable and constant of a material that
 /// is another in the job; a calibration without settings is refused, too.
 void check_learned_settings(const Job& job);
+
+/// Takes these parameters out. The others keep their joint normal distribution.
+void leave_out(Calibration& calibration, const std::set<std::string>& names);
 
 /// Takes the parameters out of the calibration that do not hold for the job: those of a construction (SharedBy) if the job
 /// has a cable, for friction_hose and play a hose, that no test had; those of a material if no test had one of the job's.

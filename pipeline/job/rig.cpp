@@ -193,4 +193,11 @@ double rig_length(const Rig& rig, double diameter) {
   return way > 0 ? way : any;
 }
 
+double clamped_length(const Rig& rig, double diameter) {
+  const double evaluated = rig_length(rig, diameter);
+  if (rig.kind != RigKind::rolling_flex && rig.kind != RigKind::two_pulley) return evaluated;
+  const double passed = rig.kind == RigKind::rolling_flex ? *rig.travel / 2 : *rig.travel;
+  return std::max(evaluated, bend_way(rig, diameter).bend + passed);
+}
+
 }  // namespace dresslife::pipeline

@@ -55,4 +55,8 @@ BendWay bend_way(const Rig& rig, double diameter);
 /// Of the cable that is evaluated [m].
 double rig_length(const Rig& rig, double diameter);
 
+/// Of the tested cable from clamp to clamp, at least [m]: rig_length(), or where a bend passes, the bend and the cable over
+/// which it passes (rolling_flex: half the travel). Parts of a cable even their strain out over it (strain/slip.h).
+double clamped_length(const Rig& rig, double diameter);
+
 }  // namespace dresslife::pipeline

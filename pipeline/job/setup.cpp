@@ -18,6 +18,10 @@ std::vector<double> free_lengths(const Setup& setup) {
   return lengths;
 }
 
+double clamped_length(const Setup& setup) {
+  return setup.motion.rig ? clamped_length(*setup.motion.rig, setup.dresspacks.front().dresspack.diameter) : 0;
+}
+
 std::string name_among(const Setup& setup, std::size_t dresspack) {
   return setup.dresspacks.size() > 1 ? setup.dresspacks[dresspack].name : "";
 }

@@ -35,6 +35,8 @@ struct Setup {
 
 /// (dresspack) what lies between its clamps, unstretched [m].
 std::vector<double> free_lengths(const Setup& setup);
+/// Of a rig's cable from clamp to clamp (rig.h) [m]; 0: no rig.
+double clamped_length(const Setup& setup);
 
 /// What tells a dresspack from the others: its name, or nothing where it is the only one; and the same as the
 /// subject of a sentence: "dresspack 'main hose'", "dresspack".

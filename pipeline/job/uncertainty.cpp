@@ -109,6 +109,9 @@ void describe(Fields& f, Uncertainty& uncertainty) {
       "enabled", uncertainty.enabled, Need::optional,
       "Whether lives include the uncertain parameters beside the wires' scatter. It takes at most as much "
       "time again.");
+  f.choice("ratings", uncertainty.ratings,
+           "What is known of cables without a calibration. typical: what makers promise of their cables in tests "
+           "(config/observations/ratings.yaml); without effect if enabled is false. none: only the deviations below.");
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
     f.number(parameter.name, uncertainty.spread[p], Need::optional,

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "pipeline/job/fatigue.h"
 #include "pipeline/job/material.h"
 
@@ -61,9 +62,15 @@ std::size_t index_of(std::string_view name);
 /// Precondition: (parameter).
 std::vector<std::string> sets_at(std::span<const double> z);
 
+/// What is known of cables for which a job names no calibration. typical: what makers promise of their cables
+/// (config/observations/ratings.yaml), where the job is enabled; none: the spreads alone.
+enum class KnownRatings { typical, none };
+constexpr std::string_view word(KnownRatings value) { return word_at({"typical", "none"}, value); }
+
 /// The section `uncertainty` of a job.
 struct Uncertainty {
   bool enabled = true;
+  KnownRatings ratings = KnownRatings::typical;
   std::array<double, uncertain_count> spread =
       default_spread();  ///< of the key at one deviation: a factor, or an addend
 

@@ -28,7 +28,9 @@ constexpr std::size_t strain_parameters = 5;
 using ParameterPoint = std::array<double, uncertain_count>;  ///< (parameter) z
 
 struct LifeResponse {
-  static constexpr double endless = 12;  ///< log10 repeats: 1e12 of a minute are two million years
+  /// log10 repeats. No robot repeats a motion 1e9 times. Friction, slack and material change a life by up to nine decades,
+  /// and these changes are relative to lives that must therefore not be cut off before.
+  static constexpr double endless = 18;
 
   std::string mode;       ///< what fails: "wires of signal cable"
   std::string dresspack;  ///< in which, among several; empty: the only one

@@ -1,5 +1,10 @@
 #include "pipeline/resolve/apply_calibration.h"
 
+#include <array>
+#include <filesystem>
+#include <set>
+
+#include "pipeline/base/installation.h"
 #include "pipeline/job/learned_settings.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/sources.h"
@@ -16,6 +21,31 @@ bool gives(const Node& job, const UncertainParameter& parameter) {
   const Node* section = job.find(parameter.key.substr(0, dot));
   const Node* value = section && section->is_map() ? section->find(parameter.key.substr(dot + 1)) : nullptr;
   return value && value->text != shortest_text(parameter.value(0));
+}
+
+/// Names of parameters that the job itself states: their keys or their deviations.
+std::set<std::string> stated_by(const Node& tree, const Job& job) {
+  const std::array<double, uncertain_count> usual = Uncertainty::default_spread();
+  std::set<std::string> names;
+  for (std::size_t p = 0; p < uncertain_count; ++p) {
+    const UncertainParameter& parameter = uncertain_parameters()[p];
+    if (gives(tree, parameter) || job.uncertainty.spread[p] != usual[p]) names.emplace(parameter.name);
+  }
+  return names;
+}
+
+/// Puts the medians into the keys that stand at their defaults.
+void put_medians(Node& tree, Job& job) {
+  job.calibration->applied = true;
+  for (const LearnedParameter& learned : job.calibration->parameters) {
+    const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
+    if (gives(tree, parameter)) continue;
+    Node value = scalar(shortest_text(parameter.value(learned.median)));
+    value.where = learned.where;
+    set_value(tree, std::string(parameter.key), std::move(value), job.calibration->where);
+  }
+  if (const Node* strain = tree.find("strain")) read_fields(*strain, job.strain);
+  if (const Node* fatigue = tree.find("fatigue")) read_fields(*fatigue, job.fatigue);
 }
 
 }  // namespace
@@ -41,16 +71,33 @@ void apply_calibration(Node& tree, Job& job) {
     check_learned_settings(job);  // older resolved jobs have none
   if (applied) return;
   leave_out_foreign_parameters(job);
-  job.calibration->applied = true;
-  for (const LearnedParameter& learned : job.calibration->parameters) {
-    const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
-    if (gives(tree, parameter)) continue;
-    Node value = scalar(shortest_text(parameter.value(learned.median)));
-    value.where = learned.where;
-    set_value(tree, std::string(parameter.key), std::move(value), job.calibration->where);
+  put_medians(tree, job);
+}
+
+void apply_ratings(Node& tree, Job& job) {
+  if (job.calibration || !job.uncertainty.enabled || job.uncertainty.ratings == KnownRatings::none) return;
+  const auto without = [&] {
+    job.calibration.reset();
+    job.uncertainty.ratings = KnownRatings::none;
+  };
+  const std::filesystem::path file = shipped_catalogue() / typical_ratings_file;
+  if (!std::filesystem::exists(file)) return without();  // a catalogue of the user's own
+  Node written = read_document(file);
+  Calibration& calibration = job.calibration.emplace();
+  read_fields(written, calibration);
+  check_calibration(calibration);
+  try {
+    check_learned_settings(job);
+  } catch (const InputError&) {  // what was learned under other settings says nothing of this job
+    return without();
   }
-  if (const Node* strain = tree.find("strain")) read_fields(*strain, job.strain);
-  if (const Node* fatigue = tree.find("fatigue")) read_fields(*fatigue, job.fatigue);
+  leave_out_foreign_parameters(job);
+  leave_out(calibration, stated_by(tree, job));
+  if (calibration.parameters.empty()) return without();
+  calibration.under = {};  // checked; a job that names no calibration is not refused later
+  calibration.within = {};
+  calibration.observations.clear();
+  put_medians(tree, job);
 }
 
 }  // namespace dresslife::pipeline

@@ -15,4 +15,13 @@ void read_calibration(Node& job);
 /// tree: that the job was read from. Errors: InputError.
 void apply_calibration(Node& tree, Job& job);
 
+/// In the catalogue: what makers' ratings say of a cable without a calibration, as dresslife calibrate wrote it.
+inline constexpr const char* typical_ratings_file = "observations/typical_cables.yaml";
+
+/// The same with typical_ratings_file for a job that names no calibration, unless uncertainty.ratings is none or
+/// uncertainty.enabled false. Without effect on a job with other settings than the tests, and on parameters that the job
+/// states itself. Where it has none, ratings becomes none: a resolved job is the same with any catalogue. Errors:
+/// InputError where the file is no calibration.
+void apply_ratings(Node& tree, Job& job);
+
 }  // namespace dresslife::pipeline

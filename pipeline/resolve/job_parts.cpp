@@ -144,6 +144,8 @@ void describe_strain(Fields& echo, Job copy) {
   }
   describe_each(echo, forms_of(copy), keys);
   echo.group("strain", copy.strain, Need::optional, "");
+  double clamped = clamped_length(copy);  // of the rig
+  echo.number("clamped_length_m", clamped, Need::optional, any_number(), "");
   echo.boolean("uncertain", copy.uncertainty.enabled, Need::optional, "");
 }
 

@@ -59,9 +59,12 @@ Job job_from(Node document, const std::vector<std::string>& sets) {
   Job job;
   if (document.find("dresspacks")) job.dresspacks.clear();
   read_fields(document, Describe([&](Fields& f) { describe(f, job); }), problems);
-  const std::initializer_list<const char*> parts{"calibration", "strain", "fatigue", "dresspack", "dresspacks"};
+  const std::initializer_list<const char*> parts{"calibration", "strain", "fatigue", "uncertainty", "dresspack", "dresspacks"};
   if (std::none_of(parts.begin(), parts.end(), [&](const char* part) { return problems.touch(part); }))
-    problems.attempt("calibration", document.where, [&] { apply_calibration(document, job); });
+    problems.attempt("calibration", document.where, [&] {
+      apply_calibration(document, job);
+      apply_ratings(document, job);
+    });
   complete_job(job, document, problems);
   check_job(job, document, problems);
   problems.finish(document.where.file);

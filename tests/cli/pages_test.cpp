@@ -64,6 +64,9 @@ const std::map<std::string, std::string> instead{
     {"dresslife-strain motion.h5 -o strain.h5", "dresslife-strain motion.h5 -o strain.h5"},
     {"dresslife-fatigue strain.h5 -o life.h5", "not run"},  // its page comes before the one that makes strain.h5
     {"dresslife validate config/observations/published.yaml", "dresslife validate two_published.yaml"},
+    {"dresslife validate config/observations/ratings.yaml", "not run"},  // as the file before
+    {"dresslife rate control_cable --set calibration=config/observations/typical_cables.yaml",
+     "dresslife rate control_cable --set calibration=CONFIG/observations/typical_cables.yaml"},
     {"dresslife calibrate your_cable", "dresslife calibrate your_cable"},
     {"dresslife draw control_cable", "dresslife draw control_cable"},
     {"dresslife rate control_cable", "dresslife rate control_cable"},

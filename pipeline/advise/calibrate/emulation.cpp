@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "pipeline/advise/calibrate/measured_bending.h"
+#include "pipeline/advise/calibrate/typical_cables.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/first_failure.h"
@@ -69,14 +70,20 @@ class LifeOverParameters {
 
   /// beside (parameter): z from the keys of the job. A life without end counts as endless_log_life.
   LifeAt at(const VectorXd& beside) const {
-    ParameterPoint z{};
-    for (std::size_t p = 0; p < uncertain_count; ++p)
-      if (moves_[p]) z[p] = beside[static_cast<Index>(p)];
+    const ParameterPoint z = point(beside);
     const double early = first(z, -deciles), median = first(z, 0), late = first(z, deciles);
     return {median, std::max(std::exp(least_log_spread), (late - early) / (2 * deciles))};
   }
 
+  double log_median_at(const VectorXd& beside) const { return first(point(beside), 0); }
+
  private:
+  ParameterPoint point(const VectorXd& beside) const {
+    ParameterPoint z{};
+    for (std::size_t p = 0; p < uncertain_count; ++p)
+      if (moves_[p]) z[p] = beside[static_cast<Index>(p)];
+    return z;
+  }
   double first(const ParameterPoint& z, double u) const {
     double life = endless_log_life;
     for (const LifeSurface& surface : surfaces_)
@@ -120,7 +127,7 @@ class RoundEmulation {
     life.unshared_spread = observation.unshared_log10 * std::numbers::ln10;
     for (const RoundOfJobs::Runs& runs : variants) {
       const RankingRow& row = row_of(test, runs.centre);
-      life.variants.push_back(variant_of(observation, runs, row));
+      life.variants.push_back(variant_of(test, runs, row));
       life.common_share = std::max(life.common_share, common_share(runs, log_life_of(observation, row)));
     }
     return life;
@@ -199,17 +206,19 @@ class RoundEmulation {
     return made;
   }
 
-  LifeVariant variant_of(const Observation& observation, const RoundOfJobs::Runs& runs, const RankingRow& row) {
-    const LogLife centre = log_life_of(observation, row);
+  LifeVariant variant_of(const ObservedTest& test, const RoundOfJobs::Runs& runs, const RankingRow& row) {
+    const LogLife centre = log_life_of(test.observation, row);
     if (row.life_response.empty() || centre.median >= endless_log_life) return [centre](const VectorXd&) {
       return LifeAt{centre.median, std::exp(centre.spread)};
     };
     const auto life = std::make_shared<const LifeOverParameters>(modes_from_text(row.life_response), runs.moves);
     const LifeAt modelled = life->at(VectorXd::Zero(uncertain_count));
-    return [life, centre, modelled, at = round_.centre()](const VectorXd& z) {
+    return [life, centre, modelled, at = round_.centre(), typical = test.typical, moves = runs.moves](const VectorXd& z) {
       const LifeAt here = life->at(z - at);
+      const double between =
+          typical ? deviation_between_cables([&](const VectorXd& beside) { return life->log_median_at(beside); }, moves, z - at) : 0;
       return LifeAt{std::min(endless_log_life, centre.median + here.log_median - modelled.log_median),
-                    std::exp(centre.spread) * here.spread / modelled.spread};
+                    std::exp(centre.spread) * here.spread / modelled.spread, between};
     };
   }
 

@@ -89,6 +89,7 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
   const auto rounded = [&](double value) { return std::round(value * decimals) / decimals; };
   Calibration calibration;
   const Posterior& posterior = learned.posterior;
+  calibration.typical = std::any_of(tests.begin(), tests.end(), [](const ObservedTest& test) { return test.typical; });
   calibration.note =
       fmt::format("{} observations, {} rounds{}; draws worth {} independent ones, chains disagree by {:.3f}",
                   learned.tests.size(), learned.rounds, learned.settled ? "" : " (not settled)",
@@ -107,6 +108,7 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
     calibration.parameters.push_back(parameter);
   }
   calibration.under = under_of(tests, round);
+  if (calibration.typical) calibration.under.cables.clear();  // it belongs to none of them
   calibration.within = within_of(tests, round, places);
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const LearnedTest& told = learned.tests[t];

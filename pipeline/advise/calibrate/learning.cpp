@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipeline/advise/calibrate/learned_calibration.h"
+#include "pipeline/advise/calibrate/typical_cables.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -24,9 +25,23 @@ bool has_arms(const RoundOfJobs& round, Index parameter) {
   return false;
 }
 
+bool of_typical_cables(const std::vector<ObservedTest>& tests) {
+  return std::any_of(tests.begin(), tests.end(), [](const ObservedTest& test) { return test.typical; });
+}
+
+/// typical: the tests are of different makers' cables, and the posterior is of a cable that is none of them.
+Posterior posterior_of(std::vector<LogLikelihood> terms, const Axes& axes, const VectorXd& start, bool typical,
+                       const SamplerSettings& settings = {}) {
+  if (typical) terms.push_back(narrower_prior(axes.places()));
+  Posterior posterior = posterior_of(terms, start, settings);
+  if (typical) add_own_deviations(posterior, axes.places());
+  return posterior;
+}
+
 /// Predicts each test from all others. A model that a test contradicts shows here, and not in a prediction that the test
 /// itself has moved.
-void predict_by_others(const std::vector<EmulatedTest>& emulated_tests, const Axes& axes, const VectorXd& start, std::vector<LearnedTest>& tests) {
+void predict_by_others(const std::vector<EmulatedTest>& emulated_tests, const Axes& axes, const VectorXd& start, bool typical,
+                       std::vector<LearnedTest>& tests) {
   constexpr SamplerSettings short_chains{.draws = 3000};  // a decile to 4 % of the deviation, as far as 1,000 are independent
   const std::vector<LogLikelihood> terms = terms_of(emulated_tests, axes);
   for (std::size_t t = 0; t < tests.size(); ++t) {
@@ -34,7 +49,7 @@ void predict_by_others(const std::vector<EmulatedTest>& emulated_tests, const Ax
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
     tests[t].by_others = others.empty() ? tests[t].before
                                         : predicted_deciles(emulated_tests[t],
-                                                   posterior_draws(posterior_of(others, start, short_chains), axes), false);
+                                                   posterior_draws(posterior_of(others, axes, start, typical, short_chains), axes), false);
   }
 }
 
@@ -44,13 +59,14 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
               const StudyPlaces& places, const MakeRows& make_rows) {
   Learned learned;
   VectorXd centre = VectorXd::Zero(uncertain_count), step = VectorXd::Ones(uncertain_count);
+  const bool typical = of_typical_cables(tests);
   const std::string name = places.folder.filename().string();
   for (const ObservedTest& test : tests) learned.tests.push_back({test.observation});
   while (!learned.settled && learned.rounds < most_rounds) {
     const RoundOfJobs round(tests, sets, name, centre, step);
     const std::vector<EmulatedTest> emulated_tests = emulate(tests, round, make_rows(round.study()), places);
     const Axes axes(round);
-    learned.posterior = posterior_of(terms_of(emulated_tests, axes), axes.some(centre));
+    learned.posterior = posterior_of(terms_of(emulated_tests, axes), axes, axes.some(centre), typical);
     ++learned.rounds;
     const VectorXd there = axes.all(learned.posterior.laplace.most_likely);
     learned.settled = true;
@@ -71,7 +87,7 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
     }
     if (!learned.settled && learned.rounds < most_rounds) continue;
     learned.axes = learned_axes(learned.posterior, axes);
-    predict_by_others(emulated_tests, axes, learned.posterior.laplace.most_likely, learned.tests);
+    predict_by_others(emulated_tests, axes, learned.posterior.laplace.most_likely, typical, learned.tests);
     learned.calibration = calibration_of(learned, tests, round, places);
     add_doubts(learned, axes);
   }

@@ -2,8 +2,8 @@
 //
 // A life is lognormal about the model's median m(z), with the spread s(z) of what failed (a wire, a conductor
 // that lost its share of wires). Of s^2 the share w is common to all specimens of a test, one spool or batch;
-// u^2 is what the test has of its own that the model does not know and no other test shares. With
-// x = ln(observed), c^2 = w s^2 + u^2, o^2 = (1 - w) s^2 and n specimens:
+// u^2 is what the test has of its own that the model does not know and no other test shares; the variance between
+// makers' cables adds to it. With x = ln(observed), c^2 = w s^2 + u^2, o^2 = (1 - w) s^2 and n specimens:
 //     broken     n lives, x is their mean:  N(x; m, c^2 + o^2/n)                             (P2)
 //     at least   n not failed until then:   integral of Phi((m + c y - x)/o)^n phi(y) dy     (P3)
 //     at most    none lived longer:         integral of Phi((x - m - c y)/o)^n phi(y) dy
@@ -28,6 +28,7 @@ enum class LifeEnd { broken, at_least, at_most };
 struct LifeAt {
   double log_median = 0;  ///< ln m(z)
   double spread = 0;      ///< s(z), of ln life, > 0
+  double between = 0;     ///< of ln life, between makers' cables at typical parameters z (typical_cables.h)
 };
 using LifeVariant = std::function<LifeAt(const Eigen::VectorXd& z)>;
 

@@ -150,13 +150,18 @@ std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file)
   if (!list || !list->is_list() || list->items.empty())
     throw InputError(document.where, "holds no observations", "write 'observations:' and a list");
   for (const Entry& entry : document.entries)
-    if (entry.key != "observations")
+    if (entry.key != "observations" && entry.key != "cables")
       throw InputError(entry.where, fmt::format("unknown key '{}' beside observations", entry.key),
                        "leave it out");
+  const Node* const cables = document.find("cables");
+  const std::string of = cables && cables->is_scalar() ? cables->text : cables ? "" : "own";
+  if (of != "own" && of != "typical")
+    throw InputError(cables->where, "cables must be own or typical",
+                     "write own for cables of yours, typical for those of different makers");
   std::vector<ObservedTest> tests;
   std::set<std::string> names;
   for (const Node& item : list->items) {
-    ObservedTest test{read_one(item), {}, to_yaml(item), item.where};
+    ObservedTest test{read_one(item), {}, of == "typical", to_yaml(item), item.where};
     const std::string& name = test.observation.name;
     if (!names.insert(name).second)
       throw InputError(item.where, fmt::format("two observations are named '{}'", name),

@@ -1,6 +1,7 @@
 // A table of observations of cables and wires, and their comparison with the model. Each has a job that does the same
 // to the model's cable, and the possible values of unknown keys.
 //
+//   cables: typical                                               or own, the default: all rows are of the user's cables
 //   observations:
 //     - name: wenglor_chain
 //       job: {motion: {rig: {...}}, dresspack: {cable: {...}}}      a job, or a file of one
@@ -78,6 +79,7 @@ struct ObservedTest {
     std::string failure;  ///< why the job cannot be made, else empty
   };
   std::vector<Variant> variants;
+  bool typical = false;  ///< of one of many makers' cables: it informs a cable that is none of them (typical_cables.h)
   std::string text;  ///< of the row, for a digest
   Where where;
 };

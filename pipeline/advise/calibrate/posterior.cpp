@@ -131,6 +131,8 @@ void judge(const VectorXd& axis, Posterior& posterior) {
   posterior.worth = posterior.worth == 0 ? worth : std::min(posterior.worth, worth);
 }
 
+}  // namespace
+
 void summarise(Posterior& posterior) {
   const Index axes = posterior.draws.cols();
   posterior.mean = posterior.draws.colwise().mean();
@@ -149,8 +151,6 @@ void summarise(Posterior& posterior) {
     judge(axis, posterior);
   }
 }
-
-}  // namespace
 
 double log_posterior(const std::vector<LogLikelihood>& terms, const VectorXd& z) {
   double sum = -z.squaredNorm() / 2;

@@ -46,6 +46,9 @@ struct Posterior {
 Posterior posterior_of(const std::vector<LogLikelihood>& terms, const Eigen::VectorXd& start,
                        const SamplerSettings& settings = {});
 
+/// Mean, covariance, quantiles and agreement of the chains, from the draws.
+void summarise(Posterior& posterior);
+
 /// Quantile of `share`, 0 .. 1, interpolated.
 double quantile(std::vector<double> numbers, double share);
 

@@ -60,6 +60,7 @@ RoundOfJobs::RoundOfJobs(const std::vector<ObservedTest>& tests, const std::vect
                          std::string name, VectorXd centre, VectorXd step)
     : sets_(sets), centre_(std::move(centre)), step_(std::move(step)) {
   const Sources read_once;
+  sets_.push_back("uncertainty.ratings=none");  // they would count twice, and z is from the keys' defaults
   study_.name = std::move(name);
   for (const ObservedTest& test : tests) {
     runs_.emplace_back();

@@ -1,5 +1,6 @@
 #include "pipeline/job/calibration.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/job/learned_settings.h"
@@ -221,4 +222,55 @@ TEST_CASE("calibration: a cable that was tested alone is known again in a hose")
   // The room between cable and hose is not known from a cable alone.
   CHECK(job.calibration->within.left_out == "no test has the hose spot_welding, for which play is not used");
   CHECK(job.calibration->parameters.size() == 3);
+}
+
+namespace {
+
+Job soft_copper(std::vector<std::string> sets = {}) {
+  sets.insert(sets.begin(), {"fatigue.material=copper_halved", "strain.slip=friction"});
+  return job_from(parse_yaml(sample_job, "test.yaml"), sets);
+}
+
+bool knows(const Job& job, const std::string& name) {
+  return std::any_of(job.calibration->parameters.begin(), job.calibration->parameters.end(),
+                     [&](const LearnedParameter& one) { return one.name == name; });
+}
+
+}  // namespace
+
+TEST_CASE("ratings: a job without a calibration starts from what makers state of their cables") {
+  const Job job = soft_copper();
+  REQUIRE(job.calibration);
+  CHECK(job.calibration->typical);
+  // All ratings are lower bounds: they can only raise lives.
+  CHECK(job.fatigue.strength_factor > 1);
+  CHECK(job.fatigue.model_factor > 1);
+  CHECK(job.strain.factors == StrainFactors{});  // friction is the single cable's: strains do not depend on ratings
+  const auto strength = static_cast<Eigen::Index>(index_of(Uncertain::strength));
+  CHECK(knowledge_of(job).mean[strength] > 0);
+  CHECK(knowledge_of(job).covariance(strength, strength) < 1);
+  // The resolved job is the same again, and does not count them twice.
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "elsewhere.yaml"))) == job_text(job));
+  for (const char* without : {"uncertainty.ratings=none", "uncertainty.enabled=false", "fatigue.stress=elastic"}) {
+    const Job plain = soft_copper({without});
+    INFO(without);
+    CHECK(!plain.calibration);
+    CHECK(plain.fatigue.strength_factor == 1);
+    CHECK(plain.strain.factors == StrainFactors{});
+  }
+}
+
+TEST_CASE("ratings: what a job states itself stands") {
+  const Job key = soft_copper({"fatigue.strength_factor=1.1"});
+  CHECK(key.fatigue.strength_factor == 1.1);
+  CHECK(!knows(key, "strength"));
+  CHECK(knows(key, "model"));
+  const Job deviation = soft_copper({"uncertainty.strength=1.1"});
+  const auto strength = static_cast<Eigen::Index>(index_of(Uncertain::strength));
+  CHECK(deviation.fatigue.strength_factor == 1);
+  CHECK(knowledge_of(deviation).covariance(strength, strength) == Approx(std::pow(std::log(1.1) / std::log(1.3), 2)));
+  // Of wires of a metal that none of the cables has only the other parameters hold.
+  const Job aluminium = soft_copper({"fatigue.material=aluminium_7070_t6"});
+  CHECK(!knows(aluminium, "strength"));
+  CHECK(knows(aluminium, "model"));
 }
