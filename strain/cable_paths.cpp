@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "pipeline/cable/shares.h"
@@ -28,6 +29,8 @@ constexpr int most_attempts = 20;
 // Samples of a rehearsal that are one step: a quarter of the cost. Lives of hard and easy differ by 0.6 and 0.8 % from those
 // after a rehearsal of all samples, where both come to the same cycle.
 constexpr std::size_t rehearsed_at_once = 4;
+// In which cables that go on with another slack get it [s]: all at once it would lie in short waves.
+constexpr double feeding = 15;
 
 /// Place of a part in the cross-section at an arc along the dresspack.
 std::array<double, 2> place_of(const Construction& construction, int part, double arc) {
@@ -148,6 +151,24 @@ void CablePaths::share_loose(const CablePaths& other) {
   curvature_ = other.curvature_;
 }
 
+void CablePaths::go_on_from(const CablePaths& other) {
+  if (!loose_ || loose_ == other.loose_) return;
+  loose_->go_on_from(*other.loose_);
+  first_share_ = 1;
+  for (std::size_t k = 0; k < loose_->cables(); ++k)
+    if (loose_->cable(k).slack > 0) first_share_ = other.loose_->cable(k).slack / loose_->cable(k).slack;
+  fed_ = 0;
+}
+
+/// The slack that a rehearsal feeds in within a step [s].
+void CablePaths::feed_slack(double step) {
+  if (first_share_ == 1) return;
+  fed_ += step;
+  const double fed = std::min(1.0, fed_ / feeding);
+  loose_->feed_in(first_share_ + fed * (1 - first_share_));
+  if (fed == 1) first_share_ = 1;
+}
+
 void CablePaths::add(const SpanBlock& block) {
   CablePaths* const alone = this;
   add({&alone, 1}, block);
@@ -260,7 +281,10 @@ void CablePaths::rehearse(std::span<CablePaths* const> all, const SpanBlock& blo
   for (std::size_t first = 0; first < samples; first += rehearsed_at_once) {
     const std::size_t count = std::min(rehearsed_at_once, samples - first), t = first + count - 1;
     own.front()->find_nodes(block, t);
-    for (CablePaths* const of : own) of->shorten_loose(t);
+    for (CablePaths* const of : own) {
+      of->shorten_loose(t);
+      of->feed_slack(static_cast<double>(count) * block.step);
+    }
     LooseCables::advance(cables, own.front()->nodes_, static_cast<double>(count) * block.step);
   }
   for (LooseCables* const of : cables) of->forget_restless();
@@ -435,6 +459,45 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
     cable.along[along_at(i, sample)] = (1 + gain) / free_length - 1;
     cable.pressing[along_at(i, sample)] = static_cast<float>(press);
   }
+}
+
+namespace {
+
+/// Sum of (range between turning points)^8.
+class BendingSum {
+ public:
+  void add(double curvature) {
+    if ((curvature - last_) * direction_ < 0) {
+      const double range = last_ - turned_at_, square = range * range;
+      sum_ += square * square * square * square;
+      turned_at_ = last_;
+    }
+    if (curvature != last_) direction_ = curvature - last_;
+    last_ = curvature;
+  }
+  double sum() const { return sum_; }
+
+ private:
+  double last_ = 0, turned_at_ = 0, direction_ = 0, sum_ = 0;
+};
+
+}  // namespace
+
+double CablePaths::bending_sum() const {
+  double largest = 0;
+  std::vector<double> one(next_), other(next_);
+  for (std::size_t place = 0; loose_ && place < lengths_.size() + 2; ++place)
+    for (std::size_t k = 0; k < loosened_.size(); ++k) {
+      curvature_->read(place, 2 * k, 0, next_, one.data());
+      curvature_->read(place, 2 * k + 1, 0, next_, other.data());
+      std::array<BendingSum, 4> sums;
+      for (std::size_t t = 0; t < next_; ++t) {
+        sums[0].add(one[t]), sums[1].add(other[t]);
+        sums[2].add((one[t] + other[t]) / std::numbers::sqrt2), sums[3].add((one[t] - other[t]) / std::numbers::sqrt2);
+      }
+      for (const BendingSum& of : sums) largest = std::max(largest, of.sum());
+    }
+  return largest;
 }
 
 bool CablePaths::remembers() const {

@@ -128,6 +128,8 @@ class Evaluation {
   /// Before the first sample, see CablePaths.
   void share_loose(const Evaluation& other) { cables_.share_loose(other.cables_); }
   const CablePaths& cables() const { return cables_; }
+  void wind(std::uint64_t seed) { cables_.wind(seed); }
+  void go_on_from(const Evaluation& other) { cables_.go_on_from(other.cables_); }
   void end_first_pass();
   /// Wave length over which what varies of the span's curvature changes, 2 pi rms/rms of its slope [m]; infinite: it
   /// does not. The layer that rubs and whose strain evens out over most, with that length (LayerSlip::evening); -1: none.

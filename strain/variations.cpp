@@ -53,6 +53,7 @@ pipeline::StrainFactors moved(pipeline::StrainFactors factors, Uncertain paramet
       factors.grip *= by;
       break;
     case Uncertain::friction_inside:
+    case Uncertain::rest:
     case Uncertain::strength:
     case Uncertain::slope:
     case Uncertain::scatter:
@@ -73,7 +74,7 @@ std::size_t placements_at_most(const pipeline::Job& job) {
 }
 
 Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Build& build)
-    : as_told_(as_told) {
+    : enabled_(job.uncertainty.enabled), as_told_(as_told) {
   if (!job.uncertainty.enabled) return;
   const bool rubs_inside = std::any_of(as_told.begin(), as_told.end(),
                                        [](const auto& evaluation) { return evaluation->rubs_inside(); });
@@ -97,6 +98,24 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Bui
   lay(Uncertain::grip, std::array<double, other_nodes>{-reach, reach}, {{}});
 }
 
+void Variations::go_on() const {
+  for (const Placement& placement : placements_)
+    for (std::size_t span = 0; span < placement.spans->size(); ++span)
+      if (placement.spans != &as_told_) (*placement.spans)[span]->go_on_from(*as_told_[span]);
+}
+
+void Variations::add(const Starts& starts) {
+  if (!enabled_) return;
+  for (Placement& placement : placements_)
+    if (placement.spans != &as_told_)
+      for (const std::size_t variation : placement.variation)
+        rests_[variation] = static_cast<std::int32_t>(starts.rest_of_variations());
+  for (std::size_t rest = 1; rest < starts.rests(); ++rest) {
+    add(starts.spans(rest), {}, {{}});
+    rests_.back() = static_cast<std::int32_t>(rest);
+  }
+}
+
 double Variations::Friction::factor() const {
   if (inside == Inside::free) return 0;
   if (inside == Inside::glued) return ClampMeans::glued;
@@ -111,6 +130,7 @@ void Variations::add(const Spans& spans, Point z, const std::vector<Friction>& f
     z[index_of(Uncertain::friction_inside)] = of.z;
     points_.push_back(z);
     inside_.push_back(of.inside);
+    rests_.push_back(0);
   }
   placements_.push_back(std::move(placement));
 }

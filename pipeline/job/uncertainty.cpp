@@ -49,6 +49,12 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        "the force that draws a cable out of its clamp: tool_grip_N",
        "the force at which a clamp lets a cable slip", "One cable drawn out of its clamp with a spring scale (one hour)",
        0.2},  // a force read to 20 %
+      {"rest", "strain.rest", false, 1, true, SharedBy::installation,
+       "the places of rest to which several starts of the cables lead (/start/rest of strain.h5). Without a ring of loose "
+       "cables there is one",
+       "nothing: with slack_percent the number of places changes, too",
+       "where the loose cables come to rest", "The places of the cables in an opened hose noted (half a day)",
+       3.0},  // they come to rest elsewhere in the next dresspack
       {"strength", "fatigue.strength_factor", true, 1.3, false, SharedBy::material,
        "Nachtigall 1975: rules from tensile tests miss lives by a factor of 3 in one case of five, 1.2 in strain at the "
        "fifth power; with it the sets of config/materials for soft copper, 1.1 to 1.3 apart",
@@ -112,7 +118,7 @@ void describe(Fields& f, Uncertainty& uncertainty) {
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
     f.number(parameter.name, uncertainty.spread[p], Need::optional,
-             parameter.logarithmic ? between(1, 100) : between(0, 0.05),
+             parameter.logarithmic ? between(1, 100) : between(0, 5 * parameter.step),
              fmt::format("The standard deviation of {}, as {} of {}. {}: it is known. {}.", parameter.cause,
                          parameter.logarithmic ? "a factor" : "a change", parameter.key,
                          parameter.logarithmic ? 1 : 0, parameter.source));

@@ -40,6 +40,7 @@ bool acts(const Job& job, Uncertain parameter) {
     case Uncertain::friction_hose:
     case Uncertain::slack:
     case Uncertain::play:
+    case Uncertain::rest:
       return any_in_hose(job);
     case Uncertain::grip:
       return any_grip(job);
