@@ -69,40 +69,6 @@ bool is_rest(const VariedStrains& at) {
          std::all_of(at.z.begin(), at.z.end(), [](double z) { return z == 0; });
 }
 
-/// (F29) Other variations whose cables went on from another rest than the job's own change a life by as much as if they had
-/// gone on from that: W less that rest's effect, at equal constants of the material.
-void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> varied,
-               const std::vector<std::size_t>& starts) {
-  const std::size_t nodes = strength_nodes.size() * slope_nodes.size(), middle = nodes / 2;
-  std::vector<std::size_t> point(starts.size(), 0), order;  // (rest)
-  for (std::size_t v = 0; v < varied.size(); ++v)
-    if (is_rest(varied[v])) point[varied[v].rest] = v + 1;
-  const auto life = [&](std::size_t at, std::size_t node) -> double& { return response.worst_life[at * nodes + node]; };
-  for (std::size_t rest = 0; rest < starts.size(); ++rest)
-    if (rest == 0 || point[rest] > 0) order.push_back(rest);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return life(point[a], middle) < life(point[b], middle); });
-  double all = 0, before = 0;
-  for (const std::size_t rest : order) all += static_cast<double>(starts[rest]);
-  std::vector<double> score(starts.size());
-  for (const std::size_t rest : order) {
-    const auto count = static_cast<double>(starts[rest]);
-    score[rest] = pipeline::normal_quantile((before + count / 2) / all);
-    before += count;
-  }
-  for (const std::size_t rest : order) response.points[point[rest]][of_rest] = score[rest] - score[0];
-  response.knowledge.mean(static_cast<Eigen::Index>(of_rest)) -= score[0];
-  for (std::size_t v = 0; v < varied.size(); ++v) {
-    if (varied[v].rest == 0 || is_rest(varied[v])) continue;
-    for (std::size_t node = 0; node < nodes; ++node) {
-      constexpr double endless = pipeline::LifeResponse::endless;
-      double& of = life(v + 1, node);
-      const double there = life(point[varied[v].rest], node), here = life(0, node);
-      if (of < endless && there < endless && here < endless) of = std::min(endless, of - there + here);
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, std::size_t sites) {
@@ -171,6 +137,42 @@ std::vector<VariedStrains> only(const std::vector<VariedStrains>& varied, const 
       if (counts[all.site[k]]) kept.site.push_back(all.site[k]), kept.strains.push_back(all.strains[k]);
   }
   return some;
+}
+
+void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> varied,
+               const std::vector<std::size_t>& starts) {
+  const auto zero_of = [](const std::vector<double>& z) {
+    return static_cast<std::size_t>(std::ranges::find(z, 0.0) - z.begin());
+  };
+  const std::size_t nodes = response.strength.size() * response.slope.size(),
+                    middle = zero_of(response.strength) * response.slope.size() + zero_of(response.slope);
+  std::vector<std::size_t> point(starts.size(), 0), order;  // (rest)
+  for (std::size_t v = 0; v < varied.size(); ++v)
+    if (is_rest(varied[v])) point[varied[v].rest] = v + 1;
+  const auto life = [&](std::size_t at, std::size_t node) -> double& { return response.worst_life[at * nodes + node]; };
+  for (std::size_t rest = 0; rest < starts.size(); ++rest)
+    if (rest == 0 || point[rest] > 0) order.push_back(rest);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return life(point[a], middle) < life(point[b], middle); });
+  double all = 0, before = 0;
+  for (const std::size_t rest : order) all += static_cast<double>(starts[rest]);
+  std::vector<double> score(starts.size());
+  for (const std::size_t rest : order) {
+    const auto count = static_cast<double>(starts[rest]);
+    score[rest] = pipeline::normal_quantile((before + count / 2) / all);
+    before += count;
+  }
+  for (const std::size_t rest : order) response.points[point[rest]][of_rest] = score[rest] - score[0];
+  response.knowledge.mean(static_cast<Eigen::Index>(of_rest)) -= score[0];
+  for (std::size_t v = 0; v < varied.size(); ++v) {
+    if (varied[v].rest == 0 || is_rest(varied[v])) continue;
+    for (std::size_t node = 0; node < nodes; ++node) {
+      constexpr double endless = pipeline::LifeResponse::endless;
+      double& of = life(v + 1, node);
+      const double there = life(point[varied[v].rest], node), here = life(0, node);
+      if (of < endless && there < endless && here < endless) of = std::min(endless, of - there + here);
+    }
+  }
 }
 
 void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,

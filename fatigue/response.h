@@ -32,11 +32,16 @@ std::vector<VariedStrains> only(const std::vector<VariedStrains>& varied, const 
 std::vector<std::size_t> read_rests(const pipeline::FileReader& strain);
 
 /// log10 of the worst wire's life in repeats at every point and over strength and slope, (point, strength,
-/// slope); the first point is as the job stands, `own` its wires. starts: (rest), see read_rests(). z of rest
-/// is the normal score of a rest's life among those of all starts, less that of the job's own, by which the mean of what is
-/// known moves (F29).
+/// slope); the first point is as the job stands, `own` its wires. starts: (rest), see read_rests() and put_rests().
 void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
                    std::span<const VariedStrains> varied, const std::vector<std::size_t>& starts, const SiteSet& sites, const TextColumn& component,
                    const pipeline::Job& job, std::size_t threads);
+
+/// (F29) Lives at the rests of loose cables become a parameter of the response: the z of a rest is the normal score of its
+/// life among those of all starts less that of the job's own rest, and the mean of what is known is less by that of the
+/// job's own. Variations whose cables went on from another rest change a life by as much as they change it there.
+/// response: at 0 and at the points of varied. starts: (rest), of which varied has all but the first.
+void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> varied,
+               const std::vector<std::size_t>& starts);
 
 }  // namespace dresslife::fatigue

@@ -31,6 +31,8 @@ constexpr int most_attempts = 20;
 constexpr std::size_t rehearsed_at_once = 4;
 // In which cables that go on with another slack get it [s]: all at once it would lie in short waves.
 constexpr double feeding = 15;
+// Of the largest sum of eighth powers of curvature: a cable that bends half as much is far from being the worst.
+constexpr double near_most = 1e-2;
 
 /// Place of a part in the cross-section at an arc along the dresspack.
 std::array<double, 2> place_of(const Construction& construction, int part, double arc) {
@@ -483,21 +485,39 @@ class BendingSum {
 
 }  // namespace
 
-double CablePaths::bending_sum() const {
-  double largest = 0;
+/// Of curvature_, where the wires of a segment are evaluated.
+std::size_t CablePaths::wires_at(std::size_t segment) const {
+  const std::size_t last = lengths_.size() - 1;
+  return known_ends_[0] && segment == 0 ? last + 1 : known_ends_[1] && segment == last ? last + 2 : segment;
+}
+
+double CablePaths::bending_sum() {
+  bending_sums_.clear();
   std::vector<double> one(next_), other(next_);
-  for (std::size_t place = 0; loose_ && place < lengths_.size() + 2; ++place)
+  for (std::size_t segment = 0; segment < lengths_.size(); ++segment)
     for (std::size_t k = 0; k < loosened_.size(); ++k) {
-      curvature_->read(place, 2 * k, 0, next_, one.data());
-      curvature_->read(place, 2 * k + 1, 0, next_, other.data());
+      curvature_->read(wires_at(segment), 2 * k, 0, next_, one.data());
+      curvature_->read(wires_at(segment), 2 * k + 1, 0, next_, other.data());
       std::array<BendingSum, 4> sums;
       for (std::size_t t = 0; t < next_; ++t) {
         sums[0].add(one[t]), sums[1].add(other[t]);
         sums[2].add((one[t] + other[t]) / std::numbers::sqrt2), sums[3].add((one[t] - other[t]) / std::numbers::sqrt2);
       }
-      for (const BendingSum& of : sums) largest = std::max(largest, of.sum());
+      bending_sums_.push_back(std::ranges::max(sums, {}, &BendingSum::sum).sum());
     }
-  return largest;
+  return bending_sums_.empty() ? 0 : std::ranges::max(bending_sums_);
+}
+
+std::vector<int> CablePaths::bent_most(std::size_t segment) const {
+  std::vector<int> parts;
+  const std::size_t loose = loosened_.size();
+  for (std::size_t k = 0; k < loose; ++k) {
+    double most = 0;
+    for (std::size_t of = 0; of < bending_sums_.size(); ++of)
+      if (component(loosened_[of % loose]) == component(loosened_[k])) most = std::max(most, bending_sums_[of]);
+    if (bending_sums_[segment * loose + k] >= near_most * most) parts.push_back(cables_[loosened_[k]].part);
+  }
+  return parts;
 }
 
 bool CablePaths::remembers() const {
@@ -602,10 +622,7 @@ void CablePaths::ask_for_forces() {
 const SegmentMotion& CablePaths::Keeper::of(const CablePaths& paths, std::size_t segment,
                                             const DeformationColumns& hose, std::size_t first,
                                             std::size_t count, bool at_wires) {
-  const std::size_t last = paths.lengths_.size() - 1;
-  const std::size_t bends_at = at_wires && paths.known_ends_[0] && segment == 0      ? last + 1
-                               : at_wires && paths.known_ends_[1] && segment == last ? last + 2
-                                                                                     : segment;
+  const std::size_t bends_at = at_wires ? paths.wires_at(segment) : segment;
   motion_.samples = count;
   motion_.hose = hose;
   if (!paths.any()) return motion_;

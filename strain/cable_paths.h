@@ -75,10 +75,13 @@ class CablePaths {
   void go_on_from(const CablePaths& other);
   /// By how much loose cables lie apart from the same ones that began otherwise (LooseCables::apart()).
   double apart(const CablePaths& other) const { return loose_->apart(*other.loose_); }
-  /// What damages the wires of loose cables, to compare starts of one job: the largest over segments, cables and four
+  /// What damages the wires of loose cables, to compare rests of one job: the largest over segments, cables and four
   /// directions of the sum over turning points of (change of curvature)^8. 0: none lies loose. Precondition: all samples
   /// were added.
-  double bending_sum() const;
+  double bending_sum();
+  /// Parts of the loose cables whose sums in a segment are not far below the largest of their component. Precondition:
+  /// bending_sum().
+  std::vector<int> bent_most(std::size_t segment) const;
 
   void add(const SpanBlock& block);  ///< in order of time
   /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone. All that
@@ -162,6 +165,7 @@ class CablePaths {
   void see_gain(Cable& cable, std::size_t sample, double gain, double relief);
   void see_gains(const std::vector<HoseNode>& nodes, std::size_t of_block);
   void see_held_gains();
+  std::size_t wires_at(std::size_t segment) const;
   void put_loose(std::size_t of_block);
   void put_loose(std::size_t cable, std::size_t state, std::size_t sample);
   void put_curvature(std::size_t of_block);
@@ -192,6 +196,7 @@ class CablePaths {
   std::vector<float> hose_curvature_;  ///< (clamp, 2, sample) at the base and the tool end [1/m]
   std::vector<double> hose_moment_, offsets_;
   std::vector<std::size_t> offset_samples_;
+  std::vector<double> bending_sums_;  ///< (segment, loose cable)
 };
 
 }  // namespace dresslife::strain

@@ -129,6 +129,7 @@ class Evaluation {
   void share_loose(const Evaluation& other) { cables_.share_loose(other.cables_); }
   const CablePaths& cables() const { return cables_; }
   void wind(std::uint64_t seed) { cables_.wind(seed); }
+  double bending_sum() { return cables_.bending_sum(); }  ///< see CablePaths
   void go_on_from(const Evaluation& other) { cables_.go_on_from(other.cables_); }
   void end_first_pass();
   /// Wave length over which what varies of the span's curvature changes, 2 pi rms/rms of its slope [m]; infinite: it
@@ -148,6 +149,9 @@ class Evaluation {
   /// Those that a segment's damage may go by once something is known better. Precondition: it was evaluated
   /// last.
   const std::vector<Site>& likely_worst() const { return likely_; }
+  /// The same of a place of rest that is not the job's own: only cables that bend most are scanned. Precondition:
+  /// bending_sum(). Segments as in varied().
+  const std::vector<Site>& likely_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row);
   /// The wires' site rows and turning points, in the order of `sites`, with friction times each of `factors`,
   /// (factor). Segments as in evaluate(); of an evaluation with other slack, play or grips there is no need
   /// to evaluate anything before.

@@ -112,6 +112,7 @@ void Variations::add(const Starts& starts) {
         rests_[variation] = static_cast<std::int32_t>(starts.rest_of_variations());
   for (std::size_t rest = 1; rest < starts.rests(); ++rest) {
     add(starts.spans(rest), {}, {{}});
+    placements_.back().rest = true;
     rests_.back() = static_cast<std::int32_t>(rest);
   }
 }
@@ -146,11 +147,18 @@ void Variations::evaluate(std::size_t span, std::size_t segment, const Deformati
                           std::size_t row, const Put& put) const {
   const std::vector<Evaluation::Site>& likely = as_told_[span]->likely_worst();
   if (likely.empty()) return;
-  std::vector<std::size_t> sites;
-  for (const Evaluation::Site site : likely) sites.push_back(as_told_[span]->row_of(segment, site));
   for (const Placement& placement : placements_) {
-    const std::vector<SiteRows> rows =
-        (*placement.spans)[span]->varied(likely, placement.factors, segment, history, row);
+    Evaluation& placed = *(*placement.spans)[span];
+    std::vector<Evaluation::Site> wires = likely;
+    if (placement.rest) {
+      const std::vector<Evaluation::Site>& own = placed.likely_of_bent(segment, history, row);
+      wires.insert(wires.end(), own.begin(), own.end());
+      std::ranges::sort(wires);
+      wires.erase(std::unique(wires.begin(), wires.end()), wires.end());
+    }
+    std::vector<std::size_t> sites;
+    for (const Evaluation::Site site : wires) sites.push_back(as_told_[span]->row_of(segment, site));
+    const std::vector<SiteRows> rows = placed.varied(wires, placement.factors, segment, history, row);
     for (std::size_t k = 0; k < rows.size(); ++k) put(placement.variation[k], sites, rows[k]);
   }
 }

@@ -59,6 +59,7 @@ class Variations {
     const Spans* spans;
     std::vector<double> factors;
     std::vector<std::size_t> variation;
+    bool rest = false;  ///< another rest of the starts: other wires may be the worst
   };
   /// Friction inside: at z, or as a bound has it.
   struct Friction {
