@@ -7,22 +7,30 @@
 #include "pipeline/base/random.h"
 #include "pipeline/base/statistics.h"
 
-#include <cstdlib>
-
 namespace dresslife::strain {
 namespace {
 
-// Of their curvature, by which two starts of one rest may still be apart. What is left falls to an eighth within seconds.
+// Of their curvature, by which two starts of one rest may still be apart. At most an eighth of it is left in each cycle.
 constexpr double same_rest = 1e-3;
 
 }  // namespace
+
+std::size_t other_starts_at_most(const pipeline::Job& job) {
+  for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
+    int cables = 0;
+    for (const pipeline::Component& component : mounted.dresspack.components)
+      if (!component.components.empty()) cables += component.count;
+    if (cables > 1 && !mounted.dresspack.cable_alone) return Starts::count - 1;
+  }
+  return 0;
+}
 
 Starts::Starts(Spans& own, const std::function<Spans&()>& build) : own_(own) {
   const auto ring = [](const auto& evaluation) { return evaluation->cables().any_ring(); };
   if (std::ranges::none_of(own, ring)) return;
   rest_of_.resize(count);
   std::iota(rest_of_.begin(), rest_of_.end(), 0);
-  std::uint64_t seed = getenv("DL_SEED") ? atoi(getenv("DL_SEED")) : 0;
+  std::uint64_t seed = 0;
   for (std::size_t start = 1; start < count; ++start) {
     others_.push_back(&build());
     for (const auto& evaluation : *others_.back())
@@ -45,6 +53,7 @@ void Starts::merge() {
   for (std::size_t rest = 1; rest < rests(); ++rest)
     for (std::size_t earlier = 0; earlier < rest; ++earlier) {
       if (!same(spans(rest), spans(earlier))) continue;
+      others_[rest - 1]->clear();  // nobody asks for it any more
       others_.erase(others_.begin() + static_cast<std::ptrdiff_t>(rest - 1));
       for (std::size_t& of : rest_of_)
         if (of >= rest) of = of == rest ? earlier : of - 1;

@@ -7,9 +7,13 @@
 #include <memory>
 #include <vector>
 
+#include "pipeline/job/job.h"
 #include "strain/evaluation.h"
 
 namespace dresslife::strain {
+
+/// Starts besides the first one, at most; 0 where no dresspack has two cables in a hose.
+std::size_t other_starts_at_most(const pipeline::Job& job);
 
 class Starts {
  public:

@@ -36,12 +36,12 @@ constexpr double first_pass_share = 0.05;   // of the work, for the progress dis
 // to.
 constexpr double believable_mesh_error = 0.02;
 constexpr double loose_pass_share = 0.5;  // the same where cables lie loose
-// Of the end of the motion [s], before the repeat that counts: loose cables forget their first places (W36). After 60 s
-// hard, easy and robot 1 go through a cycle that closes.
+// Of the end of the motion [s], before the repeat that counts: loose cables forget their first places (W36). After 160 s
+// the last start of robot 1 comes to its rest.
 constexpr double rehearsed = 180;
 // Variations go on from the first start so long before the first sample [s]. From 170 s the same lives follow for robot 1 and
 // hard, from 30 s one of ten differs by 0.85 of a decade.
-const double rehearsed_varied = getenv("DL_V") ? atof(getenv("DL_V")) : 90;
+constexpr double rehearsed_varied = 90;
 
 /// Some samples of all segments.
 struct MotionBlock {
@@ -528,7 +528,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   check_probes(job);
   // Half of the room: the hose's deformation wants the other.
-  const Scratch scratch{history_bytes / 2 / (reader.spans().size() * (1 + placements_at_most(job))),
+  const Scratch scratch{history_bytes / 2 / (reader.spans().size() * (1 + other_starts_at_most(job) + placements_at_most(job))),
                         strain.final_name()};
   Evaluations all(job, reader, threads, job.strain.factors, scratch);
   const auto& evaluations = all.of_span;
@@ -660,8 +660,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     strain.append("/plane/strain", std::vector<float>(fibre.strain.begin(), fibre.strain.end()));
     strain.append("/plane/shear", std::vector<float>(fibre.shear.begin(), fibre.shear.end()));
   };
-  const std::vector<std::int32_t> rest_of_start(starts.rest_of().begin(), starts.rest_of().end());
-  strain.append("/start/rest", rest_of_start);
+  if (const std::vector<std::int32_t> rests(starts.rest_of().begin(), starts.rest_of().end()); !rests.empty())
+    strain.append("/start/rest", rests);
   VariationWriter variation_rows(strain, variations);
   std::size_t span = 0, segment = 0;
   sink.progress = [&](double) {

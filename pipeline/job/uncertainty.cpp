@@ -79,10 +79,10 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        0.5},  // 0.2 of a decade of scatter
       {"motion", "fatigue.motion_factor", true, 3.7, false, SharedBy::installation,
        "ESTIMATE: ramps of 5 to 50 % instead of 25 % gave 0.8 to 1.1 times the life of easy, 0.3 to 0.5 times that of robot 1 and "
-       "0.6 to 24 times that of robot 2; other resting places of the cables have 1 to 21 times the life (strain/measurements.md). "
+       "0.6 to 24 times that of robot 2, each from one start of the cables, so that a part of it is that of `rest`. "
        "The effect on one program does not predict the effect on another. Without a robot there is none",
        "the swing of the mounted dresspack after a stop: damping_time_ms, bending_stiffness_Nm2, motion.ramp_percent",
-       "how the hose swings and where its cables come to rest", "The stops filmed with the dresspack mounted (one hour)",
+       "how the hose swings", "The stops filmed with the dresspack mounted (one hour)",
        1.0},  // what the cables in the hose do is not seen
   }};
   return parameters;

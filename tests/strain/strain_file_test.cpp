@@ -15,6 +15,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
+#include "strain/starts.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
@@ -341,6 +342,42 @@ TEST_CASE("where a repeat of the motion begins changes no strain of loose cables
   INFO("slack of " << slack << " %: " << apart << " of " << largest);
   // The rehearsal goes in steps of four samples, and leaves 0.4 and 1.2 %. At 0.5 % of slack two cycles of rest are possible.
   CHECK(apart < 0.03f * largest);
+}
+
+TEST_CASE("each start of a ring of cables has a rest in the file, one cable has no starts") {
+  const Scratch scratch;
+  std::string text = pipeline::sample_job;
+  const auto replace = [&](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
+  replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 2\n");
+  replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
+  replace("slip: [stick, free]", "slip: free");
+  write_motion(scratch / "motion.h5");
+  const auto evaluated = [&](std::vector<std::string> sets) {
+    evaluate(scratch / "motion.h5", scratch / "strain.h5", pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), sets));
+    return FileReader(scratch / "strain.h5", pipeline::strain_format());
+  };
+  {
+    const FileReader file = evaluated({"uncertainty.enabled=true"});
+    const auto rests = file.read<std::int32_t>("/start/rest"), varied = file.read<std::int32_t>("/variation/rest");
+    REQUIRE(rests.size() == strain::Starts::count);
+    const std::int32_t last = std::ranges::max(rests);
+    for (std::int32_t rest = 0; rest <= last; ++rest) {
+      CHECK(std::ranges::count(rests, rest) > 0);
+      if (rest > 0) CHECK(std::ranges::count(varied, rest) > 0);
+    }
+    for (const std::int32_t rest : varied) CHECK((rest >= 0 && rest <= last));
+  }
+  {  // the job's own rest does not depend on whether others are varied
+    const FileReader on = evaluated({"uncertainty.enabled=true"});
+    const auto strain = on.read<float>("/reversal/strain");
+    const FileReader off = evaluated({"uncertainty.enabled=false"});
+    CHECK(off.read<float>("/reversal/strain") == strain);
+    CHECK(off.has("/start/rest"));
+  }
+  replace("count: 3", "count: 1");
+  const FileReader one = evaluated({"uncertainty.enabled=true"});
+  CHECK_FALSE(one.has("/start/rest"));
+  for (const std::int32_t rest : one.read<std::int32_t>("/variation/rest")) CHECK(rest == 0);
 }
 
 TEST_CASE("a motion without samples or a dresspack without wires is refused in words") {
