@@ -170,7 +170,7 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
       constexpr double endless = pipeline::LifeResponse::endless;
       double& of = life(v + 1, node);
       const double there = life(point[varied[v].rest], node), here = life(0, node);
-      if (of < endless && there < endless && here < endless) of = std::min(endless, of - there + here);
+      if (of < endless) of = std::min(endless, of - there + here);
     }
   }
 }

@@ -491,7 +491,7 @@ std::size_t CablePaths::wires_at(std::size_t segment) const {
   return known_ends_[0] && segment == 0 ? last + 1 : known_ends_[1] && segment == last ? last + 2 : segment;
 }
 
-double CablePaths::bending_sum() {
+void CablePaths::find_bent() {
   bending_sums_.clear();
   std::vector<double> one(next_), other(next_);
   for (std::size_t segment = 0; segment < lengths_.size(); ++segment)
@@ -505,7 +505,6 @@ double CablePaths::bending_sum() {
       }
       bending_sums_.push_back(std::ranges::max(sums, {}, &BendingSum::sum).sum());
     }
-  return bending_sums_.empty() ? 0 : std::ranges::max(bending_sums_);
 }
 
 std::vector<int> CablePaths::bent_most(std::size_t segment) const {

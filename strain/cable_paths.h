@@ -75,12 +75,11 @@ class CablePaths {
   void go_on_from(const CablePaths& other);
   /// By how much loose cables lie apart from the same ones that began otherwise (LooseCables::apart()).
   double apart(const CablePaths& other) const { return loose_->apart(*other.loose_); }
-  /// What damages the wires of loose cables, to compare rests of one job: the largest over segments, cables and four
-  /// directions of the sum over turning points of (change of curvature)^8. 0: none lies loose. Precondition: all samples
-  /// were added.
-  double bending_sum();
+  /// Where loose cables bend most: the sum over turning points of (change of curvature)^8, the largest of four directions,
+  /// for each segment and cable. Precondition: all samples were added.
+  void find_bent();
   /// Parts of the loose cables whose sums in a segment are not far below the largest of their component. Precondition:
-  /// bending_sum().
+  /// find_bent().
   std::vector<int> bent_most(std::size_t segment) const;
 
   void add(const SpanBlock& block);  ///< in order of time

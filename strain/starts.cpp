@@ -62,15 +62,10 @@ void Starts::merge() {
     }
 }
 
-void Starts::choose(double z) {
-  if (rests() == 1) return;
-  std::vector<double> sums;  // (rest)
-  for (std::size_t rest = 0; rest < rests(); ++rest) {
-    sums.push_back(0);
-    for (const auto& evaluation : spans(rest)) sums.back() = std::max(sums.back(), evaluation->bending_sum());
-  }
-  std::vector<std::size_t> starts = rest_of_;  // with the largest sum first
-  std::ranges::stable_sort(starts, std::ranges::greater(), [&](std::size_t rest) { return sums[rest]; });
+void Starts::choose(double z, const std::vector<double>& damage) {
+  std::vector<std::size_t> starts = rest_of_;  // with the most damage first
+  if (starts.empty()) return;
+  std::ranges::stable_sort(starts, std::ranges::greater(), [&](std::size_t rest) { return damage[rest]; });
   // Of an even number of starts the more damaged one of the middle two.
   const auto at = static_cast<std::size_t>(std::ceil(pipeline::normal_share(z) * static_cast<double>(starts.size())));
   const std::size_t chosen = starts[std::clamp<std::size_t>(at, 1, starts.size()) - 1];

@@ -28,9 +28,9 @@ class Starts {
   std::vector<Evaluation*> placed(std::size_t span) const;
   /// Between two blocks of samples: starts whose rings all lie at the same places become one rest.
   void merge();
-  /// All samples were added: the rest at a standard normal quantile z of CablePaths::bending_sum(), 0 for the median,
-  /// becomes the job's own. Many damaging bends have a low z, like short lives.
-  void choose(double z);
+  /// All samples were added: the rest at a standard normal quantile z of the starts, 0 for the median, becomes the job's own.
+  /// damage: (rest) to compare them; much of it has a low z, like short lives.
+  void choose(double z, const std::vector<double>& damage);
 
   std::size_t rests() const { return 1 + others_.size(); }
   /// Rest 0 is the job's own.

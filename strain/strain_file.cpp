@@ -598,6 +598,15 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
       });
     }
   };
+  // use: of a span, its segment, and where `history` has that. `history` has the first segments before.
+  const auto each_segment = [&](const std::function<void(std::size_t, std::size_t, std::size_t)>& use) {
+    for (std::size_t k = 0, span = 0; k < segments; ++k) {
+      if (k == reader.spans()[span].first_segment + reader.spans()[span].segments) ++span;
+      if (k % per_pass == 0 && k > 0)
+        reader.run(false, [&](const MotionBlock& block) { keep(k, block.first, block.at_wires); });
+      use(span, k - reader.spans()[span].first_segment, k % per_pass);
+    }
+  };
   const auto any = [&](auto does) { return std::any_of(evaluations.begin(), evaluations.end(), does); };
   const bool loose = any([](const auto& evaluation) { return evaluation->any_loose(); });
   // Samples before the first one, from `left` to `until` of them before it: of the motion's end, or of whole repeats.
@@ -627,8 +636,6 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     progress((loose ? loose_pass_share : first_pass_share) * static_cast<double>(block.first) /
              static_cast<double>(samples));
   });
-  starts.choose(job.strain.rest);
-  variations.add(starts);
   for (std::size_t k = 0; k < evaluations.size(); ++k) {
     evaluations[k]->end_first_pass();
     for (Evaluation* const placed : starts.placed(k)) placed->end_first_pass();
@@ -641,6 +648,18 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
           if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
       });
     });
+  if (starts.rests() > 1) {
+    std::vector<double> damage(starts.rests(), 0.0);
+    for (std::size_t rest = 0; rest < starts.rests(); ++rest)
+      for (const auto& evaluation : starts.spans(rest)) evaluation->find_bent();
+    each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
+      for (std::size_t rest = 0; rest < starts.rests(); ++rest)
+        damage[rest] = std::max<double>(damage[rest], starts.spans(rest)[span]->damage_of_bent(segment, history, row));
+    });
+    starts.choose(job.strain.rest, damage);
+    if (per_pass < segments) reader.run(false, [&](const MotionBlock& block) { keep(0, block.first, block.at_wires); });
+  }
+  variations.add(starts);
   const std::vector<Warning> warnings =
       pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),
                        write_cables(strain, evaluations));
@@ -663,24 +682,20 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   if (const std::vector<std::int32_t> rests(starts.rest_of().begin(), starts.rest_of().end()); !rests.empty())
     strain.append("/start/rest", rests);
   VariationWriter variation_rows(strain, variations);
-  std::size_t span = 0, segment = 0;
+  std::size_t segment = 0;
   sink.progress = [&](double) {
     const double share = static_cast<double>(segment + 1) / static_cast<double>(segments);
     const double done = loose ? loose_pass_share : first_pass_share;
     progress(done + (1 - done) * share);
   };
-  for (; segment < segments; ++segment) {
-    if (segment == reader.spans()[span].first_segment + reader.spans()[span].segments) ++span;
-    const std::size_t row = segment % per_pass;
-    if (row == 0 && segment > 0)
-      reader.run(false, [&](const MotionBlock& block) { keep(segment, block.first, block.at_wires); });
-    const std::size_t in_span = segment - reader.spans()[span].first_segment;
+  each_segment([&](std::size_t span, std::size_t in_span, std::size_t row) {
     evaluations[span]->evaluate(in_span, history, row, sink);
     variations.evaluate(span, in_span, history, row,
                         [&](std::size_t variation, const std::vector<std::size_t>& of, const SiteRows& rows) {
                           variation_rows.append(variation, of, rows);
                         });
-  }
+    ++segment;
+  });
   const auto worst =
       std::max_element(evaluations.begin(), evaluations.end(),
                        [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });
