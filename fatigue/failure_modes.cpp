@@ -55,7 +55,8 @@ class Modes {
       response.material = pipeline::material_of(in_.job, in_.sites.material()[worst_of(mode)]).name;
     std::vector<bool> counts(in_.sites.size());
     for (std::size_t site = 0; site < counts.size(); ++site) counts[site] = mode_of(site) == mode;
-    fill_response(response, own, only(in_.varied, counts), in_.starts, in_.sites, in_.component, in_.job, in_.threads);
+    fill_response(response, own, only(in_.varied, counts), in_.starts, in_.sites, in_.component, in_.job,
+                  in_.threads);
     response.bound[static_cast<std::size_t>(pipeline::Inside::glued)] = log10_or_endless(in_.glued[mode]);
     response.bound[static_cast<std::size_t>(pipeline::Inside::free)] = log10_or_endless(in_.free[mode]);
     add_planned(mode, response);

@@ -680,7 +680,8 @@ pipeline::FirstFailures first_failures_of(const Context& c, const ModeList& mode
                                           const std::vector<double>& free) {
   std::vector<std::size_t> starts;
   std::vector<VariedStrains> varied;
-  if (c.job.uncertainty.enabled) varied = read_variations(c.strain, c.sites.size()), starts = read_rests(c.strain);
+  if (c.job.uncertainty.enabled)
+    varied = read_variations(c.strain, c.sites.size()), starts = read_rests(c.strain);
   const ModeInputs inputs{c.job,
                           c.sites,
                           c.component,

@@ -96,7 +96,8 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
     const auto rests = static_cast<std::int32_t>(read_rests(strain).size());
     for (std::size_t v = 0; v < all.size(); ++v) {
       if (rest[v] < 0 || rest[v] >= std::max(1, rests))
-        throw pipeline::InputError(strain.where(), fmt::format("/variation/rest is {}, which no start came to", rest[v]),
+        throw pipeline::InputError(strain.where(),
+                                   fmt::format("/variation/rest is {}, which no start came to", rest[v]),
                                    "make the file again with dresslife-strain");
       all[v].rest = static_cast<std::size_t>(rest[v]);
     }
@@ -120,8 +121,10 @@ std::vector<std::size_t> read_rests(const pipeline::FileReader& strain) {
   if (!strain.has("/start/rest")) return starts;
   for (const std::int32_t rest : strain.read<std::int32_t>("/start/rest")) {
     if (rest < 0 || static_cast<std::size_t>(rest) >= strain.rows("/start/rest"))
-      throw pipeline::InputError(strain.where(), fmt::format("/start/rest is {} (there are {} starts)", rest, strain.rows("/start/rest")),
-                                 "make the file again with dresslife-strain");
+      throw pipeline::InputError(
+          strain.where(),
+          fmt::format("/start/rest is {} (there are {} starts)", rest, strain.rows("/start/rest")),
+          "make the file again with dresslife-strain");
     starts.resize(std::max(starts.size(), static_cast<std::size_t>(rest) + 1));
     ++starts[static_cast<std::size_t>(rest)];
   }
@@ -149,11 +152,14 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
   std::vector<std::size_t> point(starts.size(), 0), order;  // (rest)
   for (std::size_t v = 0; v < varied.size(); ++v)
     if (is_rest(varied[v])) point[varied[v].rest] = v + 1;
-  const auto life = [&](std::size_t at, std::size_t node) -> double& { return response.worst_life[at * nodes + node]; };
+  const auto life = [&](std::size_t at, std::size_t node) -> double& {
+    return response.worst_life[at * nodes + node];
+  };
   for (std::size_t rest = 0; rest < starts.size(); ++rest)
     if (rest == 0 || point[rest] > 0) order.push_back(rest);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return life(point[a], middle) < life(point[b], middle); });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return life(point[a], middle) < life(point[b], middle);
+  });
   double all = 0, before = 0;
   for (const std::size_t rest : order) all += static_cast<double>(starts[rest]);
   std::vector<double> score(starts.size());
@@ -176,8 +182,9 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
 }
 
 void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
-                   std::span<const VariedStrains> varied, const std::vector<std::size_t>& starts, const SiteSet& sites, const TextColumn& component,
-                   const pipeline::Job& job, std::size_t threads) {
+                   std::span<const VariedStrains> varied, const std::vector<std::size_t>& starts,
+                   const SiteSet& sites, const TextColumn& component, const pipeline::Job& job,
+                   std::size_t threads) {
   response.strength = strength_nodes, response.slope = slope_nodes;
   std::vector<const VariedStrains*> points{&own};
   response.points = {{}}, response.inside = {pipeline::Inside::as_is};

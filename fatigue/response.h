@@ -34,8 +34,9 @@ std::vector<std::size_t> read_rests(const pipeline::FileReader& strain);
 /// log10 of the worst wire's life in repeats at every point and over strength and slope, (point, strength,
 /// slope); the first point is as the job stands, `own` its wires. starts: (rest), see read_rests() and put_rests().
 void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
-                   std::span<const VariedStrains> varied, const std::vector<std::size_t>& starts, const SiteSet& sites, const TextColumn& component,
-                   const pipeline::Job& job, std::size_t threads);
+                   std::span<const VariedStrains> varied, const std::vector<std::size_t>& starts,
+                   const SiteSet& sites, const TextColumn& component, const pipeline::Job& job,
+                   std::size_t threads);
 
 /// (W40) Lives at the rests of loose cables become a parameter of the response: the z of a rest is the normal score of its
 /// life among those of all starts less that of the job's own rest, and the mean of what is known is less by that of the

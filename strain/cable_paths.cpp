@@ -501,7 +501,8 @@ void CablePaths::find_bent() {
       std::array<BendingSum, 4> sums;
       for (std::size_t t = 0; t < next_; ++t) {
         sums[0].add(one[t]), sums[1].add(other[t]);
-        sums[2].add((one[t] + other[t]) / std::numbers::sqrt2), sums[3].add((one[t] - other[t]) / std::numbers::sqrt2);
+        sums[2].add((one[t] + other[t]) / std::numbers::sqrt2),
+            sums[3].add((one[t] - other[t]) / std::numbers::sqrt2);
       }
       bending_sums_.push_back(std::ranges::max(sums, {}, &BendingSum::sum).sum());
     }
@@ -513,7 +514,8 @@ std::vector<int> CablePaths::bent_most(std::size_t segment) const {
   for (std::size_t k = 0; k < loose; ++k) {
     double most = 0;
     for (std::size_t of = 0; of < bending_sums_.size(); ++of)
-      if (component(loosened_[of % loose]) == component(loosened_[k])) most = std::max(most, bending_sums_[of]);
+      if (component(loosened_[of % loose]) == component(loosened_[k]))
+        most = std::max(most, bending_sums_[of]);
     if (bending_sums_[segment * loose + k] >= near_most * most) parts.push_back(cables_[loosened_[k]].part);
   }
   return parts;

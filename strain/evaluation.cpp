@@ -683,13 +683,14 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
       [&](std::size_t k) { sink.fibre(found[k % found.size()]); });
 }
 
-std::vector<Evaluation::Worst> Evaluation::worst_of_bent(std::size_t segment, const DeformationHistory& history,
-                                                         std::size_t row) {
+std::vector<Evaluation::Worst> Evaluation::worst_of_bent(std::size_t segment,
+                                                         const DeformationHistory& history, std::size_t row) {
   std::vector<Worst> worst(construction_.layers().size());
   const std::vector<int> cables = cables_.bent_most(segment);
   if (cables.empty()) return worst;
   end_first_pass();
-  const SegmentMotion& motion = keeper_.of(cables_, segment, history.columns(row), 0, history.samples(), true);
+  const SegmentMotion& motion =
+      keeper_.of(cables_, segment, history.columns(row), 0, history.samples(), true);
   Worker& worker = workers_[0];
   worker.held[0]->begin(places_[segment], motion);
   worker.parent_is = {};
@@ -703,7 +704,8 @@ std::vector<Evaluation::Worst> Evaluation::worst_of_bent(std::size_t segment, co
   return worst;
 }
 
-const std::vector<Evaluation::Site>& Evaluation::likely_of_bent(std::size_t segment, const DeformationHistory& history,
+const std::vector<Evaluation::Site>& Evaluation::likely_of_bent(std::size_t segment,
+                                                                const DeformationHistory& history,
                                                                 std::size_t row) {
   find_likely(of_wires(worst_of_bent(segment, history, row)));
   return likely_;
@@ -711,7 +713,8 @@ const std::vector<Evaluation::Site>& Evaluation::likely_of_bent(std::size_t segm
 
 float Evaluation::damage_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row) {
   float most = 0;
-  for (const Worst& layer : worst_of_bent(segment, history, row)) most = std::max(most, layer.value[Worst::cycles]);
+  for (const Worst& layer : worst_of_bent(segment, history, row))
+    most = std::max(most, layer.value[Worst::cycles]);
   return most;
 }
 

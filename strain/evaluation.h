@@ -151,7 +151,8 @@ class Evaluation {
   const std::vector<Site>& likely_worst() const { return likely_; }
   /// The same of a place of rest that is not the job's own: only cables that bend most are scanned. Precondition:
   /// find_bent(). Segments as in varied().
-  const std::vector<Site>& likely_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row);
+  const std::vector<Site>& likely_of_bent(std::size_t segment, const DeformationHistory& history,
+                                          std::size_t row);
   /// The largest sum over turning points of (range times tensile peak)^3 of these wires: for comparing rests of one job.
   float damage_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row);
   /// The wires' site rows and turning points, in the order of `sites`, with friction times each of `factors`,

@@ -47,7 +47,8 @@ std::vector<Evaluation*> Starts::placed(std::size_t span) const {
 void Starts::merge() {
   const auto same = [&](const Spans& one, const Spans& other) {
     for (std::size_t span = 0; span < one.size(); ++span)
-      if (one[span]->any_loose() && !(one[span]->cables().apart(other[span]->cables()) < same_rest)) return false;
+      if (one[span]->any_loose() && !(one[span]->cables().apart(other[span]->cables()) < same_rest))
+        return false;
     return true;
   };
   for (std::size_t rest = 1; rest < rests(); ++rest)
@@ -67,7 +68,8 @@ void Starts::choose(double z, const std::vector<double>& damage) {
   if (starts.empty()) return;
   std::ranges::stable_sort(starts, std::ranges::greater(), [&](std::size_t rest) { return damage[rest]; });
   // Of an even number of starts the more damaged one of the middle two.
-  const auto at = static_cast<std::size_t>(std::ceil(pipeline::normal_share(z) * static_cast<double>(starts.size())));
+  const auto at =
+      static_cast<std::size_t>(std::ceil(pipeline::normal_share(z) * static_cast<double>(starts.size())));
   const std::size_t chosen = starts[std::clamp<std::size_t>(at, 1, starts.size()) - 1];
   if (chosen == 0) return;
   std::ranges::swap_ranges(own_, *others_[chosen - 1]);

@@ -85,8 +85,11 @@ class MotionReader {
   }
 
   /// One block after the other, of all samples or of those in [from, end). with_pull: gives that, too.
-  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put) { run(with_pull, put, 0, samples_); }
-  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put, std::size_t from, std::size_t end) {
+  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put) {
+    run(with_pull, put, 0, samples_);
+  }
+  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put, std::size_t from,
+           std::size_t end) {
     const std::size_t segments = lengths_.size();
     const std::size_t clamps = file_.row_size("/clamp/position") / 3;
     std::vector<double> position, orientation, clamp_position, clamp_orientation;
@@ -528,8 +531,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   check_probes(job);
   // Half of the room: the hose's deformation wants the other.
-  const Scratch scratch{history_bytes / 2 / (reader.spans().size() * (1 + other_starts_at_most(job) + placements_at_most(job))),
-                        strain.final_name()};
+  const Scratch scratch{
+      history_bytes / 2 / (reader.spans().size() * (1 + other_starts_at_most(job) + placements_at_most(job))),
+      strain.final_name()};
   Evaluations all(job, reader, threads, job.strain.factors, scratch);
   const auto& evaluations = all.of_span;
   std::list<Evaluations> otherwise_laid;
@@ -612,7 +616,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   // Samples before the first one, from `left` to `until` of them before it: of the motion's end, or of whole repeats.
   const auto rehearse = [&](std::size_t left, std::size_t until) {
     while (left > until) {
-      const std::size_t first = (samples - left % samples) % samples, count = std::min(left - until, samples - first);
+      const std::size_t first = (samples - left % samples) % samples,
+                        count = std::min(left - until, samples - first);
       const auto move = [&](const MotionBlock& block) {
         each_span(block, Evaluation::rehearse);
         starts.merge();
@@ -621,7 +626,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
       left -= count;
     }
   };
-  const auto samples_of = [&](double seconds) { return static_cast<std::size_t>(std::ceil(seconds / reader.step())); };
+  const auto samples_of = [&](double seconds) {
+    return static_cast<std::size_t>(std::ceil(seconds / reader.step()));
+  };
   if (loose && samples > 1) rehearse(samples_of(rehearsed), samples_of(rehearsed_varied));
   variations.go_on();
   varied = true;
@@ -654,10 +661,12 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
       for (const auto& evaluation : starts.spans(rest)) evaluation->find_bent();
     each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
       for (std::size_t rest = 0; rest < starts.rests(); ++rest)
-        damage[rest] = std::max<double>(damage[rest], starts.spans(rest)[span]->damage_of_bent(segment, history, row));
+        damage[rest] =
+            std::max<double>(damage[rest], starts.spans(rest)[span]->damage_of_bent(segment, history, row));
     });
     starts.choose(job.strain.rest, damage);
-    if (per_pass < segments) reader.run(false, [&](const MotionBlock& block) { keep(0, block.first, block.at_wires); });
+    if (per_pass < segments)
+      reader.run(false, [&](const MotionBlock& block) { keep(0, block.first, block.at_wires); });
   }
   variations.add(starts);
   const std::vector<Warning> warnings =

@@ -37,7 +37,7 @@ class Variations {
   bool empty() const { return points_.empty(); }
   const std::vector<Point>& points() const { return points_; }  ///< (variation)
   const std::vector<pipeline::Inside>& inside() const { return inside_; }  ///< (variation)
-  const std::vector<std::int32_t>& rests() const { return rests_; }  ///< (variation) rest of the starts
+  const std::vector<std::int32_t>& rests() const { return rests_; }        ///< (variation) rest of the starts
   /// Evaluations of a span that want the motion like the job's own.
   std::vector<Evaluation*> placed(std::size_t span) const;
 

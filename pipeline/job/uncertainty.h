@@ -23,7 +23,19 @@ namespace dresslife::pipeline {
 class Fields;
 
 /// In the order of uncertain_parameters().
-enum class Uncertain { friction_inside, friction_hose, slack, play, grip, rest, strength, slope, scatter, model, motion };
+enum class Uncertain {
+  friction_inside,
+  friction_hose,
+  slack,
+  play,
+  grip,
+  rest,
+  strength,
+  slope,
+  scatter,
+  model,
+  motion
+};
 constexpr std::size_t uncertain_count = 11;
 
 /// What has the same value of it.

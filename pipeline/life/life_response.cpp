@@ -249,7 +249,8 @@ void check(const LifeResponse& response) {
 
 /// A list of the uncertain parameters, or of the first of them, as it was before there was `rest`: with a 0 for that.
 std::vector<double> with_rest(std::vector<double> numbers, std::size_t whole) {
-  if (numbers.size() + 1 == whole) numbers.insert(numbers.begin() + static_cast<std::ptrdiff_t>(of_rest), 0.0);
+  if (numbers.size() + 1 == whole)
+    numbers.insert(numbers.begin() + static_cast<std::ptrdiff_t>(of_rest), 0.0);
   return numbers;
 }
 
@@ -279,7 +280,8 @@ void read_numbers(LifeResponse& response, const std::string& name, const std::ve
   };
   if (name == "mean") {
     const std::vector<double> mean = with_rest(numbers, uncertain_count);
-    response.knowledge.mean = Eigen::Map<const Eigen::VectorXd>(mean.data(), static_cast<Eigen::Index>(mean.size()));
+    response.knowledge.mean =
+        Eigen::Map<const Eigen::VectorXd>(mean.data(), static_cast<Eigen::Index>(mean.size()));
   } else if (name == "covariance") {
     const std::vector<double> row = with_rest(numbers, uncertain_count);
     if (numbers.size() < row.size() && covariance.size() == of_rest * uncertain_count)

@@ -128,7 +128,8 @@ void LooseCables::advance(std::span<LooseCables* const> all, std::span<const Hos
 /// all of it.
 void LooseCables::settle(double step) {
   double before = without_limit;
-  for (int round = wound_ ? feeding_rounds : 0; round < feeding_rounds + (wound_ ? 1 : most_rounds); ++round) {
+  for (int round = wound_ ? feeding_rounds : 0; round < feeding_rounds + (wound_ ? 1 : most_rounds);
+       ++round) {
     const double share = std::min(1.0, static_cast<double>(round) / feeding_rounds);
     feed_in(share);
     LooseCables* const alone = this;

@@ -49,7 +49,8 @@ void substitute(const std::vector<double>& bands, std::size_t rows, Eigen::Vecto
 
 }  // namespace
 
-std::vector<double> random_winding(std::size_t nodes, double length, double radius, double slack, std::uint64_t seed) {
+std::vector<double> random_winding(std::size_t nodes, double length, double radius, double slack,
+                                   std::uint64_t seed) {
   constexpr int waves = 4;  // half waves along the hose: shorter ones relax within a second
   pipeline::RandomNumbers random(seed);
   std::vector<double> turn(nodes, 0.0);

@@ -17,7 +17,8 @@ namespace dresslife::strain {
 
 /// A random smooth winding of a ring, 0 with its slope at both clamps (node) [rad]. radius: of the ring. It takes as much
 /// length as a slack (a share of the length) in a straight hose.
-std::vector<double> random_winding(std::size_t nodes, double length, double radius, double slack, std::uint64_t seed);
+std::vector<double> random_winding(std::size_t nodes, double length, double radius, double slack,
+                                   std::uint64_t seed);
 
 class Ring {
  public:

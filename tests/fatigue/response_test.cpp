@@ -30,7 +30,8 @@ struct Rests {
     response.knowledge = pipeline::prior_of({});
     response.planned = {{5.9, 6, 6.1}};
     response.worst_life = {6, of_one, of_two, of_two - 2, of_two + 1};
-    for (const VariedStrains& at : varied) response.points.push_back(at.z), response.inside.push_back(at.inside);
+    for (const VariedStrains& at : varied)
+      response.points.push_back(at.z), response.inside.push_back(at.inside);
     fatigue::put_rests(response, varied, starts);
   }
 };
@@ -65,7 +66,9 @@ TEST_CASE("rests: a variation that went on from another rest counts by what it c
 }
 
 TEST_CASE("rests: they have a share in the causes when starts differ, and none when they agree") {
-  const auto share_of = [](const LifeResponse& response) { return pipeline::summary_of({response}, "job", 2000).share[rest]; };
+  const auto share_of = [](const LifeResponse& response) {
+    return pipeline::summary_of({response}, "job", 2000).share[rest];
+  };
   CHECK(share_of(Rests(5, 8).response) > 0.3);
   Rests agreeing(6, 6);
   CHECK(share_of(agreeing.response) < 1e-9);

@@ -90,7 +90,8 @@ TEST_CASE("beyond the rests of all starts a life is that of the last one") {
     response.inside.push_back(Inside::as_is);
     response.worst_life.insert(response.worst_life.end(), 3, life);
   }
-  for (const auto& [z, change] : {std::pair(-3.0, -1.0), {-0.7, -1.0}, {-0.35, -0.5}, {0.0, 0.0}, {0.9, 1.0}, {3.0, 1.0}})
+  for (const auto& [z, change] :
+       {std::pair(-3.0, -1.0), {-0.7, -1.0}, {-0.35, -0.5}, {0.0, 0.0}, {0.9, 1.0}, {3.0, 1.0}})
     CHECK(response.change(at(rest, z)) == Approx(change).margin(rounding));
 }
 
@@ -112,7 +113,8 @@ TEST_CASE("a text from before there were rests is read: the same lives") {
   REQUIRE(older.find("point 0 0 -1.5 0 0 \n") != std::string::npos);
   const LifeResponse read = LifeResponse::from_text(older);
   for (const std::size_t parameter : {friction, slack, strength, model})
-    CHECK(read.change(at(parameter, 0.8)) == Approx(response.change(at(parameter, 0.8))).margin(1e-5));  // six digits
+    CHECK(read.change(at(parameter, 0.8)) ==
+          Approx(response.change(at(parameter, 0.8))).margin(1e-5));  // six digits
   CHECK(read.knowledge.covariance(rest + 1, rest + 1) == 1);
   CHECK(read.knowledge.covariance(rest, rest) == 0);
 }

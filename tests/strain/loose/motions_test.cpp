@@ -286,12 +286,13 @@ TEST_CASE("a random winding takes the slack of its ring and is held at both clam
   constexpr double length = 2.035, radius = 0.01845, slack = 0.01, h = length / (nodes - 1);
   const std::vector<double> turn = random_winding(nodes, length, radius, slack, 5);
   double taken = 0;
-  for (std::size_t i = 1; i < nodes; ++i) taken += std::pow(radius * (turn[i] - turn[i - 1]) / h, 2) / 2 * h / length;
+  for (std::size_t i = 1; i < nodes; ++i)
+    taken += std::pow(radius * (turn[i] - turn[i - 1]) / h, 2) / 2 * h / length;
   CHECK(taken == Approx(slack));
   CHECK(turn.front() == 0);
   CHECK(turn.back() == 0);
   const double steepest = std::sqrt(2 * slack) / radius;  // on the mean
-  CHECK(std::abs(turn[1]) / h < 0.2 * steepest);  // first order in h: none at the clamp itself
+  CHECK(std::abs(turn[1]) / h < 0.2 * steepest);          // first order in h: none at the clamp itself
   CHECK(random_winding(nodes, length, radius, slack, 6) != turn);
   CHECK(random_winding(nodes, length, radius, 0, 5) == std::vector<double>(nodes, 0.0));
 }
@@ -304,7 +305,8 @@ TEST_CASE("a start that is turned or mirrored comes to a rest that is turned or 
   for (LooseCable& cable : turned_cables)
     cable.place = {std::cos(by) * cable.place[0] - std::sin(by) * cable.place[1],
                    std::sin(by) * cable.place[0] + std::cos(by) * cable.place[1]};
-  LooseCables one(cables, {2.035, elements}), turned(turned_cables, {2.035, elements}), mirrored(cables, {2.035, elements});
+  LooseCables one(cables, {2.035, elements}), turned(turned_cables, {2.035, elements}),
+      mirrored(cables, {2.035, elements});
   std::vector<double> winding = random_winding(elements + 1, 2.035, 0.01845, 0.01, 1);
   one.wind(winding), turned.wind(winding);
   for (double& at : winding) at = -at;
@@ -327,7 +329,8 @@ TEST_CASE("a start that is turned or mirrored comes to a rest that is turned or 
       apart_mirrored = std::max(apart_mirrored, std::hypot(x - mirrored_x, -y - mirrored_y));
     }
   CHECK(moved > 0.01);
-  constexpr double at_rest = 2e-6;  // [m]: ten times what a ring and a cable at rest leave, 1e-5 rad and 1e-7 m
+  constexpr double at_rest =
+      2e-6;  // [m]: ten times what a ring and a cable at rest leave, 1e-5 rad and 1e-7 m
   CHECK(apart_turned < at_rest);
   CHECK(apart_mirrored < at_rest);
 }
@@ -350,7 +353,8 @@ TEST_CASE("cables that go on from others lie where those lie, and with more slac
     slacker.feed_in(std::min(1.0, 0.01 / 0.012 + (t - 59) * 0.01));
     for (LooseCables* const loose : {&one, &slacker}) loose->advance(nodes_at(t), step);
   }
-  for (std::size_t k = 0; k < 10; ++k) CHECK(std::abs(slacker.state(k).strain) < 1e-4);  // nothing pulls or presses
+  for (std::size_t k = 0; k < 10; ++k)
+    CHECK(std::abs(slacker.state(k).strain) < 1e-4);  // nothing pulls or presses
   CHECK(one.apart(slacker) > 0.01);
 }
 
@@ -371,7 +375,8 @@ TEST_CASE("starts come to the same rests, as often, on two meshes") {
         for (std::size_t k = 0; t >= 4 * cycle && k < 10; ++k)
           for (std::size_t i = 0; i < loose.state(k).curvature.size(); ++i) {
             auto& [low, high] = ends[k * 2 * (elements + 1) + i];
-            low = std::min(low, loose.state(k).curvature[i]), high = std::max(high, loose.state(k).curvature[i]);
+            low = std::min(low, loose.state(k).curvature[i]),
+            high = std::max(high, loose.state(k).curvature[i]);
           }
       }
       double range = 0;
@@ -382,9 +387,11 @@ TEST_CASE("starts come to the same rests, as often, on two meshes") {
   std::array<double, 2> mean{}, square{};
   for (std::size_t mesh = 0; mesh < 2; ++mesh) {
     for (const double of : decades[mesh]) mean[mesh] += of / starts;
-    for (const double of : decades[mesh]) square[mesh] += std::pow(of - mean[mesh], 2) / (starts - 1) / starts;
+    for (const double of : decades[mesh])
+      square[mesh] += std::pow(of - mean[mesh], 2) / (starts - 1) / starts;
   }
-  INFO(mean[0] << " and " << mean[1] << ", errors " << std::sqrt(square[0]) << " and " << std::sqrt(square[1]));
+  INFO(mean[0] << " and " << mean[1] << ", errors " << std::sqrt(square[0]) << " and "
+               << std::sqrt(square[1]));
   // Two sampling errors of the difference, beside 2 % of curvature that a coarse mesh misses.
   CHECK(std::abs(mean[0] - mean[1]) < 2 * std::sqrt(square[0] + square[1]) + 8 * std::log10(1.02));
   CHECK(square[0] > 0);
