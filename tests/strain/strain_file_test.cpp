@@ -493,6 +493,7 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
       }
       CHECK(compared >= segments);
       nearest = std::min(nearest, worst);
+      if (nearest < third_harmonic) break;
     }
     CHECK(nearest < third_harmonic);
   }
