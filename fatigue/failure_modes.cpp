@@ -55,7 +55,8 @@ class Modes {
       response.material = pipeline::material_of(in_.job, in_.sites.material()[worst_of(mode)]).name;
     std::vector<bool> counts(in_.sites.size());
     for (std::size_t site = 0; site < counts.size(); ++site) counts[site] = mode_of(site) == mode;
-    fill_response(response, own, only(in_.varied, counts), in_.sites, in_.component, in_.job, in_.threads);
+    fill_response(response, own, only(in_.varied, counts), in_.starts, in_.sites, in_.component, in_.job,
+                  in_.threads);
     response.bound[static_cast<std::size_t>(pipeline::Inside::glued)] = log10_or_endless(in_.glued[mode]);
     response.bound[static_cast<std::size_t>(pipeline::Inside::free)] = log10_or_endless(in_.free[mode]);
     add_planned(mode, response);
@@ -79,7 +80,8 @@ class Modes {
     if (in_.job.calibration)  // z counts from the job as it stands, in whose keys are the calibration's medians
       for (const pipeline::LearnedParameter& learned : in_.job.calibration->parameters)
         for (std::size_t p = 0; p < pipeline::uncertain_count; ++p)
-          if (pipeline::uncertain_parameters()[p].name == learned.name)
+          if (pipeline::uncertain_parameters()[p].name == learned.name &&
+              p != index_of(pipeline::Uncertain::rest))  // counted in fill_response()
             known.mean(static_cast<Eigen::Index>(p)) -= learned.median;
     if (!in_.job.uncertainty.enabled) known.mean.setZero(), known.covariance.setZero();
     return known;

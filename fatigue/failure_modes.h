@@ -47,6 +47,7 @@ struct ModeInputs {
   const std::vector<PlacesOfConductor>& places;
   std::size_t segments, threads;
   std::function<std::vector<float>(std::size_t site)> strains_of;
+  std::vector<std::size_t> starts;    ///< (rest) of loose cables, see read_rests()
   std::vector<VariedStrains> varied;  ///< empty: nothing is uncertain but the scatter of wires
   /// (mode) lives of the worst wire [repeats] if everything inside the cables is glued, and if it slips freely.
   std::vector<double> glued, free;

@@ -708,8 +708,10 @@ pipeline::FirstFailures first_failures_of(const Context& c, const ModeList& mode
                                           const std::vector<PlacesOfConductor>& places,
                                           const LifeScatter& scatter, const std::vector<double>& glued,
                                           const std::vector<double>& free) {
+  std::vector<std::size_t> starts;
   std::vector<VariedStrains> varied;
-  if (c.job.uncertainty.enabled) varied = read_variations(c.strain, c.sites.size());
+  if (c.job.uncertainty.enabled)
+    varied = read_variations(c.strain, c.sites.size()), starts = read_rests(c.strain);
   const ModeInputs inputs{c.job,
                           c.sites,
                           c.component,
@@ -719,6 +721,7 @@ pipeline::FirstFailures first_failures_of(const Context& c, const ModeList& mode
                           c.segment_length.size(),
                           c.threads,
                           [&](std::size_t site) { return c.strains_of(site); },
+                          std::move(starts),
                           std::move(varied),
                           glued,
                           free,

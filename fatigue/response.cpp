@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/statistics.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
 
@@ -60,6 +61,14 @@ double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires
   return log10_life(worst);
 }
 
+constexpr std::size_t of_rest = index_of(pipeline::Uncertain::rest);
+
+/// Whether a variation is another rest of the starts and nothing else.
+bool is_rest(const VariedStrains& at) {
+  return at.rest > 0 && at.inside == pipeline::Inside::as_is &&
+         std::all_of(at.z.begin(), at.z.end(), [](double z) { return z == 0; });
+}
+
 }  // namespace
 
 std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, std::size_t sites) {
@@ -69,10 +78,10 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
   const auto site = strain.read<std::uint32_t>("/variation/row/site");
   const auto turning = strain.read<std::uint32_t>("/variation/row/turning");
   const auto strains = strain.read<float>("/variation/strain");
-  std::vector<VariedStrains> all(z.size() / pipeline::strain_parameters);
+  constexpr std::size_t in_row = pipeline::index_of(pipeline::Uncertain::rest);  // rest has a list of its own
+  std::vector<VariedStrains> all(z.size() / in_row);
   for (std::size_t v = 0; v < all.size(); ++v)
-    std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(v * pipeline::strain_parameters),
-                pipeline::strain_parameters, all[v].z.begin());
+    std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(v * in_row), in_row, all[v].z.begin());
   if (strain.has("/variation/inside")) {
     const auto inside = strain.read<std::int32_t>("/variation/inside");
     for (std::size_t v = 0; v < all.size(); ++v) {
@@ -80,6 +89,17 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
         throw pipeline::InputError(strain.where(), fmt::format("/variation/inside is {} (must be 0, 1 or 2)", inside[v]),
                                    "make the file again with dresslife-strain");
       all[v].inside = static_cast<pipeline::Inside>(inside[v]);
+    }
+  }
+  if (strain.has("/variation/rest")) {
+    const auto rest = strain.read<std::int32_t>("/variation/rest");
+    const auto rests = static_cast<std::int32_t>(read_rests(strain).size());
+    for (std::size_t v = 0; v < all.size(); ++v) {
+      if (rest[v] < 0 || rest[v] >= std::max(1, rests))
+        throw pipeline::InputError(strain.where(),
+                                   fmt::format("/variation/rest is {}, which no start came to", rest[v]),
+                                   "make the file again with dresslife-strain");
+      all[v].rest = static_cast<std::size_t>(rest[v]);
     }
   }
   std::size_t next = 0;
@@ -96,20 +116,75 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
   return all;
 }
 
+std::vector<std::size_t> read_rests(const pipeline::FileReader& strain) {
+  std::vector<std::size_t> starts;
+  if (!strain.has("/start/rest")) return starts;
+  for (const std::int32_t rest : strain.read<std::int32_t>("/start/rest")) {
+    if (rest < 0 || static_cast<std::size_t>(rest) >= strain.rows("/start/rest"))
+      throw pipeline::InputError(
+          strain.where(),
+          fmt::format("/start/rest is {} (there are {} starts)", rest, strain.rows("/start/rest")),
+          "make the file again with dresslife-strain");
+    starts.resize(std::max(starts.size(), static_cast<std::size_t>(rest) + 1));
+    ++starts[static_cast<std::size_t>(rest)];
+  }
+  return starts;
+}
+
 std::vector<VariedStrains> only(const std::vector<VariedStrains>& varied, const std::vector<bool>& counts) {
   std::vector<VariedStrains> some;
   for (const VariedStrains& all : varied) {
     VariedStrains& kept = some.emplace_back();
-    kept.z = all.z, kept.inside = all.inside;
+    kept.z = all.z, kept.inside = all.inside, kept.rest = all.rest;
     for (std::size_t k = 0; k < all.site.size(); ++k)
       if (counts[all.site[k]]) kept.site.push_back(all.site[k]), kept.strains.push_back(all.strains[k]);
   }
   return some;
 }
 
+void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> varied,
+               const std::vector<std::size_t>& starts) {
+  const auto zero_of = [](const std::vector<double>& z) {
+    return static_cast<std::size_t>(std::ranges::find(z, 0.0) - z.begin());
+  };
+  const std::size_t nodes = response.strength.size() * response.slope.size(),
+                    middle = zero_of(response.strength) * response.slope.size() + zero_of(response.slope);
+  std::vector<std::size_t> point(starts.size(), 0), order;  // (rest)
+  for (std::size_t v = 0; v < varied.size(); ++v)
+    if (is_rest(varied[v])) point[varied[v].rest] = v + 1;
+  const auto life = [&](std::size_t at, std::size_t node) -> double& {
+    return response.worst_life[at * nodes + node];
+  };
+  for (std::size_t rest = 0; rest < starts.size(); ++rest)
+    if (rest == 0 || point[rest] > 0) order.push_back(rest);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return life(point[a], middle) < life(point[b], middle);
+  });
+  double all = 0, before = 0;
+  for (const std::size_t rest : order) all += static_cast<double>(starts[rest]);
+  std::vector<double> score(starts.size());
+  for (const std::size_t rest : order) {
+    const auto count = static_cast<double>(starts[rest]);
+    score[rest] = pipeline::normal_quantile((before + count / 2) / all);
+    before += count;
+  }
+  for (const std::size_t rest : order) response.points[point[rest]][of_rest] = score[rest] - score[0];
+  response.knowledge.mean(static_cast<Eigen::Index>(of_rest)) -= score[0];
+  for (std::size_t v = 0; v < varied.size(); ++v) {
+    if (varied[v].rest == 0 || is_rest(varied[v])) continue;
+    for (std::size_t node = 0; node < nodes; ++node) {
+      constexpr double endless = pipeline::LifeResponse::endless;
+      double& of = life(v + 1, node);
+      const double there = life(point[varied[v].rest], node), here = life(0, node);
+      if (of < endless) of = std::min(endless, of - there + here);
+    }
+  }
+}
+
 void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
-                   std::span<const VariedStrains> varied, const SiteSet& sites, const TextColumn& component,
-                   const pipeline::Job& job, std::size_t threads) {
+                   std::span<const VariedStrains> varied, const std::vector<std::size_t>& starts,
+                   const SiteSet& sites, const TextColumn& component, const pipeline::Job& job,
+                   std::size_t threads) {
   response.strength = strength_nodes, response.slope = slope_nodes;
   std::vector<const VariedStrains*> points{&own};
   response.points = {{}}, response.inside = {pipeline::Inside::as_is};
@@ -143,6 +218,7 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
         response.worst_life[k * nodes + node] = worst_life(*points[k], likely[k], counters, workspace);
     }
   });
+  if (starts.size() > 1) put_rests(response, varied, starts);
 }
 
 }  // namespace dresslife::fatigue

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "pipeline/cable/shares.h"
@@ -28,6 +29,10 @@ constexpr int most_attempts = 20;
 // Samples of a rehearsal that are one step: a quarter of the cost. Lives of hard and easy differ by 0.6 and 0.8 % from those
 // after a rehearsal of all samples, where both come to the same cycle.
 constexpr std::size_t rehearsed_at_once = 4;
+// In which cables that go on with another slack get it [s]: all at once it would lie in short waves.
+constexpr double feeding = 15;
+// Of the largest sum of eighth powers of curvature: a cable that bends half as much is far from being the worst.
+constexpr double near_most = 1e-2;
 
 /// Place of a part in the cross-section at an arc along the dresspack.
 std::array<double, 2> place_of(const Construction& construction, int part, double arc) {
@@ -148,6 +153,24 @@ void CablePaths::share_loose(const CablePaths& other) {
   curvature_ = other.curvature_;
 }
 
+void CablePaths::go_on_from(const CablePaths& other) {
+  if (!loose_ || loose_ == other.loose_) return;
+  loose_->go_on_from(*other.loose_);
+  first_share_ = 1;
+  for (std::size_t k = 0; k < loose_->cables(); ++k)
+    if (loose_->cable(k).slack > 0) first_share_ = other.loose_->cable(k).slack / loose_->cable(k).slack;
+  fed_ = 0;
+}
+
+/// The slack that a rehearsal feeds in within a step [s].
+void CablePaths::feed_slack(double step) {
+  if (first_share_ == 1) return;
+  fed_ += step;
+  const double fed = std::min(1.0, fed_ / feeding);
+  loose_->feed_in(first_share_ + fed * (1 - first_share_));
+  if (fed == 1) first_share_ = 1;
+}
+
 void CablePaths::add(const SpanBlock& block) {
   CablePaths* const alone = this;
   add({&alone, 1}, block);
@@ -260,7 +283,10 @@ void CablePaths::rehearse(std::span<CablePaths* const> all, const SpanBlock& blo
   for (std::size_t first = 0; first < samples; first += rehearsed_at_once) {
     const std::size_t count = std::min(rehearsed_at_once, samples - first), t = first + count - 1;
     own.front()->find_nodes(block, t);
-    for (CablePaths* const of : own) of->shorten_loose(t);
+    for (CablePaths* const of : own) {
+      of->shorten_loose(t);
+      of->feed_slack(static_cast<double>(count) * block.step);
+    }
     LooseCables::advance(cables, own.front()->nodes_, static_cast<double>(count) * block.step);
   }
   for (LooseCables* const of : cables) of->forget_restless();
@@ -437,6 +463,64 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
   }
 }
 
+namespace {
+
+/// Sum of (range between turning points)^8.
+class BendingSum {
+ public:
+  void add(double curvature) {
+    if ((curvature - last_) * direction_ < 0) {
+      const double range = last_ - turned_at_, square = range * range;
+      sum_ += square * square * square * square;
+      turned_at_ = last_;
+    }
+    if (curvature != last_) direction_ = curvature - last_;
+    last_ = curvature;
+  }
+  double sum() const { return sum_; }
+
+ private:
+  double last_ = 0, turned_at_ = 0, direction_ = 0, sum_ = 0;
+};
+
+}  // namespace
+
+/// Of curvature_, where the wires of a segment are evaluated.
+std::size_t CablePaths::wires_at(std::size_t segment) const {
+  const std::size_t last = lengths_.size() - 1;
+  return known_ends_[0] && segment == 0 ? last + 1 : known_ends_[1] && segment == last ? last + 2 : segment;
+}
+
+void CablePaths::find_bent() {
+  bending_sums_.clear();
+  std::vector<double> one(next_), other(next_);
+  for (std::size_t segment = 0; segment < lengths_.size(); ++segment)
+    for (std::size_t k = 0; k < loosened_.size(); ++k) {
+      curvature_->read(wires_at(segment), 2 * k, 0, next_, one.data());
+      curvature_->read(wires_at(segment), 2 * k + 1, 0, next_, other.data());
+      std::array<BendingSum, 4> sums;
+      for (std::size_t t = 0; t < next_; ++t) {
+        sums[0].add(one[t]), sums[1].add(other[t]);
+        sums[2].add((one[t] + other[t]) / std::numbers::sqrt2),
+            sums[3].add((one[t] - other[t]) / std::numbers::sqrt2);
+      }
+      bending_sums_.push_back(std::ranges::max(sums, {}, &BendingSum::sum).sum());
+    }
+}
+
+std::vector<int> CablePaths::bent_most(std::size_t segment) const {
+  std::vector<int> parts;
+  const std::size_t loose = loosened_.size();
+  for (std::size_t k = 0; k < loose; ++k) {
+    double most = 0;
+    for (std::size_t of = 0; of < bending_sums_.size(); ++of)
+      if (component(loosened_[of % loose]) == component(loosened_[k]))
+        most = std::max(most, bending_sums_[of]);
+    if (bending_sums_[segment * loose + k] >= near_most * most) parts.push_back(cables_[loosened_[k]].part);
+  }
+  return parts;
+}
+
 bool CablePaths::remembers() const {
   return std::any_of(cables_.begin(), cables_.end(), [](const Cable& cable) { return cable.remembers; });
 }
@@ -539,10 +623,7 @@ void CablePaths::ask_for_forces() {
 const SegmentMotion& CablePaths::Keeper::of(const CablePaths& paths, std::size_t segment,
                                             const DeformationColumns& hose, std::size_t first,
                                             std::size_t count, bool at_wires) {
-  const std::size_t last = paths.lengths_.size() - 1;
-  const std::size_t bends_at = at_wires && paths.known_ends_[0] && segment == 0      ? last + 1
-                               : at_wires && paths.known_ends_[1] && segment == last ? last + 2
-                                                                                     : segment;
+  const std::size_t bends_at = at_wires ? paths.wires_at(segment) : segment;
   motion_.samples = count;
   motion_.hose = hose;
   if (!paths.any()) return motion_;

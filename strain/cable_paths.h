@@ -66,6 +66,22 @@ class CablePaths {
   void share_loose(const CablePaths& other);
   bool shares_loose(const CablePaths& other) const { return loose_ && loose_ == other.loose_; }
 
+  /// Whether there is a ring of loose cables: where it comes to rest depends on its start.
+  bool any_ring() const { return loose_ && loose_->any_ring(); }
+  /// Before the first sample: rings begin wound at random.
+  void wind(std::uint64_t seed) { loose_->wind(seed); }
+  /// Between samples of a rehearsal, before the first one of its own: loose cables go on from where those of the same span
+  /// of the same dresspack with other factors are. Their own slack is fed in over the first `feeding` seconds.
+  void go_on_from(const CablePaths& other);
+  /// By how much loose cables lie apart from the same ones that began otherwise (LooseCables::apart()).
+  double apart(const CablePaths& other) const { return loose_->apart(*other.loose_); }
+  /// Where loose cables bend most: the sum over turning points of (change of curvature)^8, the largest of four directions,
+  /// for each segment and cable. Precondition: all samples were added.
+  void find_bent();
+  /// Parts of the loose cables whose sums in a segment are not far below the largest of their component. Precondition:
+  /// find_bent().
+  std::vector<int> bent_most(std::size_t segment) const;
+
   void add(const SpanBlock& block);  ///< in order of time
   /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone. All that
   /// share loose cables are among them.
@@ -144,9 +160,11 @@ class CablePaths {
   static void add_loose(std::span<CablePaths* const> all, const SpanBlock& block);
   void find_nodes(const SpanBlock& block, std::size_t sample);
   void shorten_loose(std::size_t of_block);
+  void feed_slack(double step);
   void see_gain(Cable& cable, std::size_t sample, double gain, double relief);
   void see_gains(const std::vector<HoseNode>& nodes, std::size_t of_block);
   void see_held_gains();
+  std::size_t wires_at(std::size_t segment) const;
   void put_loose(std::size_t of_block);
   void put_loose(std::size_t cable, std::size_t state, std::size_t sample);
   void put_curvature(std::size_t of_block);
@@ -171,11 +189,13 @@ class CablePaths {
   KnownEnds known_ends_;
   /// (segment, base end, tool end; loose cable x 2; sample) of their paths [1/m], shared with them
   std::shared_ptr<SegmentRows> curvature_;
+  double first_share_ = 1, fed_ = 0;  ///< of its slack, see go_on_from(), and since then [s]
   std::vector<HoseNode> nodes_;
   std::vector<double> hose_twist_;     ///< (sample) mean along it [rad/m]
   std::vector<float> hose_curvature_;  ///< (clamp, 2, sample) at the base and the tool end [1/m]
   std::vector<double> hose_moment_, offsets_;
   std::vector<std::size_t> offset_samples_;
+  std::vector<double> bending_sums_;  ///< (segment, loose cable)
 };
 
 }  // namespace dresslife::strain

@@ -688,6 +688,41 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
       [&](std::size_t k) { sink.fibre(found[k % found.size()]); });
 }
 
+std::vector<Evaluation::Worst> Evaluation::worst_of_bent(std::size_t segment,
+                                                         const DeformationHistory& history, std::size_t row) {
+  std::vector<Worst> worst(construction_.layers().size());
+  const std::vector<int> cables = cables_.bent_most(segment);
+  if (cables.empty()) return worst;
+  end_first_pass();
+  const SegmentMotion& motion =
+      keeper_.of(cables_, segment, history.columns(row), 0, history.samples(), true);
+  Worker& worker = workers_[0];
+  worker.held[0]->begin(places_[segment], motion);
+  worker.parent_is = {};
+  BundleSites found;
+  for (std::size_t b = 0; b < construction_.bundles().size(); ++b) {
+    const std::vector<int> line = construction_.ancestry(construction_.bundles()[b].part);
+    if (std::ranges::find_first_of(line, cables) == line.end()) continue;
+    scan_bundle(b, segment, means_, motion, false, worker, found);
+    for (const Seen& seen : found.seen) worst[wires_[seen.site.wire].layer].consider(seen);
+  }
+  return worst;
+}
+
+const std::vector<Evaluation::Site>& Evaluation::likely_of_bent(std::size_t segment,
+                                                                const DeformationHistory& history,
+                                                                std::size_t row) {
+  find_likely(of_wires(worst_of_bent(segment, history, row)));
+  return likely_;
+}
+
+float Evaluation::damage_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row) {
+  float most = 0;
+  for (const Worst& layer : worst_of_bent(segment, history, row))
+    most = std::max(most, layer.value[Worst::cycles]);
+  return most;
+}
+
 void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment, const SegmentMotion& motion,
                             const Sink& sink) {
   std::vector<Probe> found(workers_.size());

@@ -129,6 +129,9 @@ class Evaluation {
   /// Before the first sample, see CablePaths.
   void share_loose(const Evaluation& other) { cables_.share_loose(other.cables_); }
   const CablePaths& cables() const { return cables_; }
+  void wind(std::uint64_t seed) { cables_.wind(seed); }
+  void find_bent() { cables_.find_bent(); }  ///< see CablePaths
+  void go_on_from(const Evaluation& other) { cables_.go_on_from(other.cables_); }
   void end_first_pass();
   /// Wave length over which what varies of the span's curvature changes, 2 pi rms/rms of its slope [m]; infinite: it
   /// does not. The layer that friction holds and whose strain evens out over most, with that length (LayerSlip::evening), and
@@ -149,6 +152,12 @@ class Evaluation {
   /// Those that a segment's damage may go by once something is known better. Precondition: it was evaluated
   /// last.
   const std::vector<Site>& likely_worst() const { return likely_; }
+  /// The same of a place of rest that is not the job's own: only cables that bend most are scanned. Precondition:
+  /// find_bent(). Segments as in varied().
+  const std::vector<Site>& likely_of_bent(std::size_t segment, const DeformationHistory& history,
+                                          std::size_t row);
+  /// The largest sum over turning points of (range times tensile peak)^3 of these wires: for comparing rests of one job.
+  float damage_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row);
   /// The wires' site rows and turning points, in the order of `sites`, with friction times each of `factors`,
   /// (factor). Segments as in evaluate(); of an evaluation with other slack, play or grips there is no need
   /// to evaluate anything before.
@@ -269,6 +278,7 @@ class Evaluation {
   /// Layers of which any wire was seen; the hose's wall is no wire.
   std::vector<const Worst*> of_wires(const std::vector<Worst>& worst) const;
   void find_likely(const std::vector<const Worst*>& wires);
+  std::vector<Worst> worst_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row);
   /// Of the largest range, which is the job's if none before was larger, and of the largest sums; then those
   /// that the job names.
   std::vector<Site> sites_to_probe(const std::vector<const Worst*>& wires, std::size_t segment);

@@ -13,6 +13,7 @@
 #include "strain/construction.h"
 #include "strain/history.h"
 #include "strain/slip.h"
+#include "strain/starts.h"
 #include "strain/strain_file.h"
 #include "strain/variations.h"
 
@@ -116,8 +117,10 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   if (need.megabytes() > static_cast<double>(pipeline::installed_memory_mb()))
     return need;  // too many to be listed
 
-  // Every other way in which cables lie is kept beside the job's own, each with four frictions and two bounds.
+  // Every other way in which cables lie is kept beside the job's own, each with four frictions and two bounds; other starts
+  // have one friction.
   const double laid = 1 + static_cast<double>(placements_at_most(job)),
+               begun = laid + static_cast<double>(other_starts_at_most(job)),
                frictions = job.uncertainty.enabled ? 6 : 1;
   double cable_rows = 0, bent_rows = 0, part_rows = 0, found = 0;
   for (const pipeline::MotionSpan& span : spans) {
@@ -130,8 +133,8 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
     const double in_span = static_cast<double>(span.segments);
     // Strain of each cable and the three that make its force, strain and pressing along one that rubs
     // (cable_paths.h); curvature along a loose one (segment_rows.h), and the rows of one segment.
-    cable_rows += laid * (4 * counts.cables + in_span * 1.5 * counts.rubbing + 2 * counts.loose);
-    bent_rows += laid * in_span * counts.loose;
+    cable_rows += begun * (4 * counts.cables + in_span * 1.5 * counts.rubbing + 2 * counts.loose);
+    bent_rows += begun * in_span * counts.loose;
     part_rows = std::max(part_rows, laid * frictions * counts.clamp_rows);
     // A thread's states of a part and of its parent, and what friction holds of every level.
     constexpr double states = 4, in_single = 3, turned = 1 + phases_per_pitch;

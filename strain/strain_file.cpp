@@ -20,6 +20,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/job/line_key.h"
 #include "strain/evaluation.h"
+#include "strain/starts.h"
 #include "strain/variations.h"
 
 namespace dresslife::strain {
@@ -36,9 +37,12 @@ constexpr double first_pass_share = 0.05;   // of the work, for the progress dis
 // to.
 constexpr double believable_mesh_error = 0.02;
 constexpr double loose_pass_share = 0.5;  // the same where cables lie loose
-// Of the end of the motion [s], before the repeat that counts: loose cables forget their first places (W36). After 60 s
-// hard, easy and robot 1 go through a cycle that closes.
+// Of the end of the motion [s], before the repeat that counts: loose cables forget their first places (W36). After 160 s
+// the last start of robot 1 comes to its rest.
 constexpr double rehearsed = 180;
+// Variations go on from the first start so long before the first sample [s]. From 170 s the same lives follow for robot 1 and
+// hard, from 30 s one of ten differs by 0.85 of a decade.
+constexpr double rehearsed_varied = 90;
 
 /// Some samples of all segments.
 struct MotionBlock {
@@ -81,15 +85,19 @@ class MotionReader {
     return last && !is_clamped(job.dresspacks[dresspack].routing.tool_end);
   }
 
-  /// One block after the other, from a sample on. with_pull: gives that, too.
-  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put, std::size_t from = 0) {
+  /// One block after the other, of all samples or of those in [from, end). with_pull: gives that, too.
+  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put) {
+    run(with_pull, put, 0, samples_);
+  }
+  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put, std::size_t from,
+           std::size_t end) {
     const std::size_t segments = lengths_.size();
     const std::size_t clamps = file_.row_size("/clamp/position") / 3;
     std::vector<double> position, orientation, clamp_position, clamp_orientation;
     std::vector<Deformation> deformation, at_wires;
     std::vector<double> pull;
-    for (std::size_t first = from; first < samples_; first += block_samples) {
-      const std::size_t count = std::min(block_samples, samples_ - first);
+    for (std::size_t first = from; first < end; first += block_samples) {
+      const std::size_t count = std::min(block_samples, end - first);
       file_.read_rows("/segment/position", first, count, position);
       file_.read_rows("/segment/orientation", first, count, orientation);
       file_.read_rows("/clamp/position", first, count, clamp_position);
@@ -232,6 +240,7 @@ class VariationWriter {
     std::vector<std::int32_t> inside;
     for (const pipeline::Inside one : variations.inside()) inside.push_back(static_cast<std::int32_t>(one));
     file.append("/variation/inside", inside);
+    file.append("/variation/rest", variations.rests());
   }
 
   void append(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows) {
@@ -528,15 +537,19 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   check_probes(job);
   // Half of the room: the hose's deformation wants the other.
-  const Scratch scratch{history_bytes / 2 / (reader.spans().size() * (1 + placements_at_most(job))),
-                        strain.final_name()};
-  const Evaluations all(job, reader, threads, job.strain.factors, scratch);
+  const Scratch scratch{
+      history_bytes / 2 / (reader.spans().size() * (1 + other_starts_at_most(job) + placements_at_most(job))),
+      strain.final_name()};
+  Evaluations all(job, reader, threads, job.strain.factors, scratch);
   const auto& evaluations = all.of_span;
   std::list<Evaluations> otherwise_laid;
-  const Variations variations(
+  Variations variations(
       job, evaluations, [&](const pipeline::StrainFactors& factors) -> const Variations::Spans& {
         return otherwise_laid.emplace_back(job, reader, threads, factors, scratch, &all).of_span;
       });
+  Starts starts(all.of_span, [&]() -> Starts::Spans& {
+    return otherwise_laid.emplace_back(job, reader, threads, job.strain.factors, scratch, &all).of_span;
+  });
   strain.set_axis("segment", segments);
   strain.set_axis("level", all.levels);
   strain.set_axis("sample", samples);
@@ -557,6 +570,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
           segment >= first_segment && segment < first_segment + per_pass)
         history.set(segment - first_segment, first + k / segments, block[k]);
   };
+  bool varied = false;  // whether variations go through the motion, too
   const auto each_span = [&](const MotionBlock& block, const auto& use) {
     const std::size_t count = block.deformation.size() / segments;
     std::vector<double> pull;
@@ -575,8 +589,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
         pull.insert(pull.end(), own.begin(), own.end());
       }
       const SpanBlock span_block{of_span, pull, reader.step(), ends};
-      std::vector<Evaluation*> together = variations.placed(k);
-      together.insert(together.begin(), evaluations[k].get());
+      std::vector<Evaluation*> together{evaluations[k].get()};
+      for (const auto& more : {starts.placed(k), varied ? variations.placed(k) : std::vector<Evaluation*>()})
+        together.insert(together.end(), more.begin(), more.end());
       std::vector<std::vector<Evaluation*>> of_thread(threads);  // those that share loose cables in one
       std::size_t next = 0;
       for (Evaluation* const evaluation : together) {
@@ -593,25 +608,50 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
       });
     }
   };
+  // use: of a span, its segment, and where `history` has that. `history` has the first segments before.
+  const auto each_segment = [&](const std::function<void(std::size_t, std::size_t, std::size_t)>& use) {
+    for (std::size_t k = 0, span = 0; k < segments; ++k) {
+      if (k == reader.spans()[span].first_segment + reader.spans()[span].segments) ++span;
+      if (k % per_pass == 0 && k > 0)
+        reader.run(false, [&](const MotionBlock& block) { keep(k, block.first, block.at_wires); });
+      use(span, k - reader.spans()[span].first_segment, k % per_pass);
+    }
+  };
   const auto any = [&](auto does) { return std::any_of(evaluations.begin(), evaluations.end(), does); };
   const bool loose = any([](const auto& evaluation) { return evaluation->any_loose(); });
-  const auto rehearsed_samples = static_cast<std::size_t>(std::ceil(rehearsed / reader.step()));
-  for (std::size_t left = loose && samples > 1 ? rehearsed_samples : 0; left > 0;) {
-    const std::size_t count = (left - 1) % samples + 1;  // of the end first, then whole repeats
-    reader.run(true, [&](const MotionBlock& block) { each_span(block, Evaluation::rehearse); }, samples - count);
-    left -= count;
-  }
+  // Samples before the first one, from `left` to `until` of them before it: of the motion's end, or of whole repeats.
+  const auto rehearse = [&](std::size_t left, std::size_t until) {
+    while (left > until) {
+      const std::size_t first = (samples - left % samples) % samples,
+                        count = std::min(left - until, samples - first);
+      const auto move = [&](const MotionBlock& block) {
+        each_span(block, Evaluation::rehearse);
+        starts.merge();
+      };
+      reader.run(true, move, first, first + count);
+      left -= count;
+    }
+  };
+  const auto samples_of = [&](double seconds) {
+    return static_cast<std::size_t>(std::ceil(seconds / reader.step()));
+  };
+  if (loose && samples > 1) rehearse(samples_of(rehearsed), samples_of(rehearsed_varied));
+  variations.go_on();
+  varied = true;
+  if (loose && samples > 1) rehearse(samples_of(rehearsed_varied), 0);
   reader.run(loose, [&](const MotionBlock& block) {
     append_deformation(strain, block.deformation);
     each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
       Evaluation::add(own, of_span);
     });
+    starts.merge();
     keep(0, block.first, block.at_wires);
     progress((loose ? loose_pass_share : first_pass_share) * static_cast<double>(block.first) /
              static_cast<double>(samples));
   });
   for (std::size_t k = 0; k < evaluations.size(); ++k) {
     evaluations[k]->end_first_pass();
+    for (Evaluation* const placed : starts.placed(k)) placed->end_first_pass();
     for (Evaluation* const placed : variations.placed(k)) placed->end_first_pass();
   }
   if (any([](const auto& evaluation) { return evaluation->wants_again(); }))
@@ -621,6 +661,20 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
           if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
       });
     });
+  if (starts.rests() > 1) {
+    std::vector<double> damage(starts.rests(), 0.0);
+    for (std::size_t rest = 0; rest < starts.rests(); ++rest)
+      for (const auto& evaluation : starts.spans(rest)) evaluation->find_bent();
+    each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
+      for (std::size_t rest = 0; rest < starts.rests(); ++rest)
+        damage[rest] =
+            std::max<double>(damage[rest], starts.spans(rest)[span]->damage_of_bent(segment, history, row));
+    });
+    starts.choose(job.strain.rest, damage);
+    if (per_pass < segments)
+      reader.run(false, [&](const MotionBlock& block) { keep(0, block.first, block.at_wires); });
+  }
+  variations.add(starts);
   const std::vector<Warning> warnings =
       pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),
                        write_cables(strain, job.simulation, evaluations));
@@ -640,25 +694,23 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     strain.append("/plane/strain", std::vector<float>(fibre.strain.begin(), fibre.strain.end()));
     strain.append("/plane/shear", std::vector<float>(fibre.shear.begin(), fibre.shear.end()));
   };
-  VariationWriter varied(strain, variations);
-  std::size_t span = 0, segment = 0;
+  if (const std::vector<std::int32_t> rests(starts.rest_of().begin(), starts.rest_of().end()); !rests.empty())
+    strain.append("/start/rest", rests);
+  VariationWriter variation_rows(strain, variations);
+  std::size_t segment = 0;
   sink.progress = [&](double) {
     const double share = static_cast<double>(segment + 1) / static_cast<double>(segments);
     const double done = loose ? loose_pass_share : first_pass_share;
     progress(done + (1 - done) * share);
   };
-  for (; segment < segments; ++segment) {
-    if (segment == reader.spans()[span].first_segment + reader.spans()[span].segments) ++span;
-    const std::size_t row = segment % per_pass;
-    if (row == 0 && segment > 0)
-      reader.run(false, [&](const MotionBlock& block) { keep(segment, block.first, block.at_wires); });
-    const std::size_t in_span = segment - reader.spans()[span].first_segment;
+  each_segment([&](std::size_t span, std::size_t in_span, std::size_t row) {
     evaluations[span]->evaluate(in_span, history, row, sink);
     variations.evaluate(span, in_span, history, row,
                         [&](std::size_t variation, const std::vector<std::size_t>& of, const SiteRows& rows) {
-                          varied.append(variation, of, rows);
+                          variation_rows.append(variation, of, rows);
                         });
-  }
+    ++segment;
+  });
   const auto worst =
       std::max_element(evaluations.begin(), evaluations.end(),
                        [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });

@@ -53,6 +53,7 @@ pipeline::StrainFactors moved(pipeline::StrainFactors factors, Uncertain paramet
       factors.grip *= by;
       break;
     case Uncertain::friction_inside:
+    case Uncertain::rest:
     case Uncertain::strength:
     case Uncertain::slope:
     case Uncertain::scatter:
@@ -73,7 +74,7 @@ std::size_t placements_at_most(const pipeline::Job& job) {
 }
 
 Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Build& build)
-    : as_told_(as_told) {
+    : enabled_(job.uncertainty.enabled), as_told_(as_told) {
   if (!job.uncertainty.enabled) return;
   const bool rubs_inside = std::any_of(as_told.begin(), as_told.end(),
                                        [](const auto& evaluation) { return evaluation->rubs_inside(); });
@@ -97,6 +98,25 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Bui
   lay(Uncertain::grip, std::array<double, other_nodes>{-reach, reach}, {{}});
 }
 
+void Variations::go_on() const {
+  for (const Placement& placement : placements_)
+    for (std::size_t span = 0; span < placement.spans->size(); ++span)
+      if (placement.spans != &as_told_) (*placement.spans)[span]->go_on_from(*as_told_[span]);
+}
+
+void Variations::add(const Starts& starts) {
+  if (!enabled_) return;
+  for (Placement& placement : placements_)
+    if (placement.spans != &as_told_)
+      for (const std::size_t variation : placement.variation)
+        rests_[variation] = static_cast<std::int32_t>(starts.rest_of_variations());
+  for (std::size_t rest = 1; rest < starts.rests(); ++rest) {
+    add(starts.spans(rest), {}, {{}});
+    placements_.back().rest = true;
+    rests_.back() = static_cast<std::int32_t>(rest);
+  }
+}
+
 double Variations::Friction::factor() const {
   if (inside == Inside::free) return 0;
   if (inside == Inside::glued) return ClampMeans::glued;
@@ -111,6 +131,7 @@ void Variations::add(const Spans& spans, Point z, const std::vector<Friction>& f
     z[index_of(Uncertain::friction_inside)] = of.z;
     points_.push_back(z);
     inside_.push_back(of.inside);
+    rests_.push_back(0);
   }
   placements_.push_back(std::move(placement));
 }
@@ -126,11 +147,18 @@ void Variations::evaluate(std::size_t span, std::size_t segment, const Deformati
                           std::size_t row, const Put& put) const {
   const std::vector<Evaluation::Site>& likely = as_told_[span]->likely_worst();
   if (likely.empty()) return;
-  std::vector<std::size_t> sites;
-  for (const Evaluation::Site site : likely) sites.push_back(as_told_[span]->row_of(segment, site));
   for (const Placement& placement : placements_) {
-    const std::vector<SiteRows> rows =
-        (*placement.spans)[span]->varied(likely, placement.factors, segment, history, row);
+    Evaluation& placed = *(*placement.spans)[span];
+    std::vector<Evaluation::Site> wires = likely;
+    if (placement.rest) {
+      const std::vector<Evaluation::Site>& own = placed.likely_of_bent(segment, history, row);
+      wires.insert(wires.end(), own.begin(), own.end());
+      std::ranges::sort(wires);
+      wires.erase(std::unique(wires.begin(), wires.end()), wires.end());
+    }
+    std::vector<std::size_t> sites;
+    for (const Evaluation::Site site : wires) sites.push_back(as_told_[span]->row_of(segment, site));
+    const std::vector<SiteRows> rows = placed.varied(wires, placement.factors, segment, history, row);
     for (std::size_t k = 0; k < rows.size(); ++k) put(placement.variation[k], sites, rows[k]);
   }
 }

@@ -15,7 +15,7 @@
 
 #include "pipeline/job/job.h"
 #include "pipeline/job/uncertainty.h"
-#include "strain/evaluation.h"
+#include "strain/starts.h"
 
 namespace dresslife::strain {
 
@@ -26,7 +26,7 @@ class Variations {
  public:
   static constexpr double reach = 1.5;  ///< 87 % of all that may be lie between
   using Point =
-      std::array<double, 5>;  ///< z of the strain parameters, in the order of uncertain_parameters()
+      std::array<double, 5>;  ///< z of the strain parameters but rest, in the order of uncertain_parameters()
   using Spans = std::vector<std::unique_ptr<Evaluation>>;
   /// Evaluations of all spans with other factors; they stay the caller's.
   using Build = std::function<const Spans&(const pipeline::StrainFactors&)>;
@@ -37,8 +37,14 @@ class Variations {
   bool empty() const { return points_.empty(); }
   const std::vector<Point>& points() const { return points_; }  ///< (variation)
   const std::vector<pipeline::Inside>& inside() const { return inside_; }  ///< (variation)
+  const std::vector<std::int32_t>& rests() const { return rests_; }        ///< (variation) rest of the starts
   /// Evaluations of a span that want the motion like the job's own.
   std::vector<Evaluation*> placed(std::size_t span) const;
+
+  /// Cables of all variations go on from where the job's own are now.
+  void go_on() const;
+  /// The rests of starts become variations, too. All samples were added.
+  void add(const Starts& starts);
 
   /// What a variation makes of a site: its row in the file and its turning points.
   using Put =
@@ -53,6 +59,7 @@ class Variations {
     const Spans* spans;
     std::vector<double> factors;
     std::vector<std::size_t> variation;
+    bool rest = false;  ///< another rest of the starts: other wires may be the worst
   };
   /// Friction inside: at z, or as a bound has it.
   struct Friction {
@@ -62,9 +69,11 @@ class Variations {
   };
   void add(const Spans& spans, Point z, const std::vector<Friction>& friction);
 
+  bool enabled_;
   const Spans& as_told_;
   std::vector<Point> points_;
   std::vector<pipeline::Inside> inside_;
+  std::vector<std::int32_t> rests_;
   std::vector<Placement> placements_;
 };
 

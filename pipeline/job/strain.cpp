@@ -42,6 +42,10 @@ void describe(Fields& f, Strain& strain) {
   factor("slack_factor", strain.factors.slack, "A factor on slack_percent, for trials.");
   factor("play_factor", strain.factors.play, "A factor on the distance that loose cables can move, for trials.");
   factor("grip_factor", strain.factors.grip, "A factor on base_grip_N and tool_grip_N, for trials.");
+  f.number(
+      "rest", strain.rest, Need::optional, between(-5, 5),
+      "The place where loose cables come to rest, as a standard normal quantile of the lives over several starts, for "
+      "trials. 0: that with the median life.");
   f.list("probes", strain.probes, Need::optional, "The wires whose whole strain history is kept.");
 }
 

@@ -63,6 +63,7 @@ struct Strain {
   int cable_elements = 0;                     ///< pieces of a loose cable per segment; 0: as its waves ask
   std::vector<ProbeRequest> probes;
   StrainFactors factors;
+  double rest = 0;  ///< normal quantile of the place of rest of loose cables: 0, that with the median life
 };
 
 void describe(Fields& f, ProbeRequest& probe);

@@ -26,57 +26,63 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        "ESTIMATE, from the friction moment over diameter cubed of seven published jacketed cables: median 16 kPa, 7 to 52 kPa "
        "for 10 to 90 %. A jacket of 2 MPa hoop stress presses 4 to 12 times as hard as the shipped ones: 0.1 to 3 % of draws "
        "exceed that",
-       "a cable's bending moment at 1 1/m: measured_bending_stiffness_Nm2",
-       "the friction inside the cables", "One bending test of a cable (one hour)",
+       "a cable's bending moment at 1 1/m: measured_bending_stiffness_Nm2", "the friction inside the cables",
+       "One bending test of a cable (one hour)",
        0.26},  // a factor of 1.3: a moment read to 15 %, about half of which is friction
       {"friction_hose", "strain.hose_friction_factor", true, 2, true, SharedBy::construction,
        "ESTIMATE: polymer on polymer 0.15 to 0.6, and what presses is the cable's own weight",
-       "the force that draws one cable through its hose",
-       "the friction of the cables on their hose", "One cable drawn through its hose with a spring scale (one hour)",
-       0.2},  // a force read to 20 %
+       "the force that draws one cable through its hose", "the friction of the cables on their hose",
+       "One cable drawn through its hose with a spring scale (one hour)", 0.2},  // a force read to 20 %
       {"slack", "strain.slack_factor", true, 1.5, true, SharedBy::installation,
        "ESTIMATE: 2 cm in 2 m, mounted by hand to within about 1 cm",
        "the length of each cable between the clamps against the hose's: slack_percent",
-       "the excess length of the cables in the hose", "The length of each cable measured against the hose (half an hour)",
-       0.15},  // 3 mm of 20 mm
+       "the excess length of the cables in the hose",
+       "The length of each cable measured against the hose (half an hour)", 0.15},  // 3 mm of 20 mm
       {"play", "strain.play_factor", true, 1.4, true, SharedBy::construction,
        "ESTIMATE: differences of diameters known to 1 or 2 mm each",
        "the inner diameter of the hose and the cables' outer ones: play_mm",
-       "the room in which the cables can move", "The diameters of hose and cables measured with a caliper (half an hour)",
-       0.1},  // 0.5 mm of 5 mm
+       "the room in which the cables can move",
+       "The diameters of hose and cables measured with a caliper (half an hour)", 0.1},  // 0.5 mm of 5 mm
       {"grip", "strain.grip_factor", true, 2, true, SharedBy::installation,
        "ESTIMATE: a clamp's screw and rubber by hand; without effect where no grip is given",
        "the force that draws a cable out of its clamp: tool_grip_N",
-       "the force at which a clamp lets a cable slip", "One cable drawn out of its clamp with a spring scale (one hour)",
-       0.2},  // a force read to 20 %
+       "the force at which a clamp lets a cable slip",
+       "One cable drawn out of its clamp with a spring scale (one hour)", 0.2},  // a force read to 20 %
+      {"rest", "strain.rest", false, 1, true, SharedBy::installation,
+       "the places of rest to which several starts of the cables lead (/start/rest of strain.h5). Without a ring of loose "
+       "cables there is one",
+       "nothing: with slack_percent the number of places changes, too", "where the loose cables come to rest",
+       "The places of the cables in an opened hose noted (half a day)",
+       3.0},  // they come to rest elsewhere in the next dresspack
       {"strength", "fatigue.strength_factor", true, 1.3, false, SharedBy::material,
        "Nachtigall 1975: rules from tensile tests miss lives by a factor of 3 in one case of five, 1.2 in strain at the "
        "fifth power; with it the sets of config/materials for soft copper, 1.1 to 1.3 apart",
        "two cables in a torsion or flex test, with the cycles at which they failed (dresslife calibrate)",
-       "the strain that the wires withstand", "Two cables bent or twisted in a test until they fail (some weeks)",
+       "the strain that the wires withstand",
+       "Two cables bent or twisted in a test until they fail (some weeks)",
        0.1},  // 0.3 of a decade of life, at the seventh power
       {"slope", "fatigue.slope_change", false, 0.01, false, SharedBy::material,
        "ESTIMATE: b of copper is given as -0.112, -0.12 and, by one pair of measurements, -0.12",
-       "the same test at half the twist or bend",
-       "the slope of the wires' fatigue life over the strain", "The same test at half the bend or twist (some weeks)",
+       "the same test at half the twist or bend", "the slope of the wires' fatigue life over the strain",
+       "The same test at half the bend or twist (some weeks)",
        0.005},  // 0.15 of a decade of life over a factor of two in strain
       {"scatter", "fatigue.scatter_factor", true, 1.4, false, SharedBy::material,
        "ESTIMATE: foils of one batch 0.04, fatigue lives often 0.3 of a decade, 0.2 in between",
-       "five or more equal specimens in one test",
-       "how much the lives of equal wires differ", "Five equal cables tested until they fail (some weeks)",
+       "five or more equal specimens in one test", "how much the lives of equal wires differ",
+       "Five equal cables tested until they fail (some weeks)",
        0.35},  // a deviation of five values: 1 / sqrt(2 (5 - 1))
       {"model", "fatigue.model_factor", true, 2, false, SharedBy::everything,
        "ESTIMATE: a factor of 2 for wear, corrosion and temperature; in vacuum copper lives 20 times as "
        "long as in air",
        "dresspacks that broke, or have not, with their programs and hours (dresslife calibrate)",
-       "what the model leaves out, such as wear and temperature", "One dresspack observed until it fails (months)",
-       0.5},  // 0.2 of a decade of scatter
+       "what the model leaves out, such as wear and temperature",
+       "One dresspack observed until it fails (months)", 0.5},  // 0.2 of a decade of scatter
       {"motion", "fatigue.motion_factor", true, 3.7, false, SharedBy::installation,
        "ESTIMATE: ramps of 5 to 50 % instead of 25 % gave 0.8 to 1.1 times the life of easy, 0.3 to 0.5 times that of robot 1 and "
-       "0.6 to 24 times that of robot 2; other resting places of the cables have 1 to 21 times the life (strain/measurements.md). "
+       "0.6 to 24 times that of robot 2, each from one start of the cables, so that a part of it is that of `rest`. "
        "The effect on one program does not predict the effect on another. Without a robot there is none",
        "the swing of the mounted dresspack after a stop: damping_time_ms, bending_stiffness_Nm2, motion.ramp_percent",
-       "how the hose swings and where its cables come to rest", "The stops filmed with the dresspack mounted (one hour)",
+       "how the hose swings", "The stops filmed with the dresspack mounted (one hour)",
        1.0},  // what the cables in the hose do is not seen
   }};
   return parameters;
@@ -115,7 +121,7 @@ void describe(Fields& f, Uncertainty& uncertainty) {
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
     f.number(parameter.name, uncertainty.spread[p], Need::optional,
-             parameter.logarithmic ? between(1, 100) : between(0, 0.05),
+             parameter.logarithmic ? between(1, 100) : between(0, 5 * parameter.step),
              fmt::format("The standard deviation of {}, as {} of {}. {}: it is known. {}.", parameter.cause,
                          parameter.logarithmic ? "a factor" : "a change", parameter.key,
                          parameter.logarithmic ? 1 : 0, parameter.source));

@@ -24,8 +24,20 @@ namespace dresslife::pipeline {
 class Fields;
 
 /// In the order of uncertain_parameters().
-enum class Uncertain { friction_inside, friction_hose, slack, play, grip, strength, slope, scatter, model, motion };
-constexpr std::size_t uncertain_count = 10;
+enum class Uncertain {
+  friction_inside,
+  friction_hose,
+  slack,
+  play,
+  grip,
+  rest,
+  strength,
+  slope,
+  scatter,
+  model,
+  motion
+};
+constexpr std::size_t uncertain_count = 11;
 
 /// Which jobs share one value of a parameter.
 enum class SharedBy {

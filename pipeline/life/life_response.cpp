@@ -16,7 +16,8 @@ using StrainPoint = std::array<double, strain_parameters>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double farthest = 3.5;  // deviations: nothing is known of what lies beyond
 constexpr double tenth = 1.2815515655446004;  // deviations from the median to 10 and 90 %
-constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = index_of(Uncertain::slack);
+constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = index_of(Uncertain::slack),
+                      of_rest = index_of(Uncertain::rest);
 
 std::size_t number_of(Inside inside) { return static_cast<std::size_t>(inside); }
 
@@ -142,7 +143,9 @@ double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
   const double here = worst(0, strength, slope);
   for (std::size_t p = 0; p < strain_parameters; ++p) {
     if (nodes_[p].size() < 2 || p == friction || p == slack) continue;
-    sum += between(place_among(nodes_[p], z[p]),
+    // Rests beyond those of the starts are not known.
+    const double at = p == of_rest ? std::clamp(z[p], nodes_[p].front(), nodes_[p].back()) : z[p];
+    sum += between(place_among(nodes_[p], at),
                    [&](std::size_t k) { return worst(alone_[p][k], strength, slope); }) -
            here;
   }
@@ -244,6 +247,13 @@ void check(const LifeResponse& response) {
   if (!whole) throw std::invalid_argument("lists of other lengths");
 }
 
+/// A list of the uncertain parameters, or of the first of them, as it was before there was `rest`: with a 0 for that.
+std::vector<double> with_rest(std::vector<double> numbers, std::size_t whole) {
+  if (numbers.size() + 1 == whole)
+    numbers.insert(numbers.begin() + static_cast<std::ptrdiff_t>(of_rest), 0.0);
+  return numbers;
+}
+
 /// One of each, or std::invalid_argument.
 template <std::size_t size>
 void fix(std::array<double, size>& array, const std::vector<double>& numbers) {
@@ -265,15 +275,20 @@ bool read_name(LifeResponse& response, const std::string& name, const std::strin
 void read_numbers(LifeResponse& response, const std::string& name, const std::vector<double>& numbers,
                   std::vector<double>& covariance) {
   const auto add_point = [&](Inside inside) {
-    fix(response.points.emplace_back(), numbers);
+    fix(response.points.emplace_back(), with_rest(numbers, strain_parameters));
     response.inside.push_back(inside);
   };
-  if (name == "mean")
+  if (name == "mean") {
+    const std::vector<double> mean = with_rest(numbers, uncertain_count);
     response.knowledge.mean =
-        Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
-  else if (name == "covariance")
-    covariance.insert(covariance.end(), numbers.begin(), numbers.end());
-  else if (name == "point")
+        Eigen::Map<const Eigen::VectorXd>(mean.data(), static_cast<Eigen::Index>(mean.size()));
+  } else if (name == "covariance") {
+    const std::vector<double> row = with_rest(numbers, uncertain_count);
+    if (numbers.size() < row.size() && covariance.size() == of_rest * uncertain_count)
+      covariance.resize(covariance.size() + uncertain_count, 0.0);
+    covariance.insert(covariance.end(), row.begin(), row.end());
+  }
+  if (name == "point")
     add_point(Inside::as_is);
   else if (name == "glued_point")
     add_point(Inside::glued);

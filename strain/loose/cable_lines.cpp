@@ -1,5 +1,6 @@
 #include "strain/loose/cable_lines.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -99,6 +100,14 @@ double CableLines::laid_gain(std::size_t k) const {
     sum += -rest_curvature_ * (one.x() + other.x()) / 2 + (other - one).squaredNorm() * inverse / 2;
   }
   return sum / static_cast<double>(batch_.nodes - 1);
+}
+
+void CableLines::go_on_from(const CableLines& other) {
+  assert(count() == other.count() && batch_.nodes == other.batch_.nodes);
+  for (const OfNode row : {path, velocity})
+    std::copy_n(other.node_rows_[row].data(), 2 * batch_.nodes * batch_.lanes, node_rows_[row].data());
+  for (std::size_t k = 0; k < count(); ++k) tensions_[k].go_on_from(other.tensions_[k]);
+  iterations_ = other.iterations_;
 }
 
 void CableLines::feed_in(double share) {

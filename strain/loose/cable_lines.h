@@ -51,6 +51,8 @@ class CableLines {
   /// What its path has more than the hose's axis where it was laid in, over that.
   double laid_in(std::size_t k) const { return tensions_[k].laid_in(); }
 
+  /// Before the first sample: cables go on from where those of another of as many cables and nodes are.
+  void go_on_from(const CableLines& other);
   void feed_in(double share);  ///< see CableTension
   void shorten(std::size_t cable, double share) { tensions_[cable].shorten(share); }  ///< see CableTension
 

@@ -60,6 +60,47 @@ bool LooseCables::same_cables(const LooseCables& other) const {
   return true;
 }
 
+void LooseCables::wind(std::uint64_t seed) {
+  wound_ = true;
+  for (Ring& ring : rings_) {
+    double radius = 0, slack = 0, members = 0;
+    for (std::size_t k = 0; k < cables(); ++k) {
+      if (in_ring_[k].first != &ring) continue;
+      radius += std::hypot(cable(k).place[0], cable(k).place[1]);
+      slack += cable(k).slack;
+      ++members;
+    }
+    ring.wind(random_winding(nodes(), length(), radius / members, slack / members, seed++));
+  }
+}
+
+void LooseCables::wind(const std::vector<double>& turn) {
+  wound_ = true;
+  for (Ring& ring : rings_) ring.wind(turn);
+}
+
+void LooseCables::go_on_from(const LooseCables& other) {
+  assert(cables() == other.cables() && rings_.size() == other.rings_.size() && nodes() == other.nodes());
+  for (std::size_t k = 0; k < rings_.size(); ++k) rings_[k].go_on_from(other.rings_[k]);
+  lines_.go_on_from(other.lines_);
+  started_ = other.started_;
+}
+
+void LooseCables::feed_in(double share) {
+  for (Ring& ring : rings_) ring.feed_in(share);
+  lines_.feed_in(share);
+}
+
+double LooseCables::apart(const LooseCables& other) const {
+  double difference = 0, bent = 0;
+  for (std::size_t k = 0; k < cables(); ++k)
+    for (std::size_t i = 0; i < states_[k].curvature.size(); ++i) {
+      difference += std::pow(states_[k].curvature[i] - other.states_[k].curvature[i], 2);
+      bent += std::pow(states_[k].curvature[i], 2);
+    }
+  return bent > 0 ? std::sqrt(difference / bent) : 0;
+}
+
 void LooseCables::shorten(std::size_t cable, double share) {
   lines_.shorten(cable, share);
   if (const auto& [ring, number] = in_ring_[cable]; ring) ring->shorten(number, share);
@@ -83,13 +124,14 @@ void LooseCables::advance(std::span<LooseCables* const> all, std::span<const Hos
 }
 
 /// From their places to rest at the first sample. What is too long for its place can lie in many ways; the
-/// one that is found is where it comes to lie when its excess length is fed in bit by bit.
+/// one that is found is where it comes to lie when its excess length is fed in bit by bit. A ring that begins wound has
+/// all of it.
 void LooseCables::settle(double step) {
   double before = without_limit;
-  for (int round = 0; round < feeding_rounds + most_rounds; ++round) {
+  for (int round = wound_ ? feeding_rounds : 0; round < feeding_rounds + (wound_ ? 1 : most_rounds);
+       ++round) {
     const double share = std::min(1.0, static_cast<double>(round) / feeding_rounds);
-    for (Ring& ring : rings_) ring.feed_in(share);
-    lines_.feed_in(share);
+    feed_in(share);
     LooseCables* const alone = this;
     relax({&alone, 1}, step);
     started_ = false;  // nothing goes on moving from one round to the next

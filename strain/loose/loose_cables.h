@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -47,6 +48,19 @@ class LooseCables {
   /// Whether these are the same cables in the same hose: under the same motion they rest at the same places.
   bool same_cables(const LooseCables& other) const;
 
+  bool any_ring() const { return !rings_.empty(); }
+  /// Before the first sample: the ring begins wound with all of its cables' slack, by random_winding() or by a turn (node) [rad].
+  void wind(std::uint64_t seed);
+  void wind(const std::vector<double>& turn);
+  /// Before the first sample: cables go on from where those of `other` are, which may differ in all but number, rings and
+  /// nodes.
+  void go_on_from(const LooseCables& other);
+  /// As if only this share of the slack were in the hose; above 1: more of it.
+  void feed_in(double share);
+  /// By how much curvatures differ from those of the same cables that began otherwise, over their own: root mean squares
+  /// over cables and nodes.
+  double apart(const LooseCables& other) const;
+
   /// At the samples to come twist takes this share of a cable's length, if nothing pulls.
   void shorten(std::size_t cable, double share);
   /// Takes all cables to where they rest at the next sample. hose: (node). step: since the sample before [s].
@@ -82,7 +96,7 @@ class LooseCables {
   std::vector<std::pair<Ring*, std::size_t>> in_ring_;  ///< (cable) its ring and number there; null: in none
   std::vector<CableState> states_;
   std::size_t restless_ = 0, iterations_ = 0;
-  bool started_ = false, rests_ = true;
+  bool started_ = false, rests_ = true, wound_ = false;
 };
 
 }  // namespace dresslife::strain

@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "pipeline/base/random.h"
 
 namespace dresslife::strain {
 namespace {
@@ -46,6 +49,26 @@ void substitute(const std::vector<double>& bands, std::size_t rows, Eigen::Vecto
 
 }  // namespace
 
+std::vector<double> random_winding(std::size_t nodes, double length, double radius, double slack,
+                                   std::uint64_t seed) {
+  constexpr int waves = 4;  // half waves along the hose: shorter ones relax within a second
+  pipeline::RandomNumbers random(seed);
+  std::vector<double> turn(nodes, 0.0);
+  const auto last = static_cast<double>(nodes - 1);
+  for (int wave = 1; wave <= waves; ++wave) {
+    const double size = random.normal() / wave;
+    for (std::size_t i = 1; i + 1 < nodes; ++i) {
+      const double x = std::numbers::pi * static_cast<double>(i) / last;
+      turn[i] += size * std::sin(wave * x) * std::sin(x);
+    }
+  }
+  double taken = 0;  // mean of (radius psi')^2 / 2
+  for (std::size_t i = 1; i < nodes; ++i)
+    taken += std::pow(radius * (turn[i] - turn[i - 1]) * last / length, 2) / (2 * last);
+  for (double& at : turn) at *= taken > 0 ? std::sqrt(slack / taken) : 0;
+  return turn;
+}
+
 Ring::Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature)
     : lines_(cables, hose, rest_curvature, false),
       psi_(hose.nodes(), 0.0),
@@ -57,6 +80,11 @@ Ring::Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double r
   gained_.assign(slope_.size(), lanes);
   solved_.assign(slope_.size(), lanes);
   products_.assign(lanes, lanes);
+}
+
+void Ring::go_on_from(const Ring& other) {
+  psi_ = other.psi_, velocity_ = other.velocity_, frame_ = other.frame_;
+  lines_.go_on_from(other.lines_);
 }
 
 /// Every cable to where the turn has it.

@@ -8,15 +8,25 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "strain/loose/cable_lines.h"
 
 namespace dresslife::strain {
 
+/// A random smooth winding of a ring, 0 with its slope at both clamps (node) [rad]. radius: of the ring. It takes as much
+/// length as a slack (a share of the length) in a straight hose.
+std::vector<double> random_winding(std::size_t nodes, double length, double radius, double slack,
+                                   std::uint64_t seed);
+
 class Ring {
  public:
   Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature);
+  /// Before the first sample: it begins turned by this (node) [rad], 0 at both clamps.
+  void wind(const std::vector<double>& turn) { psi_ = turn; }
+  /// Before the first sample: it goes on from where another ring of as many cables and nodes is.
+  void go_on_from(const Ring& other);
   void feed_in(double share) { lines_.feed_in(share); }  ///< see CableTension
   void shorten(std::size_t cable, double share) {
     lines_.shorten(cable, share);

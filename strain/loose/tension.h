@@ -24,6 +24,9 @@ class CableTension {
   /// mean_gain: of a path. Returns its strain there, and remembers what slipped: the sample is over.
   double settle(double mean_gain);
 
+  /// What slipped through the clamps is that of another.
+  void go_on_from(const CableTension& other) { slipped_ = other.slipped_; }
+
   /// As if only this share of the slack were in the hose yet; 1: all of it. It is laid in by hand, and
   /// clamps let nothing through before all of it is there.
   void feed_in(double share);

@@ -40,6 +40,7 @@ bool acts(const Job& job, Uncertain parameter) {
     case Uncertain::friction_hose:
     case Uncertain::slack:
     case Uncertain::play:
+    case Uncertain::rest:
       return any_in_hose(job);
     case Uncertain::grip:
       return any_grip(job);
@@ -78,7 +79,7 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
     const Job plain = job_from(variant.job, sets_);
     if (plain.calibration)
       refuse("its job names a calibration, whose observations would count twice", "leave calibration out");
-    if (plain.strain.factors != StrainFactors{} || is_changed(plain.fatigue) ||
+    if (plain.strain.factors != StrainFactors{} || plain.strain.rest != 0 || is_changed(plain.fatigue) ||
         plain.fatigue.scatter_factor != 1)
       refuse("its job gives a key that is to be learned", "leave the factors of strain and fatigue out");
     if (plain.uncertainty.spread != Uncertainty::default_spread())

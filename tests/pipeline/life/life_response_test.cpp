@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <random>
+#include <sstream>
 #include <stdexcept>
 
 #include "tests/catch.h"
@@ -218,6 +220,43 @@ TEST_CASE("what is never damaged lives without end, whatever the model's factor 
   for (double& life : response.worst_life) life = LifeResponse::endless;
   CHECK(std::isinf(response.log10_life({}, -2)));
   CHECK(std::isinf(response.log10_life(at(model, -2), -2)));
+}
+
+TEST_CASE("beyond the rests of all starts a life is that of the last one") {
+  constexpr std::size_t rest = index_of(Uncertain::rest);
+  LifeResponse response = straight(0.6, 0.2, 0);
+  for (const auto& [z, life] : {std::pair(-0.7, 4.3), {0.9, 6.3}}) {
+    response.points.push_back({}), response.points.back()[rest] = z;
+    response.inside.push_back(Inside::as_is);
+    response.worst_life.insert(response.worst_life.end(), 3, life);
+  }
+  for (const auto& [z, change] :
+       {std::pair(-3.0, -1.0), {-0.7, -1.0}, {-0.35, -0.5}, {0.0, 0.0}, {0.9, 1.0}, {3.0, 1.0}})
+    CHECK(response.change(at(rest, z)) == Approx(change).margin(rounding));
+}
+
+TEST_CASE("a text from before there were rests is read: the same lives") {
+  const LifeResponse response = straight(0.6, 0.2, 0.4);
+  std::istringstream lines(response.text());
+  constexpr std::size_t rest = index_of(Uncertain::rest);
+  std::string older;
+  std::size_t row = 0;  // of the covariance
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::vector<std::string> all{std::istream_iterator<std::string>(words), {}};
+    if (all[0] == "covariance" && row++ == rest) continue;
+    if (all[0] == "mean" || all[0] == "covariance" || all[0] == "point")
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(1 + rest));
+    for (const std::string& word : all) older += word + " ";
+    older += "\n";
+  }
+  REQUIRE(older.find("point 0 0 -1.5 0 0 \n") != std::string::npos);
+  const LifeResponse read = LifeResponse::from_text(older);
+  for (const std::size_t parameter : {friction, slack, strength, model})
+    CHECK(read.change(at(parameter, 0.8)) ==
+          Approx(response.change(at(parameter, 0.8))).margin(1e-5));  // six digits
+  CHECK(read.knowledge.covariance(rest + 1, rest + 1) == 1);
+  CHECK(read.knowledge.covariance(rest, rest) == 0);
 }
 
 TEST_CASE("a response and its text lead to each other, no other text is one") {

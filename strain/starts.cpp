@@ -1,0 +1,80 @@
+#include "strain/starts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "pipeline/base/random.h"
+#include "pipeline/base/statistics.h"
+
+namespace dresslife::strain {
+namespace {
+
+// Of their curvature, by which two starts of one rest may still be apart. At most an eighth of it is left in each cycle.
+constexpr double same_rest = 1e-3;
+
+}  // namespace
+
+std::size_t other_starts_at_most(const pipeline::Job& job) {
+  for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
+    int cables = 0;
+    for (const pipeline::Component& component : mounted.dresspack.components)
+      if (!component.components.empty()) cables += component.count;
+    if (cables > 1 && !mounted.dresspack.cable_alone) return Starts::count - 1;
+  }
+  return 0;
+}
+
+Starts::Starts(Spans& own, const std::function<Spans&()>& build) : own_(own) {
+  const auto ring = [](const auto& evaluation) { return evaluation->cables().any_ring(); };
+  if (std::ranges::none_of(own, ring)) return;
+  rest_of_.resize(count);
+  std::iota(rest_of_.begin(), rest_of_.end(), 0);
+  std::uint64_t seed = 0;
+  for (std::size_t start = 1; start < count; ++start) {
+    others_.push_back(&build());
+    for (const auto& evaluation : *others_.back())
+      if (evaluation->any_loose()) evaluation->wind(pipeline::mixed(seed++));
+  }
+}
+
+std::vector<Evaluation*> Starts::placed(std::size_t span) const {
+  std::vector<Evaluation*> all;
+  for (const Spans* of : others_) all.push_back((*of)[span].get());
+  return all;
+}
+
+void Starts::merge() {
+  const auto same = [&](const Spans& one, const Spans& other) {
+    for (std::size_t span = 0; span < one.size(); ++span)
+      if (one[span]->any_loose() && !(one[span]->cables().apart(other[span]->cables()) < same_rest))
+        return false;
+    return true;
+  };
+  for (std::size_t rest = 1; rest < rests(); ++rest)
+    for (std::size_t earlier = 0; earlier < rest; ++earlier) {
+      if (!same(spans(rest), spans(earlier))) continue;
+      others_[rest - 1]->clear();  // nobody asks for it any more
+      others_.erase(others_.begin() + static_cast<std::ptrdiff_t>(rest - 1));
+      for (std::size_t& of : rest_of_)
+        if (of >= rest) of = of == rest ? earlier : of - 1;
+      --rest;
+      break;
+    }
+}
+
+void Starts::choose(double z, const std::vector<double>& damage) {
+  std::vector<std::size_t> starts = rest_of_;  // with the most damage first
+  if (starts.empty()) return;
+  std::ranges::stable_sort(starts, std::ranges::greater(), [&](std::size_t rest) { return damage[rest]; });
+  // Of an even number of starts the more damaged one of the middle two.
+  const auto at =
+      static_cast<std::size_t>(std::ceil(pipeline::normal_share(z) * static_cast<double>(starts.size())));
+  const std::size_t chosen = starts[std::clamp<std::size_t>(at, 1, starts.size()) - 1];
+  if (chosen == 0) return;
+  std::ranges::swap_ranges(own_, *others_[chosen - 1]);
+  for (std::size_t& of : rest_of_)
+    if (of == 0 || of == chosen) of = chosen - of;
+}
+
+}  // namespace dresslife::strain

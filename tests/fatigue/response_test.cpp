@@ -1,0 +1,78 @@
+// Places of rest of loose cables as a parameter of a life.
+#include "fatigue/response.h"
+
+#include <cmath>
+
+#include "pipeline/base/statistics.h"
+#include "pipeline/life/first_failure.h"
+#include "tests/catch.h"
+
+using namespace dresslife;
+using fatigue::VariedStrains;
+using pipeline::Inside;
+using pipeline::LifeResponse;
+using pipeline::Uncertain;
+
+namespace {
+
+constexpr std::size_t rest = index_of(Uncertain::rest), slack = index_of(Uncertain::slack);
+
+/// A job that lives 1e6, three of five starts, beside two rests of one start each; slack was varied from rest 2.
+struct Rests {
+  std::vector<VariedStrains> varied{4};
+  std::vector<std::size_t> starts{3, 1, 1};
+  LifeResponse response;
+
+  Rests(double of_one, double of_two) {
+    varied[0].rest = 1, varied[1].rest = 2;
+    varied[2].rest = varied[3].rest = 2;
+    varied[2].z[slack] = -1.5, varied[3].z[slack] = 1.5;
+    response.knowledge = pipeline::prior_of({});
+    response.planned = {{5.9, 6, 6.1}};
+    response.worst_life = {6, of_one, of_two, of_two - 2, of_two + 1};
+    for (const VariedStrains& at : varied)
+      response.points.push_back(at.z), response.inside.push_back(at.inside);
+    fatigue::put_rests(response, varied, starts);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("rests: lives over all starts have the quantiles of the starts, whichever is the job's own") {
+  constexpr double rounding = 1e-12;
+  const Rests beside(5, 8);
+  const LifeResponse& of = beside.response;
+  const double mean = of.knowledge.mean[rest];
+  for (const auto& [share, life] : {std::pair(0.1, 5.0), {0.5, 6.0}, {0.9, 8.0}, {0.02, 5.0}, {0.98, 8.0}}) {
+    pipeline::ParameterPoint z{};
+    z[rest] = mean + pipeline::normal_quantile(share);
+    CHECK(of.log10_life(z, 0) == Approx(life).margin(rounding));
+  }
+  const Rests worse(5, 5.5);  // the job's own rest lives longest
+  CHECK(worse.response.knowledge.mean[rest] == Approx(-pipeline::normal_quantile(0.7)));
+  pipeline::ParameterPoint z{};
+  CHECK(worse.response.log10_life(z, 0) == Approx(6));
+  z[rest] = worse.response.knowledge.mean[rest] + pipeline::normal_quantile(0.3);
+  CHECK(worse.response.log10_life(z, 0) == Approx(5.5));
+}
+
+TEST_CASE("rests: a variation that went on from another rest counts by what it changes there") {
+  const Rests of(5, 8);
+  pipeline::ParameterPoint z{};
+  z[slack] = -1.5;
+  CHECK(of.response.change(z) == Approx(-2));
+  z[slack] = 1.5;
+  CHECK(of.response.change(z) == Approx(1));
+}
+
+TEST_CASE("rests: they have a share in the causes when starts differ, and none when they agree") {
+  const auto share_of = [](const LifeResponse& response) {
+    return pipeline::summary_of({response}, "job", 2000).share[rest];
+  };
+  CHECK(share_of(Rests(5, 8).response) > 0.3);
+  Rests agreeing(6, 6);
+  CHECK(share_of(agreeing.response) < 1e-9);
+  LifeResponse alone = Rests(5, 8).response;  // one start or no ring: no such point
+  alone.points.resize(1), alone.inside.resize(1), alone.worst_life.resize(1);
+  CHECK(share_of(alone) == 0);
+}
