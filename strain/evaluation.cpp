@@ -704,7 +704,7 @@ std::vector<Evaluation::Worst> Evaluation::worst_of_bent(std::size_t segment,
     const std::vector<int> line = construction_.ancestry(construction_.bundles()[b].part);
     if (std::ranges::find_first_of(line, cables) == line.end()) continue;
     scan_bundle(b, segment, means_, motion, false, worker, found);
-    for (const Seen& seen : found.seen) worst[wires_[seen.site.wire].layer].consider(seen);
+    for (const SiteMeasures& seen : found.seen) worst[wires_[seen.site.wire].layer].consider(seen);
   }
   return worst;
 }
