@@ -87,7 +87,7 @@ TEST_CASE("job: unknown keys are refused with the likeliest key") {
       {"gate: 1e-4", "xyzzy: 1", "xyzzy",
        "unknown key 'strain.xyzzy'; keys here: deformation, kinematics, slip, equivalent, "
        "surface_fibres, gate, cable_elements_per_segment, friction_factor, hose_friction_factor, slack_factor, "
-       "play_factor, grip_factor, probes"});
+       "play_factor, grip_factor, rest, probes"});
 }
 
 TEST_CASE("job: a key with the wrong unit is answered with the right one") {

@@ -87,7 +87,7 @@ TEST_CASE("clamp path: a bad cell is named by line and column") {
         "dresslife_clamp_path_c.csv:1:3: error: '' is not a finite number (x of the base clamp); write a "
         "decimal "
         "number");
-  CHECK(message_of("d.csv", "t;x;y\n" + row(0) + "1,2,3\n") ==
+  CHECK(message_of("d.csv", "t,x,y\n" + row(0) + "1,2,3\n") ==
         "dresslife_clamp_path_d.csv:3:5: error: row has 3 cells (must be 15, separated by commas); write t, "
         "then x y z "
         "qw qx qy qz of the base clamp and of the tool clamp");
