@@ -887,6 +887,29 @@ TEST_CASE("uncertainty: the planner's lives widen about those of the scatter, wh
         "model");  // at these strains the slope of life is nearly that of (8)'s ductile part
 }
 
+TEST_CASE("uncertainty: one wire strained far above its neighbours leaves a conductor at most a decade more") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  job.uncertainty.enabled = true;
+  job.fatigue.failed_wires_percent = 100;  // the other wire, too
+  const auto ahead = [&](float of_other) {
+    StrainFile f = example();
+    f.sites.resize(4);
+    f.sites.push_back(swing(2, "cable 2/layer 1/wire 8", of_other));
+    const FileReader life(run(folder, f, job).file, pipeline::life_format());
+    const auto response = pipeline::LifeResponse::from_text(life.text_attribute("life_response"));
+    return std::pair(response.planned[response.planned.size() / 2][1] - std::log10(life.number_attribute("life_repeats")),
+                     std::log10(life.number_attribute("scatter_life_hours_p50") / life.number_attribute("life_hours")));
+  };
+  constexpr double digits = 1e-4;  // of the text, in decades
+  const auto [near, by_scatter] = ahead(0.009f);
+  CHECK(near == Approx(by_scatter).margin(digits));
+  CHECK(near < 0.9);
+  const auto [far, far_by_scatter] = ahead(0.002f);
+  CHECK(far == Approx(1).margin(digits));
+  CHECK(far_by_scatter > 2);
+}
+
 TEST_CASE("uncertainty: the response is what the stage tells with the keys that it stands for") {
   const Folder folder;
   pipeline::Job job = test_job();
