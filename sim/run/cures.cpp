@@ -427,17 +427,16 @@ std::string hand_words(const Check& check) {
 }
 
 /// Of a dresspack that cannot be clamped or is drawn taut at this time.
-std::string remedy_for(const CheckedMotion& motion, int dresspack, double time) {
-  const std::string otherwise =
-      "give it more free length, move a clamp or turn it away from what is in the way (dresslife preview shows them)";
-  if (!can_be_tried(motion, dresspack)) return otherwise;
+/// untried: what may help.
+std::string remedy_for(const CheckedMotion& motion, int dresspack, double time, const std::string& untried) {
+  if (!can_be_tried(motion, dresspack)) return untried;
   Check refused;
   refused.time = time;
   refused.dresspack = dresspack;
   const RestTrials trials(motion, refused);
   const std::vector<Check> none;
   const std::string remedy = RemedySearch(motion, none, trials, dresspack).words();
-  return remedy.empty() ? no_other_words("s") : remedy;
+  return remedy.empty() ? untried + "; " + no_other_words("s") : remedy;
 }
 
 }  // namespace
@@ -452,13 +451,15 @@ Cure cure_of(const CheckedMotion& motion, const std::vector<Check>& checks, cons
 pipeline::Warning taut_warning(const CheckedMotion& motion, const ShortRun& run) {
   return pipeline::warning_of(WarningKind::slack, "", run.refusal,
                               "it lies on the robot, around which its way is longer than from clamp to clamp",
-                              remedy_for(motion, run.dresspack, *run.taut_at));
+                              remedy_for(motion, run.dresspack, *run.taut_at,
+                                         "give it more free length, or move a clamp (dresslife preview shows it)"));
 }
 
 std::string refusal_remedy(const pipeline::Setup& setup, const RoutingRefusal& refusal) {
   const Rod rod = rod_of(setup);
   const std::unique_ptr<ClampPath> path = path_of(setup);
-  return remedy_for({setup, {}, &rod, path.get()}, refusal.dresspack, refusal.time.value_or(0));
+  return remedy_for({setup, {}, &rod, path.get()}, refusal.dresspack, refusal.time.value_or(0),
+                    refusal.remedy);
 }
 
 std::vector<pipeline::Warning> check_warnings(const CheckedMotion& motion, const std::vector<Check>& checks) {

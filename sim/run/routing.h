@@ -25,11 +25,11 @@ Rod rod_of(const pipeline::Setup& setup);
 
 /// A dresspack that cannot be clamped or moved so.
 struct RoutingRefusal : pipeline::InputError {
-  RoutingRefusal(const pipeline::Where& of, const std::string& what, const std::string& remedy, int index,
+  RoutingRefusal(const pipeline::Where& of, const std::string& what, const std::string& what_to_do, int index,
                  std::optional<double> when = {})
-      : InputError(of, what, remedy), where(of), problem(what), dresspack(index), time(when) {}
+      : InputError(of, what, what_to_do), where(of), problem(what), remedy(what_to_do), dresspack(index), time(when) {}
   pipeline::Where where;
-  std::string problem;
+  std::string problem, remedy;
   int dresspack;
   std::optional<double> time;  ///< of the program [s]; absent: before it
 };

@@ -181,7 +181,8 @@ void check_program(const std::string& command) {
   std::string program, name;
   words >> program >> name;
   if (program.starts_with("scripts/")) {
-    CHECK(std::system(("bash -n '" + (source / program).string() + "'").c_str()) == 0);
+    const bool perl = content(source / program).starts_with("#!/usr/bin/env perl");
+    CHECK(std::system(((perl ? "perl -c '" : "bash -n '") + (source / program).string() + "' 2>&1").c_str()) == 0);
     return;
   }
   static std::set<std::string> known;
