@@ -120,7 +120,6 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   // Every other way in which cables lie is kept beside the job's own, each with four frictions and two bounds; other starts
   // have one friction.
   const double laid = 1 + static_cast<double>(placements_at_most(job)),
-               begun = laid + static_cast<double>(other_starts_at_most(job)),
                frictions = job.uncertainty.enabled ? 6 : 1;
   double cable_rows = 0, bent_rows = 0, part_rows = 0, found = 0;
   for (const pipeline::MotionSpan& span : spans) {
@@ -131,6 +130,7 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
     const Counts counts =
         counts_of(job.dresspacks[span.dresspack].dresspack, job.strain, std::max(length, clamped_length(job)));
     const double in_span = static_cast<double>(span.segments);
+    const double begun = laid + (counts.loose > 1 ? static_cast<double>(other_starts_at_most(job)) : 0);
     // Strain of each cable and the three that make its force, strain and pressing along one that rubs
     // (cable_paths.h); curvature along a loose one (segment_rows.h), and the rows of one segment.
     cable_rows += begun * (4 * counts.cables + in_span * 1.5 * counts.rubbing + 2 * counts.loose);

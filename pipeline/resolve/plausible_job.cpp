@@ -155,7 +155,7 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
                                                     {"strain.play_factor", job.strain.factors.play},
                                                     {"strain.grip_factor", job.strain.factors.grip}};
   for (const auto& [key, value] : factors)
-    if (!job.calibration && (value > largest_factor || value < 1 / largest_factor))
+    if ((!job.calibration || job.calibration->typical) && (value > largest_factor || value < 1 / largest_factor))
       add(WarningKind::material, key, value, fmt::format("{:.2g} .. {:g}", 1 / largest_factor, largest_factor),
           "per cent instead of a factor, or a factor for a trial",
           value > 1 ? fmt::format("{}: {:g} if that was per cent", key, value / 100) : fmt::format("{}: 1", key));

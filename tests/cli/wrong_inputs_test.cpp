@@ -45,6 +45,7 @@ components:
     slack_percent: 1
     components:
       - {name: core, count: 3, radius_mm: 1.2, helix_radius_mm: 1.5, lay_angle_deg: 8, components: [{name: wire, count: 19, radius_mm: 0.1, helix_radius_mm: 0.8, lay_angle_deg: 5, material: copper}]}
+least_bend_radius_mm: 300
 )";
 
 const std::string module =
@@ -292,12 +293,12 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "components:\n  - name: lead", "components:\n  - {name: lead, radius_mm: 4.1, helix_radius_mm: 0, components: [{name: wire, count: 19, radius_mm: 0.1, helix_radius_mm: 0.8, lay_angle_deg: 5, material: copper}]}\n  - name: lead", "hose.yaml:13:5", "two parts side by side are named 'lead' (the other: line 12)", "another name"},
     {"hose.yaml", "torsional_stiffness_Nm2: 1.6", "torsional_stiffness_Nm2: 1600000", "hose.yaml:1:1", "torsional_stiffness_Nm2 is 1.6e+06 (limit 2.76e+04 N m2: solid copper of diameter_mm)", "as measured"},
     {"hose.yaml", "axial_stiffness_N: 50000", "axial_stiffness_N: 50", "hose.yaml:1:1", "axial_stiffness_N is 50 (limit 589 or more: 2 % of stretch by the weight of a metre)", "axial_stiffness_N: 5e+04 if that was kN"},
-    {"hose.yaml", "damping_source: a guess", "damping_source: a guess\nleast_bend_radius_mm: 0.25", "hose.yaml:1:1", "least_bend_radius_mm is 0.25 (limit 25: half of diameter_mm). Likely cause: metres", "least_bend_radius_mm: 250 if that was metres"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 0.25", "hose.yaml:1:1", "least_bend_radius_mm is 0.25 (limit 25: half of diameter_mm). Likely cause: metres", "least_bend_radius_mm: 250 if that was metres"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    play_mm: 400", "hose.yaml:12:5", "play_mm of 'lead' is 400 (limit 25: half of diameter_mm)", "it follows from the bore"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 0.3\n    radial_line_load_N_per_m: 5e6", "hose.yaml:12:5", "radial_line_load_N_per_m of 'lead' is 5e+06, 610 MPa on its width (limit 10: jackets yield)", "0.05 MPa times the part's width"},
     {"job.yaml", "segments: 24", "segments: 24, sample_rate_Hz: 0.5", "", "simulation.sample_rate_Hz is 0.5 (limit 5 or more)", "simulation.sample_rate_Hz: 25"},
     {"job.yaml", "simulation: {", "strain: {gate: 0.1}\nsimulation: {", "", "strain.gate is 0.1 (limit 0.0005 or less): cycles below it are left out", "strain.gate: 0.001 if"},
-    {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack: too long", "routing.free_length_m: 2.857"},
+    {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack: too long", "routing.free_length_m: 2.054"},
     simulation_key("gravity_m_per_s2: [0, 0, 9.81]", "the upward part of simulation.gravity_m_per_s2 is 9.81", "simulation.gravity_m_per_s2: [0, 0, -9.81]"),
     simulation_key("gravity_m_per_s2: [0, 0, -1]", "the size of simulation.gravity_m_per_s2 is 1 (limit 9.71 .. 9.90). Likely cause: multiples of g", "simulation.gravity_m_per_s2: [0, 0, -9.81]"),
     simulation_key("gravity_m_per_s2: [0, -9.81, 0]", "the upward part of simulation.gravity_m_per_s2 is 0", "a wall or a ceiling"),
@@ -314,7 +315,7 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "diameter_mm: 50\ninner", "diameter_mm: 480\ninner", "hose.yaml:1:1", "diameter_mm is 480 (limits 1 .. 200)", "diameter_mm: 48 if"},
     {"hose.yaml", "inner_diameter_mm: 42", "inner_diameter_mm: 49.99", "hose.yaml:1:1", "the wall is 0.005 mm thick", "inner_diameter_mm: 42.5 (ESTIMATE)"},
     {"hose.yaml", "torsional_stiffness_Nm2: 1.6", "torsional_stiffness_Nm2: 0.000016", "hose.yaml:1:1", "torsional_stiffness_Nm2 is 8e-06 times bending_stiffness_Nm2", "torsional_stiffness_Nm2: from_construction"},
-    {"hose.yaml", "damping_source: a guess", "damping_source: a guess\nleast_bend_radius_mm: 5000", "hose.yaml:1:1", "least_bend_radius_mm is 5000 (limit 2000: 40 diameters)", "least_bend_radius_mm: 500 if"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 5000", "hose.yaml:1:1", "least_bend_radius_mm is 5000 (limit 2000: 40 diameters)", "least_bend_radius_mm: 500 if"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 15", "hose.yaml:12:5", "slack_percent of 'lead' is 15 (limit 5). Likely cause: millimetres in a metre", "slack_percent: 1.5"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 30\n    radial_line_load_N_per_m: 5", "hose.yaml:12:5", "friction_coefficient of 'lead' is 30 (limit 1.5)", "friction_coefficient: 0.3"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    base_grip_N: 1e9", "hose.yaml:12:5", "base_grip_N of 'lead' is 1e+09 (limit 100000)", "no base_grip_N"},
