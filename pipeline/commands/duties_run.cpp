@@ -1,16 +1,22 @@
 #include "pipeline/commands/duties_run.h"
 
+#include <fmt/format.h>
+
 #include "pipeline/advise/plan/evaluated_duties.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/study/folder_lock.h"
 
 namespace dresslife::pipeline {
 
 DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
-  const std::filesystem::path named = file.study;
+  const std::filesystem::path named = file.study, beside = folder_of(file.where) / named;
   const bool is_path = named.extension() == ".yaml" && named.is_relative();
-  const std::filesystem::path study = named_study((is_path ? folder_of(file.where) / named : named).string());
+  if (!is_path && kind_of(beside.string() + ".yaml") == FileKind::file)
+    throw InputError(file.where, fmt::format("study '{}' is a name of the catalogue, and {}.yaml a file beside this one", file.study, file.study),
+                     fmt::format("write study: {}.yaml for the file, or studies/{}", file.study, file.study));
+  const std::filesystem::path study = named_study((is_path ? beside : named).string());
   const StudyRequest request{study, options.sets, options.out, program_folder()};
   StudyState standing = expanded(request);
   check_programs(file, standing.study);

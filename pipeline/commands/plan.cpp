@@ -1,10 +1,12 @@
 #include "pipeline/advise/plan/plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 #include <set>
 
+#include "pipeline/advise/plan/duty_words.h"
 #include "pipeline/advise/plan/evaluated_duties.h"
 #include "pipeline/advise/plan/plan_words.h"
 #include "pipeline/base/readable.h"
@@ -30,6 +32,22 @@ Day day_of(const std::string& text) {
   throw InputError({"--today"}, fmt::format("'{}' is no date", text), "write YYYY-MM-DD");
 }
 
+/// Duties whose programs have warnings that spoil a plan.
+std::string doubts(const std::vector<DutyResult>& duties) {
+  std::string text;
+  for (const DutyResult& duty : duties)
+    if (!duty.doubtful.empty())
+      text += fmt::format("Do not plan with duty '{}': {} (see the warnings).\n", duty.name, fmt::join(duty.doubtful, ", "));
+  return text.empty() ? "" : text + "\n";
+}
+
+std::string cautions(const std::vector<DutyResult>& duties) {
+  std::string text;
+  for (const DutyResult& duty : duties)
+    if (const std::string words = caution_words(duty); !words.empty()) text += duty.name + "\n" + words;
+  return text.empty() ? "" : text + "\n";
+}
+
 int plan(const Options& options) {
   const Day day = day_of(options.today);
   note_input(options.fleet);
@@ -44,6 +62,8 @@ int plan(const Options& options) {
     if (const double half = table.median(); half < table.hours_per_week)
       throw InputError({options.study}, fmt::format("half of the dresspacks under duty '{}' fail within {}", name, hours_text(half)),
                        "no plan helps; see dresslife improve");
+  std::vector<DutyResult> duties = evaluated(file, made.study, made.rows);
+  std::erase_if(duties, [&](const DutyResult& duty) { return !needed.contains(duty.name); });
   const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent};
   const Plan found = plan_of(fleet, tables, windows, day, rule);
   if (found.effective_worlds < fewest_worlds)
@@ -56,8 +76,8 @@ int plan(const Options& options) {
   write_text_if_changed(table, csv);
   write_text_if_changed(calendar, plan_calendar(fleet, found));
   print(options.json ? json_of_csv(csv).text + "\n"
-                     : shown(fmt::format("{}\nTable: {}\nCalendar: {}\n", plan_words(fleet, found), table.string(),
-                                         calendar.string())));
+                     : shown(fmt::format("{}{}\n{}Table: {}\nCalendar: {}\n", doubts(duties), plan_words(fleet, found),
+                                         cautions(duties), table.string(), calendar.string())));
   if (!options.quiet) tell(warning_lines(rows_of(file, made.rows)));
   return 0;
 }

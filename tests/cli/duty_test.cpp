@@ -81,7 +81,7 @@ TEST_CASE("duties that cannot be added up are refused before anything runs") {
   CHECK_FALSE(fs::exists(scratch / "runs"));
   const std::string too_often = refusal("[{job: one, repeats_per_hour: 3000}, {job: other, percent_of_time: 50}]");
   CHECK(too_often.find("minutes of each hour") != std::string::npos);
-  const std::string outlived = refusal("[{job: one, percent_of_time: 5}]", "    history: [{duty: d, hours: 1.0e+7}]\n");
+  const std::string outlived = refusal("[{job: one, percent_of_time: 5}]", "    history: [{duty: d, hours: 9.0e+6}]\n");
   CHECK(outlived.find("the model contradicts this dresspack") != std::string::npos);
 }
 

@@ -29,10 +29,10 @@ std::string action(const DutyResult& duty) {
   if (duty.doubtful.empty() && std::isinf(hours))
     return "No replacement is foreseen: in more than 90 % of the samples no mode fails.";
   if (!duty.doubtful.empty())
-    return fmt::format("Do not plan with {}: {} (see the warnings).", std::isinf(hours) ? "this result" : hours_text(hours),
-                       fmt::join(duty.doubtful, ", "));
+    return fmt::format("Do not plan with {}: {} (see the warnings).",
+                       hours > robot_life_left(duty) ? "this result" : hours_text(hours), fmt::join(duty.doubtful, ", "));
   if (hours > robot_life_left(duty))
-    return fmt::format("The evaluated parts last longer than the robot ({}).", hours_text(duty.robot_life_hours));
+    return fmt::format("The wires last longer than the robot ({}).", hours_text(duty.robot_life_hours));
   return fmt::format("Plan a replacement {} ({} at {:g} h per week).", when, calendar_text(months(hours, duty.hours_per_week)),
                      duty.hours_per_week);
 }
@@ -51,6 +51,17 @@ std::string percentile_words(const DutyResult& duty) {
 
 }  // namespace
 
+std::string caution_words(const DutyResult& duty) {
+  std::string text;
+  if (duty.worn_hours_p10 < duty.robot_life_hours)
+    text += wrapped(fmt::format("Abrasion is not validated and not in these hours. By the model 1 of 10 is worn through after {} at the "
+                                "soonest.",
+                                hours_text(duty.worn_hours_p10)),
+                    118, "  ");
+  if (!duty.not_evaluated.empty()) text += wrapped(fmt::format("Not evaluated: {}.", duty.not_evaluated), 118, "  ");
+  return text;
+}
+
 std::string duty_words(const std::vector<DutyResult>& results) {
   std::string text;
   for (const DutyResult& duty : results) {
@@ -66,12 +77,7 @@ std::string duty_words(const std::vector<DutyResult>& results) {
                           readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time, 100 * duty.lives.share[k],
                           shown_hours(duty.robot_life_hours, duty.lives.without[k][0]), shown_hours(duty.robot_life_hours, duty.lives.as_twice[k][0]));
     text += fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
-    if (duty.worn_hours_p10 < duty.robot_life_hours)
-      text += wrapped(fmt::format("Abrasion is not validated and not in these hours. By the model 1 of 10 is worn through after {} at the "
-                                  "soonest.",
-                                  hours_text(duty.worn_hours_p10)),
-                      118, "  ");
-    if (!duty.not_evaluated.empty()) text += wrapped(fmt::format("Not evaluated: {}.", duty.not_evaluated), 118, "  ");
+    text += caution_words(duty);
     for (std::size_t m = 0; m < duty.modes.size(); ++m)
       if (duty.damage.same_place[m] < 0.99)
         text += wrapped(fmt::format("The programs wear different places: the damage of '{}' is {:.2f} of the sum of their worst places.",

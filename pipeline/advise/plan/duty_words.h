@@ -11,6 +11,9 @@ namespace dresslife::pipeline {
 /// Of each duty: when to replace, then a line for each program. Ends with a line feed.
 std::string duty_words(const std::vector<DutyResult>& results);
 
+/// What is not in its hours: abrasion, and what is not evaluated. Lines, or empty.
+std::string caution_words(const DutyResult& duty);
+
 /// One row per duty and program; lives are of the whole duty. Numbers read back exactly, "inf" without damage.
 std::string duty_csv(const std::vector<DutyResult>& results);
 

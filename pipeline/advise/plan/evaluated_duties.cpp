@@ -118,7 +118,7 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
   if (time > 1 + rounding)
     throw InputError(duty.where,
                      fmt::format("the programs of duty '{}' take {:.1f} minutes of each hour ({})", duty.name, 60 * time, words),
-                     "give fewer repeats");
+                     "give fewer repeats, or smaller shares of the time");
   return rates;
 }
 
@@ -184,6 +184,11 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
       history.push_back({&before.damage, past.hours});
       results[d].past_hours += past.hours;
     }
+    if (results[d].past_hours >= results[d].robot_life_hours)
+      throw InputError(file.duties[d].where,
+                       fmt::format("the history of duty '{}' is {} long, the life of the robot {}", file.duties[d].name,
+                                   hours_text(results[d].past_hours), hours_text(results[d].robot_life_hours)),
+                       "give hours of operation, or a larger fatigue.robot_life_hours");
     results[d].lives = lives_under(results[d].damage, history);
     if (results[d].past_hours > 0 && results[d].lives.survived < fewest_survivors)
       throw InputError(file.duties[d].where,
