@@ -13,9 +13,12 @@ namespace dresslife::pipeline {
 DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   const std::filesystem::path named = file.study, beside = folder_of(file.where) / named;
   const bool is_path = named.extension() == ".yaml" && named.is_relative();
-  if (!is_path && kind_of(beside.string() + ".yaml") == FileKind::file)
-    throw InputError(file.where, fmt::format("study '{}' is a name of the catalogue, and {}.yaml a file beside this one", file.study, file.study),
-                     fmt::format("write study: {}.yaml for the file, or studies/{}", file.study, file.study));
+  const std::filesystem::path beside_file = beside.string() + ".yaml";
+  if (!is_path && beside_file != std::filesystem::path(file.where.file) && kind_of(beside_file) == FileKind::file)
+    throw InputError(
+        file.where,
+        fmt::format("study '{}' is a name of the catalogue, and {}.yaml is a file beside this one", file.study, file.study),
+        fmt::format("write study: {}.yaml for the file, or studies/{}", file.study, file.study));
   const std::filesystem::path study = named_study((is_path ? beside : named).string());
   const StudyRequest request{study, options.sets, options.out, program_folder()};
   StudyState standing = expanded(request);

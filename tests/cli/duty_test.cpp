@@ -83,6 +83,10 @@ TEST_CASE("duties that cannot be added up are refused before anything runs") {
   CHECK(too_often.find("minutes of each hour") != std::string::npos);
   const std::string outlived = refusal("[{job: one, percent_of_time: 5}]", "    history: [{duty: d, hours: 9.0e+6}]\n");
   CHECK(outlived.find("the model contradicts this dresspack") != std::string::npos);
+  scratch.write("two_robots.yaml", "");
+  scratch.write("duties.yaml", "study: two_robots\nduties: [{name: d, programs: [{job: hard, percent_of_time: 5}]}]\n");
+  CHECK(run(scratch, "dresslife", "duty duties.yaml").err.find("two_robots.yaml is a file beside this one") !=
+        std::string::npos);
 }
 
 TEST_CASE("a plan names what to replace in a window, writes a table and a calendar, and refuses what it does not know") {
