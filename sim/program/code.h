@@ -76,6 +76,7 @@ struct Statement {
   bool keeps_counter = false;  ///< FOR: its variable is the program's, and goes on behind the loop
   bool elsewhere = false;      ///< declare: without a value here because another task's module gives it
   bool constant = false;       ///< declare: nothing can write to it
+  bool continued = false;      ///< KRL's CONTINUE stands before it
   Place place;
 };
 

@@ -244,6 +244,7 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
       parse_files(code, language, problems);
       add_requests(code, options, grammar_of(language), problems);
       if (language == Language::inform) name_inform_values(code);
+      if (language == Language::krl) stop_at_signals(code);
       code.index();
       if (!problems.empty()) return program;
       if (language == Language::rapid)

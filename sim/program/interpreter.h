@@ -115,6 +115,8 @@ class Dialect {
     static_cast<void>(text);
     return {};
   }
+  /// An instruction that an undecided branch may have run.
+  virtual void may_have_run(const Statement&, const Cause&, Interpreter&) {}
   /// Value of a declared variable without one.
   virtual Value initial(const std::string& type) const = 0;
   /// Assigns a value to a variable or to a part of one.

@@ -494,7 +494,7 @@ void Krl::ask_for_frame(const Value& unknown, const Statement& statement, Interp
              {{kind, cause->name, ""}});
   } else {
     run.ask_for(unknown, statement.place,
-                "moves with a $TOOL or $BASE that is known only while the robot runs",
+                "moves with a $TOOL or $BASE that the files do not contain",
                 "assign a constant frame", "{X .., Y .., Z .., A .., B .., C ..} in mm and deg");
   }
 }
@@ -576,14 +576,6 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
   if (!has_speed || !whole) return;
   // Axis angles need no frames, unless the tool's way decides where blending begins.
   const bool free = !move.target.joints.empty() && move.zone.distance == 0;
-  if (frames.unknown.known() && frames.held && move.target.joints.empty() && !frames_told_) {
-    run.note(statement.place,
-             "moves before $TOOL and $BASE are both assigned (the controller holds the last ones): the "
-             "flange or the "
-             "world is taken",
-             true);
-    frames_told_ = true;
-  }
   if (frames.unknown.known())
     set_frames(frames, move, run);
   else if (!free && ask_for_frames(frames, statement, run))
@@ -686,13 +678,45 @@ bool Krl::wait(const Statement& statement, Interpreter& run) {
   return true;
 }
 
+namespace {
+
+/// The move that ends in a blend so far; null: none does.
+Instruction* blending(Interpreter& run) {
+  auto& made = run.program().instructions;
+  if (made.empty() || made.back().kind == Instruction::Kind::dwell) return nullptr;
+  const MoveZone& zone = made.back().zone;
+  return zone.distance > 0 || zone.percent > 0 ? &made.back() : nullptr;
+}
+
+}  // namespace
+
+/// The move before ends at its target.
+void Krl::wait_for_robot(const Statement& statement, Interpreter& run) {
+  Instruction* const before = blending(run);
+  if (!before) return;
+  if (statement.arguments.empty()) {
+    before->zone = {};
+    return;
+  }
+  run.note(statement.place,
+           fmt::format("'{}' is declared in no file read: if it is a SIGNAL, the robot stops at the target before, where its "
+                       "blend is taken; give the $config.dat that declares it",
+                       statement.arguments[0].text),
+           true);
+}
+
+void Krl::may_have_run(const Statement& statement, const Cause& why, Interpreter& run) {
+  if (statement.name == advance_stop && !why.line.empty() && blending(run))
+    run.note(statement.place,
+             fmt::format("the robot stops at the target before if the branch in {} leads here: its blend is taken", why.line),
+             true);
+}
+
 bool Krl::instruction(const Statement& statement, Interpreter& run) {
   if (const auto kind = kind_of(statement.name)) return move(*kind, statement, run);
   if (statement.name == "wait_sec") return wait(statement, run);
-  if (statement.name == advance_stop) {  // the move before ends at its target
-    if (auto& made = run.program().instructions;
-        !made.empty() && made.back().kind != Instruction::Kind::dwell)
-      made.back().zone = {};
+  if (statement.name == advance_stop) {
+    wait_for_robot(statement, run);
     return true;
   }
   if (statement.name == "asyptp") {

@@ -19,11 +19,17 @@ namespace dresslife::sim {
 /// The instruction where the controller, which runs ahead of the robot, waits for it (in a $OUT, $IN, WAIT without CONTINUE
 /// before it): no name that a program can have.
 inline constexpr const char* advance_stop = "advance stop";
+Statement stop_of_advance(const Place& place);
 
 /// The structures and system variables of every controller, as a last file; to be called before parsing.
 void add_krl_types(Code& code);
 
 void parse_krl(Code& code, int file, Problems& problems);
+
+/// Writes a stop of the advance before each statement that names an input or output by its SIGNAL, or an imported variable: to
+/// be called when all files are read, because a data list may declare the names. A name that no file declares, and that is
+/// written as outputs are, may be one: the stop before it has the name as its argument.
+void stop_at_signals(Code& code);
 
 void run_krl(const Code& code, const ImportOptions& options, const std::vector<NamedFrame>& tools,
              const std::vector<NamedFrame>& work_objects, Program& program, Problems& problems);

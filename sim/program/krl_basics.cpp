@@ -2,6 +2,7 @@
 // functions that the editor writes behind WITH. Source: bas.src as KSS 5 to 8 install it.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/program/krl.h"
 #include "sim/program/krl_dialect.h"
@@ -106,6 +107,7 @@ Value Krl::initial(const std::string& type) const { return prototype(type, 0); }
 Value Krl::prototype(const std::string& type, int depth) const {
   constexpr int deepest = 6;  // structures in structures
   if (type == "signal") return unknown_value("", "is a signal of inputs or outputs");
+  if (type == "import") return unknown_value("", "is imported from another module");
   Value value = unset_value();
   if (type == "int" || type == "real") {
     value.numeric = type == "int" ? Value::Numeric::integer : Value::Numeric::real;
@@ -278,18 +280,21 @@ std::string Krl::name_of(const char* list, const std::array<double, 6>& numbers,
   return name.empty() ? (tool ? "$TOOL" : "$BASE") : name;
 }
 
-/// Contents of $TOOL or $BASE; the null frame before anything is assigned.
+/// Contents of $TOOL or $BASE. What the program has not assigned the controller holds from before: the user gives it.
 Frame Krl::current(const char* variable, const char* list, Frames& frames, std::string& name,
                    Interpreter& run) {
   const Value* value = run.variable(variable);
-  if (!value || is_unset(*value)) {
-    frames.held = true;
-    return {};
-  }
-  const Coordinates read = coordinates(*value, frame_names);
+  Coordinates read = value ? coordinates(*value, frame_names) : Coordinates{};
+  if (read.unknown.known() && !read.all())
+    if (const std::optional<Value> held = run.given(variable)) {
+      const Coordinates given = coordinates(*held, frame_names);
+      for (std::size_t i = 0; i < read.numbers.size(); ++i)
+        if (!std::exchange(read.given[i], read.given[i] || given.given[i])) read.numbers[i] = given.numbers[i];
+    }
   if (!read.all()) {
     Value& why = frames.unknown.known() ? frames.unknown : frames.base_too;
-    why = read.unknown.known() ? unknown_value(variable, "is set in part only") : read.unknown;
+    const char* none = read.any() ? "is set in part only" : "is assigned nowhere before: the controller holds it";
+    why = read.unknown.known() ? unknown_value(run.answer_name(variable), none, form_of("frame")) : read.unknown;
     return {};
   }
   name = name_of(list, read.numbers, run);

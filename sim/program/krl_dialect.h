@@ -36,6 +36,7 @@ class Krl final : public Dialect {
   std::optional<double> letter(const Value& text) const override;
   bool shares(const std::string& name, int module) const override;
   bool is_of_module(const std::string& name) const override;
+  void may_have_run(const Statement& statement, const Cause& why, Interpreter& run) override;
 
   /// Indices of the instructions that are SPL points of spline blocks.
   const std::set<std::size_t>& spline_points() const { return spline_points_; }
@@ -53,7 +54,6 @@ class Krl final : public Dialect {
     Frame tool, base;
     std::string tool_name, base_name;
     bool stationary = false;  ///< $IPO_MODE is #TCP: the tool stands at $BASE, the work hangs at $TOOL
-    bool held = false;        ///< one of them is not assigned: it is what the controller had before
     Value unknown;            ///< why they are not known; known: they are
     Value base_too;           ///< why the base is not, where the tool is not either
 
@@ -93,6 +93,7 @@ class Krl final : public Dialect {
   bool read_override(const Statement& statement, Instruction& move, Interpreter& run);
   void read_zone(const Statement& statement, Instruction& move, Interpreter& run);
   bool wait(const Statement& statement, Interpreter& run);
+  static void wait_for_robot(const Statement& statement, Interpreter& run);
   void interrupt(const Statement& statement, Interpreter& run);
   void handlers_happen(long number, Interpreter& run);
   void add_origins(const Expression& target, const Frames& frames, Instruction& move, Interpreter& run);
@@ -139,8 +140,6 @@ class Krl final : public Dialect {
   };
   std::map<long, Handler> handlers_;  // by the interrupts' numbers
   std::set<long> braking_;            // interrupts that are on and stop moves
-
-  bool frames_told_ = false;  // that the program moves before it assigns its frames
 
   // Where the robot stands: axes after a move to axes, else a pose and the frames in which it is given.
   std::optional<std::array<double, 6>> axes_, numbers_;

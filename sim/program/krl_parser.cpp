@@ -18,17 +18,20 @@ constexpr const char* ends[] = {"end",      "endfct",    "enddat",    "endif", "
                                 "until",    "endswitch", "endspline", "def",   "deffct"};
 
 /// Statements of which the robot's motion knows nothing.
-constexpr const char* left_out_words[] = {"signal",    "enum",   "ext",     "extfct",  "extp",
-                                          "extfctp",   "import", "channel", "anin",    "anout",
+constexpr const char* left_out_words[] = {"enum",      "ext",    "extfct",  "extp",    "extfctp",   "channel", "anin",    "anout",
                                           "pulse",     "brake",  "resume",  "halt",    "time_block",
                                           "const_vel", "asyptp", "asycont", "asystop", "asycancel"};
 /// System variables that the controller changes: values that a program writes to them do not last.
 constexpr const char* living_names[] = {"$timer", "$timer_flag", "$cycflag", "$in", "$anin", "$err"};
 
-/// What needs the robot where the program is: the controller, which runs ahead of the robot, waits for it here.
-constexpr const char* present_words[] = {"wait",         "halt",      "pulse",   "$in",
-                                         "$out",         "$anin",     "$anout",  "$pos_act",
-                                         "$pos_act_mes", "$axis_act", "$digin1", "$axis_act_meas"};
+/// What needs the robot where the program is: the controller, which runs ahead of the robot, waits for it here. Source: KUKA's
+/// course on programming (HALT, WAIT, PULSE, ANIN, ANOUT, $IN, $OUT, $ANIN, $ANOUT, imported variables) and the descriptions of
+/// the variables that say where the robot is. Names that SIGNAL and IMPORT declare: krl_advance.cpp.
+constexpr const char* present_words[] = {
+    "wait",      "halt",          "pulse",     "anin",     "anout",        "$in",       "$out",      "$anin",     "$anout",
+    "$digin1",   "$digin2",       "$digin3",   "$digin4",  "$digin5",      "$digin6",   "$pos_act",  "$pos_act_mes",
+    "$axis_act", "$axis_act_meas", "$axis_int", "$pos_int", "$axis_back",   "$pos_back", "$axis_for", "$pos_for",
+    "$axis_ret", "$pos_ret"};
 
 class KrlParser : StatementParser {
  public:
@@ -50,7 +53,7 @@ class KrlParser : StatementParser {
   bool global_ = false;     ///< the declaration at hand says GLOBAL
   bool constant_ = false;   ///< it says CONST
   bool first_ = true;       ///< no routine of this file was read: the next one is everybody's
-  bool continued_ = false;  ///< CONTINUE stands before
+  int continued_ = 0;       ///< line of the last CONTINUE
 
   /// A program and the data list of its name are one module; where names repeat, the folder decides.
   int module_of_file() {
@@ -206,12 +209,9 @@ class KrlParser : StatementParser {
     s.place = at_.place();
     s.text = std::string(at_.peek().text);
     global_ = constant_ = false;
-    if (!std::exchange(continued_, false) && waits_for_robot()) {
-      Statement waiting = s;
-      waiting.kind = Kind::instruction;
-      waiting.name = advance_stop;
-      into.push_back(std::move(waiting));
-    }
+    s.continued = continued_ > 0 && s.place.line <= continued_ + 1;  // it counts for the next line alone
+    const bool waits = !s.continued && waits_for_robot();
+    if (waits) into.push_back(stop_of_advance(s.place));
     if (at_.at_word("global") || at_.at_word("decl") || at_.at_word("const")) {
       while (at_.at_word("global") || at_.at_word("decl") || at_.at_word("const")) {
         global_ |= at_.at_word("global");
@@ -223,7 +223,7 @@ class KrlParser : StatementParser {
         return declaration(into);
     }
     if (at_.take_word("struc")) return structure();
-    if (at_.at_word("signal")) return signal(into);
+    if (at_.at_word("signal") || at_.at_word("import")) return signal(into);
     if (at_.at_word("interrupt")) return interrupt(s, into);
     if (at_.at_word("trigger")) return trigger(s, into);
     for (const char* word : left_out_words)
@@ -236,8 +236,10 @@ class KrlParser : StatementParser {
       if_statement(s);
     else if (at_.take_word("for"))
       for_statement(s);
-    else if (at_.take_word("while"))
+    else if (at_.take_word("while")) {
       loop(s, Kind::while_loop, "endwhile", true);
+      if (waits) s.branches[0].body.push_back(stop_of_advance(s.place));  // before each pass
+    }
     else if (at_.take_word("loop"))
       loop(s, Kind::endless, "endloop", false);
     else if (at_.take_word("repeat"))
@@ -251,7 +253,7 @@ class KrlParser : StatementParser {
     else if (at_.take_word("exit"))
       s.kind = Kind::leave_loop;
     else if (at_.take_word("continue")) {
-      continued_ = true;
+      continued_ = s.place.line;
       return;
     } else if (at_.at_word("wait"))
       wait_statement(s);
@@ -361,11 +363,12 @@ class KrlParser : StatementParser {
     s.branches[0].body.push_back(std::move(inner));
   }
 
-  /// SIGNAL name $IN[1] TO $IN[8]: a variable that others write.
+  /// SIGNAL name $IN[1] TO $IN[8], IMPORT type name IS file: a variable that others write.
   void signal(std::vector<Statement>& into) {
     Statement s;
     s.kind = Kind::declare;
     s.text = at_.word("a type");
+    if (s.text == "import") at_.word("a type");
     s.place = at_.place();
     s.name = at_.word("a name");
     s.arguments.emplace_back();
@@ -443,6 +446,7 @@ class KrlParser : StatementParser {
     s.branches.emplace_back();
     s.branches[0].body = body({"until"});
     at_.need_word("until");
+    if (waits_for_robot()) s.branches[0].body.push_back(stop_of_advance(at_.place()));
     s.arguments.push_back(at_.expression());
   }
 

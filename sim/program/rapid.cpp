@@ -47,8 +47,8 @@ std::optional<Value> Rapid::constant(const std::string& name) {
 }
 
 bool Rapid::matters(const std::string& name) const {
-  static const std::set<std::string> others{"accset",   "velset",  "speedrefresh", "pdispset", "pdispon",
-                                            "pdispoff", "eoffson", "eoffsset",     "eoffsoff", "callbyvar"};
+  static const std::set<std::string> others{"accset",  "velset",   "speedrefresh", "pdispset",  "pdispon", "pdispoff",
+                                            "eoffson", "eoffsset", "eoffsoff",     "callbyvar", "confl",   "confj"};
   return rapid_move(name) || others.contains(name) || name.starts_with("move");
 }
 

@@ -6,6 +6,7 @@
 
 using namespace dresslife;
 using namespace dresslife::sim;
+using dresslife::tests::held_frames;
 using dresslife::tests::Reader;
 using dresslife::tests::Reading;
 
@@ -30,6 +31,7 @@ Reading run(const std::string& body, const std::string& data = "", const Files& 
   Files files{{"p.src", "DEF p()\n" + body + "\nEND\n"}};
   if (!data.empty()) files.push_back({"p.dat", "DEFDAT p\n" + data + "\nENDDAT\n"});
   files.insert(files.end(), more.begin(), more.end());
+  files.insert(files.end(), held_frames);
   return reader(files);
 }
 
@@ -95,7 +97,7 @@ TEST_CASE("krl: a data list's names are its program's own") {
   const Reading both = Reader{Language::krl}({ka, kb, ka_list, kb_list});
   REQUIRE(both.problem() == "no such problem");
   CHECK(first_axes(both) == std::vector<double>{1, 11, 1});
-  const Reading one = Reader{Language::krl}({ka, kb, ka_list});
+  const Reading one = Reader{Language::krl}({ka, kb, ka_list, held_frames});
   REQUIRE(one.problems.size() == 1);
   CHECK(one.problem().starts_with("kb.src:2:5: error: moves to 'xp1', which no file read declares"));
 }
@@ -386,7 +388,8 @@ TEST_CASE("krl: the robot stops where the controller, which runs ahead, waits fo
     return r.move(0).zone.distance > 0;
   };
   for (const char* waits : {"WAIT SEC 0", "$OUT[1]=TRUE", "PULSE($OUT[1],TRUE,0.5)", "HALT", "WAIT FOR $IN[1]",
-                            "IF $IN[1] THEN\n$FLAG[1]=TRUE\nENDIF", "CONTINUE\n$OUT[1]=TRUE\n$OUT[2]=TRUE"})
+                            "IF $IN[1] THEN\n$FLAG[1]=TRUE\nENDIF", "CONTINUE\n$OUT[1]=TRUE\n$OUT[2]=TRUE",
+                            "CONTINUE\n\n$OUT[1]=TRUE", "ANOUT OFF a1", "f=$POS_INT"})
     CHECK_FALSE(blends(waits));
   for (const char* goes_on : {"", "; a comment with $OUT[1]", "CONTINUE\n$OUT[1]=TRUE", "CONTINUE\nWAIT FOR $IN[1]", "$FLAG[1]=TRUE",
                               "TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE", "INTERRUPT DECL 9 WHEN $IN[1] DO halted()"})
@@ -395,6 +398,53 @@ TEST_CASE("krl: the robot stops where the controller, which runs ahead, waits fo
   const Reading none = run("$VEL.CP=1\n$APO.CDIS=10\n$ADVANCE=0\nLIN " + pose + " C_DIS\n$ADVANCE=3\nLIN {X 900} C_DIS\nLIN {X 800}");
   CHECK(none.move(0).zone.distance == 0);
   CHECK(none.move(1).zone.distance == Approx(0.01));
+}
+
+TEST_CASE("krl: names of inputs, outputs and imported variables stop the advance as these do") {
+  const Files list{{"$config.dat", "DEFDAT $CONFIG\nSIGNAL GRIP $OUT[7]\nGLOBAL SIGNAL PART $IN[3] TO $IN[5]\nBOOL done\nENDDAT\n"}};
+  const auto reading = [&](const std::string& between, const Files& files) {
+    return run("SIGNAL lamp $OUT[9]\nDECL BOOL own\n$VEL.CP=1\n$APO.CDIS=10\nLIN " + pose + " C_DIS\n" + between + "\nLIN {X 900}",
+               "SIGNAL valve $OUT[8]\nIMPORT INT other IS /R1/q..n", files);
+  };
+  const auto blends = [&](const std::string& between) {
+    const Reading r = reading(between, list);
+    INFO(between);
+    REQUIRE(r.problem() == "no such problem");
+    CHECK(r.program.skipped.empty() == (between.find("IF") == std::string::npos));
+    return r.move(0).zone.distance > 0;
+  };
+  for (const char* waits : {"grip=TRUE", "lamp=FALSE", "VALVE=NOT valve", "own=part==3", "own=other>2",
+                            "IF part==3 THEN\nown=TRUE\nENDIF", "CONTINUE\nown=TRUE\ngrip=TRUE"})
+    CHECK_FALSE(blends(waits));
+  for (const char* goes_on : {"done=TRUE", "own=FALSE", "CONTINUE\ngrip=TRUE"}) CHECK(blends(goes_on));
+  // Without the list the name may be a SIGNAL or a variable.
+  const Reading unknown = reading("grip=TRUE", {});
+  REQUIRE(unknown.program.skipped.size() == 1);
+  CHECK(unknown.program.skipped[0].may_move);
+  CHECK(unknown.program.skipped[0].what.starts_with("'grip' is declared in no file read"));
+  CHECK(reading("grip=1", {}).program.skipped.empty());
+}
+
+TEST_CASE("krl: a condition that waits for the robot waits in every pass of its loop") {
+  const std::string begin = "DECL INT i\n$VEL.CP=1\n$APO.CDIS=10\ni=0\n", step = "LIN " + pose + " C_DIS\ni=i+1\n";
+  const auto stops = [&](const std::string& loop) {
+    const Reading r = run(begin + loop + "LIN {X 800}");
+    REQUIRE(r.problem() == "no such problem");
+    return r.move(0).zone.distance == 0 && r.move(1).zone.distance == 0;
+  };
+  CHECK(stops("WHILE i<2 AND ($OUT[1] OR TRUE)\n" + step + "ENDWHILE\n"));
+  CHECK(stops("REPEAT\n" + step + "UNTIL i>1 OR ($OUT[1] AND FALSE)\n"));
+  CHECK_FALSE(stops("WHILE i<2\n" + step + "ENDWHILE\n"));
+}
+
+TEST_CASE("krl: a stop in a branch that is left out is reported where a blend depends on it") {
+  const std::string branch = "IF n>1 THEN\n$OUT[1]=TRUE\nENDIF\nLIN {X 900}";
+  const auto warnings = [&](const std::string& zone) {
+    const Reading r = run("$VEL.CP=1\n$APO.CDIS=10\nLIN " + pose + zone + "\n" + branch);
+    return std::count_if(r.program.skipped.begin(), r.program.skipped.end(), [](const Skipped& s) { return s.may_move; });
+  };
+  CHECK(warnings(" C_DIS") == 1);
+  CHECK(warnings("") == 0);
 }
 
 TEST_CASE("krl: what an undecided branch may set is asked for where a move needs it") {
@@ -487,8 +537,8 @@ TEST_CASE("krl: what an interrupt writes is unknown while it may happen, and a s
   CHECK(asked.problems[0].what.find("'hit' may be written by the interrupt found") != std::string::npos);
   const Reading told = run(start + "hit=FALSE\nIF hit THEN\nLIN {X 800}\nENDIF" + handler, "BOOL hit=FALSE");
   REQUIRE(told.problem() == "no such problem");
-  REQUIRE(told.program.skipped.size() == 2);  // the frames are the controller's
-  CHECK(told.program.skipped[1].may_move);
+  REQUIRE(told.program.skipped.size() == 1);
+  CHECK(told.program.skipped[0].may_move);
   CHECK(told.program.instructions.size() == 2);
   // The handler is that of the module that declares the interrupt, wherever it is put on.
   const Reading elsewhere =
@@ -510,13 +560,29 @@ TEST_CASE("krl: what a TRIGGER sets is unknown behind it") {
   CHECK(r.problems[0].what.find("'b' is written by the TRIGGER in p.src:6") != std::string::npos);
 }
 
-TEST_CASE("krl: frames that the controller holds are told, and waiting alone is no motion") {
-  const Reading held = run("PTP " + pose);
-  REQUIRE(held.problem() == "no such problem");
-  REQUIRE(held.program.skipped.size() == 1);
-  CHECK(held.program.skipped[0].may_move);
-  CHECK(run("$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP " + pose).program.skipped.empty());
-  CHECK(run("PTP " + axes(1)).program.skipped.empty());
+TEST_CASE("krl: frames that the controller holds are asked for, and waiting alone is no motion") {
+  const auto reading = [](const std::string& body, const std::map<std::string, std::string>& values) {
+    Reader reader{Language::krl};
+    reader.options.values = values;
+    return reader({{"p.src", "DEF p()\n" + body + "\nEND\n"}});
+  };
+  const std::string held = "PTP " + pose + "\nPTP {Z 900}";
+  const Reading asked = reading(held, {});
+  std::set<std::string> names;
+  for (const Problem& problem : asked.problems)
+    for (const Question& question : problem.questions) {
+      names.insert(question.name);
+      CHECK(question.form == "{X .., Y .., Z .., A .., B .., C ..} in mm and deg");
+      CHECK(question.preset.empty());  // the null frame is not safe
+    }
+  CHECK(names == std::set<std::string>{"$tool", "$base"});
+  const std::string tool = "{X 0,Y 0,Z 100,A 0,B 0,C 0}";
+  const Reading given = reading(held, {{"$tool", tool}, {"$base", "$NULLFRAME"}});
+  REQUIRE(given.problem() == "no such problem");
+  CHECK(tool_length(given, 0) == Approx(0.1).epsilon(rounding));
+  CHECK(tool_length(reading("$TOOL.X=0\n$TOOL.Y=0\n" + held, {{"$tool", tool}, {"$base", "$NULLFRAME"}}), 0) == Approx(0.1).epsilon(rounding));
+  CHECK(reading("$TOOL=$NULLFRAME\n$BASE=$WORLD\n" + held, {}).problems.empty());
+  CHECK(reading("PTP " + axes(1), {}).problems.empty());
   CHECK(run("WAIT SEC 2").problem().find("moves the robot nowhere") != std::string::npos);
 }
 

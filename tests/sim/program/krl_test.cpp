@@ -8,6 +8,7 @@
 
 using namespace dresslife;
 using namespace dresslife::sim;
+using dresslife::tests::held_frames;
 using dresslife::tests::Reader;
 using dresslife::tests::Reading;
 
@@ -21,6 +22,7 @@ Reading run(const std::string& body, const std::string& data = "",
   std::vector<std::pair<std::string, std::string>> files{
       {"cell.src", "&ACCESS RVP\nDEF cell()\n" + body + "\nEND\n"}};
   if (!data.empty()) files.push_back({"cell.dat", "DEFDAT cell PUBLIC\n" + data + "\nENDDAT\n"});
+  files.push_back(held_frames);
   return Reader{Language::krl, {}, tools}(files);
 }
 

@@ -259,7 +259,8 @@ TEST_CASE("questions: data of inline forms are asked for as wholes, in their for
 TEST_CASE("questions: names are unique by module and by routine") {
   const Files krl = {{"m.src", "DEF m()\na()\nb()\nEND\n"},
                      {"a.src", "DEF a()\nPTP xp1\nEND\n"},
-                     {"b.src", "DEF b()\nPTP xp1\nEND\n"}};
+                     {"b.src", "DEF b()\nPTP xp1\nEND\n"},
+                     dresslife::tests::held_frames};
   CHECK(questions(Reader{Language::krl}(krl)) == std::set<std::string>{"value a:xp1", "value b:xp1"});
   Reader own{Language::krl};
   own.options.values = {{"a:xp1", "{A1 1,A2 0,A3 0,A4 0,A5 0,A6 0}"},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/program/import.h"
@@ -19,6 +20,10 @@ struct Reading {
   }
   const sim::Instruction& move(std::size_t i) const { return program.instructions.at(i); }
 };
+
+/// A KRL data list with $TOOL and $BASE, for programs that do not assign them.
+inline const std::pair<std::string, std::string> held_frames{
+    "$held.dat", "DEFDAT $HELD\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nENDDAT\n"};
 
 struct Reader {
   sim::Language language;
