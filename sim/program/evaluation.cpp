@@ -458,6 +458,9 @@ void Interpreter::assign(const Expression& target, Value value) {
   }
   Value* place = locate(target);
   if (!place) place = given_part(target);
+  if (const Variable* variable = place ? base_of(target) : nullptr; variable && variable->counter)
+    complain(target.place, fmt::format("writes to '{}', which only its FOR may do", base_name(target)),
+             "write to another variable");
   if (place) {
     if (place->type && value.kind == Value::Kind::list && !value.type) shape(value, place->type);
     if (value.kind == Value::Kind::unknown) value = forgotten(*place, typed_cause(value, place->type));
@@ -564,7 +567,7 @@ bool Interpreter::was_assigned(const Expression& expression) const {
 
 bool Interpreter::is_constant(const Variable& variable) {
   const Statement* declared = variable.datum ? &variable.datum->statement : variable.declaration;
-  return declared && declared->constant;
+  return variable.counter || (declared && declared->constant);
 }
 
 Interpreter::Variable* Interpreter::base_of(const Expression& expression) {

@@ -160,7 +160,7 @@ FanucSetting fanuc_setting(const std::string& statement) {
     if (!left.starts_with(list)) continue;
     FanucCursor at(std::string_view(left).substr(std::string_view(list).size()));
     const auto number = at.number();
-    if (!number) return {};
+    if (!number) return {fmt::format("{}[]", name)};
     FanucSetting setting{fmt::format("{}[{}]", name, *number), static_cast<int>(*number)};
     std::string_view field = std::string_view(left).substr(left.find(']') + 1);
     if (field.starts_with(".")) field.remove_prefix(1);
@@ -235,7 +235,8 @@ FanucEffects FanucOutlook::effects(const std::string& action) {
   } else if (word == "override" || word == "uframe_num" || word == "utool_num") {
     made.named.insert(word);
   } else if (word == "uframe" || word == "utool") {
-    if (const auto index = constant_index(at)) made.named.insert(fmt::format("{}[{}]", word, *index));
+    const auto index = constant_index(at);
+    made.named.insert(index ? fmt::format("{}[{}]", word, *index) : word + "[]");
   } else if (const FanucSetting setting = fanuc_setting(action); !setting.name.empty()) {
     made.named.insert(setting.name);
   } else if (word == "call" || word == "run") {

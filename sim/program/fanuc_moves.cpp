@@ -174,7 +174,9 @@ std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
   NamedFrame made{fmt::format("{}[{}]", list, number), {}, false};
   if (number == 0) return made;
   if (number < 0) return *given_frame(tool, list);  // the active one
-  if (const auto own = frames_.find({tool, number}); own != frames_.end()) {
+  auto own = frames_.find({tool, number});
+  if (own == frames_.end()) own = frames_.find({tool, any_frame});
+  if (own != frames_.end()) {
     if (own->second.frame) {
       made.frame = *own->second.frame;
       return made;
@@ -190,7 +192,7 @@ std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
   if (const NamedFrame* given = given_frame(tool, made.name)) return *given;
   const auto& backup = tool ? around_.variables.tools : around_.variables.frames;
   if (const auto found = backup.find(number);
-      found != backup.end() && found->second.known() && !frames_.contains({tool, number})) {
+      found != backup.end() && found->second.known() && own == frames_.end()) {
     made.frame = frame_of_fanuc(found->second.values);
     return made;
   }

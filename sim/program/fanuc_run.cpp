@@ -336,6 +336,7 @@ void FanucRun::assignment(const std::string& word, FanucCursor& at) {
     if (setting.number > 0 && whole_frame) return set_frame(tool, setting.number, at);
     if (setting.number > 0 && setting.component > 0)
       return set_frame_component(tool, setting.number, setting.component, at);
+    if (setting.number == 0) return forget_frames(tool, values_.causes());
     return note(word + ": changes a frame of the controller", true);
   }
   switch (fanuc_word(word)) {
@@ -564,8 +565,8 @@ std::optional<FanucPosition> FanucRun::position_sum(FanucCursor& at) {
 void FanucRun::assign_frame(const std::string& word, FanucCursor& at) {
   const auto index = values_.index(at);
   at.skip_to('=');
-  if (!index || !index->number || index->group != 1)
-    return note(word + ": a frame of another group or number", true);
+  if (!index || index->group != 1) return note(word + ": a frame of another group", true);
+  if (!index->number) return forget_frames(word == "utool", values_.causes());
   if (whole(*index->number) == 0)
     return note(word + "[0] is fixed, nothing can be assigned to it: the controller stops here", true);
   set_frame(word == "utool", whole(*index->number), at);
@@ -644,9 +645,19 @@ void FanucRun::forget(const FanucEffects& effects, const FanucCauses& why) {
     if (name.find('[') == std::string::npos) values_.set_named(name, {});
     FanucCursor at(name);
     const bool tool = at.word() == "utool";
-    if (const auto number = at.take_sign('[') ? at.number() : std::nullopt)
+    if (!at.take_sign('[')) continue;
+    if (const auto number = at.number())
       frames_[{tool, whole(*number)}] = {{}, why};
+    else
+      forget_frames(tool, why);
   }
+}
+
+/// One of them is assigned, and it is not known which.
+void FanucRun::forget_frames(bool tool, const FanucCauses& why) {
+  for (auto& [frame, assigned] : frames_)
+    if (frame.first == tool) assigned = {{}, why};
+  frames_[{tool, any_frame}] = {{}, why};
 }
 
 /// Whether the called program that runs moves nothing wherever it jumps: then it ends here, and what it may

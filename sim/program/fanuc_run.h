@@ -80,6 +80,7 @@ class FanucRun {
   std::optional<FanucPosition> position_sum(FanucCursor& at);
   void assign_frame(const std::string& word, FanucCursor& at);
   void set_frame(bool tool, int number, FanucCursor& at);
+  void forget_frames(bool tool, const FanucCauses& why);
   void set_frame_component(bool tool, int number, int component, FanucCursor& at);
   void if_statement(FanucCursor& at);
   std::optional<bool> undecided(const std::string& action);
@@ -155,6 +156,7 @@ class FanucRun {
     std::optional<Frame> frame;  // absent: not known
     FanucCauses why;             // it is not
   };
+  static constexpr int any_frame = -1;                    // number of one that nobody knows
   std::map<std::pair<bool, int>, AssignedFrame> frames_;  // (tool?, number) that the program assigned
   std::optional<FanucPosition> last_;                     // where the robot is: JPOS and LPOS
   std::string offset_condition_, tool_offset_condition_;  // PR[n] of OFFSET CONDITION

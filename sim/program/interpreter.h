@@ -222,6 +222,7 @@ class Interpreter {
     Value value;
     Place written;          // where it was declared or last assigned; line 0: by no line
     bool assigned = false;  // since it was declared: part of the program's state
+    bool counter = false;   // of a FOR that runs, which alone writes to it
     std::string alias{};    // of a parameter: the name that the caller gave
     const Statement* declaration = nullptr;  // null: of a parameter, or made by an assignment
   };

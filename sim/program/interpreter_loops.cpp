@@ -124,7 +124,12 @@ Expression Interpreter::counter_of(const Statement& statement) {
 
 Interpreter::Flow Interpreter::run_count(const Statement& statement) {
   std::optional<bool> decision = assumed(statement.place);
-  if (decision && !*decision) return Flow::next;
+  const auto end_unknown = [&] {  // where the counter stands behind a loop whose end is not known
+    if (statement.keeps_counter)
+      make_unknown(counter_of(statement), {"", "is the counter of the loop in " + short_place(statement.place)});
+    return Flow::next;
+  };
+  if (decision && !*decision) return end_unknown();
   const auto from = number(statement.arguments[0]), to = number(statement.arguments[1]);
   const Expression& written_step = statement.arguments[2];
   std::optional<double> step = from && to && *to < *from ? -1 : 1;  // RAPID counts either way
@@ -137,7 +142,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
     decision = ask(statement.place,
                    "counts to what is known only while the robot runs (then: one pass, else: none)", unknown,
                    "then or =else", 2, true, "a number") == 0;
-    if (!*decision) return Flow::next;
+    if (!*decision) return end_unknown();
   }
   const double first = from.value_or(1), last = decision ? first : *to, by = decision ? 1 : *step;
   Scope& variables = locals_.back();
@@ -150,7 +155,8 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
     } else {
       variables.insert_or_assign(statement.name, Variable{.state = Variable::State::ready,
                                                           .value = number_value(value),
-                                                          .written = statement.place});
+                                                          .written = statement.place,
+                                                          .counter = true});
     }
   };
   Round round(*this, statement.place);
@@ -171,7 +177,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
     value = counter.number + by;
   }
   if (statement.keeps_counter) {
-    if (flow == Flow::next) count(value);
+    if (flow == Flow::next) decision ? static_cast<void>(end_unknown()) : count(value);
   } else if (hidden) {
     variables.insert_or_assign(statement.name, *hidden);
   } else {

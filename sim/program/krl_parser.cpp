@@ -586,7 +586,7 @@ void add_krl_types(Code& code) {
       "CP $VEL,$ACC\n"
       "CONT $APO\n"
       "REAL $VEL_AXIS[12],$ACC_AXIS[12]\n"
-      "FRAME $TOOL,$BASE\n"
+      "FRAME $TOOL,$BASE,$ROBROOT\n"
       "LOAD $LOAD\n"
       "IPO_MODE $IPO_MODE\n"
       "ORI_TYPE $ORI_TYPE\n"

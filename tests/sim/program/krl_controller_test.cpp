@@ -167,6 +167,23 @@ TEST_CASE("krl: FOR goes on from what its body makes of the counter") {
   CHECK(first_axes(r) == std::vector<double>{1, 3, 5, 7});
 }
 
+TEST_CASE("krl: the counter behind a FOR whose end is not known is not known") {
+  const std::string loop = "INT n,m\nn=3\nPTP " + axes(9) + "\nFOR n=1 TO m\n";
+  const std::string use = "ENDFOR\nIF n==2 THEN\nPTP " + axes(2) + "\nENDIF";
+  ImportOptions one_pass;
+  one_pass.assume["p.src:5"] = Assumption::then_branch;
+  for (const std::string body : {"PTP {A1 n}\n", "$FLAG[1]=TRUE\n"}) {
+    INFO(body);
+    CHECK(run(loop + body + use, "", {}, {Language::krl, one_pass}).problems.size() == 1);
+    ImportOptions none = one_pass;
+    none.assume["p.src:5"] = Assumption::else_branch;
+    CHECK(run(loop + body + use, "", {}, {Language::krl, none}).problems.size() == 1);
+  }
+  CHECK(run(loop + "$FLAG[1]=TRUE\n" + use).problems.size() == 1);
+  CHECK(first_axes(run("INT n\nFOR n=1 TO 1\n$FLAG[1]=TRUE\nENDFOR\nIF n==2 THEN\nPTP " + axes(2) + "\nENDIF")) ==
+        std::vector<double>{2});
+}
+
 TEST_CASE("krl: WITH sets speed, approximation, tool and base for its move alone") {
   const Reading r = run(
       "$VEL.CP=1.5\nSPTP " + pose +
@@ -449,7 +466,7 @@ TEST_CASE("krl: a stop in a branch that is left out is reported where a blend de
 
 TEST_CASE("krl: what an undecided branch may set is asked for where a move needs it") {
   for (const char* sets : {"$VEL.CP=0.1", "$ACC.CP=0.5", "$APO.CDIS=50", "$ORI_TYPE=#CONSTANT", "$CIRC_TYPE=#PATH", "$IPO_MODE=#TCP",
-                           "$TOOL.Z=200", "$BASE=$NULLFRAME", "$OV_PRO=50", "$VEL_AXIS[1]=10", "f.X=950", "slow()"}) {
+                           "$TOOL.Z=200", "$BASE=$NULLFRAME", "$ROBROOT={X 0,Y 0,Z 500,A 0,B 0,C 0}", "$ROBROOT.Z=500", "$OV_PRO=50", "$VEL_AXIS[1]=10", "f.X=950", "slow()"}) {
     INFO(sets);
     const std::string body = "DECL FRAME f\n$TOOL={X 0,Y 0,Z 100,A 0,B 0,C 0}\n$BASE=$NULLFRAME\n$VEL.CP=0.5\n$ACC.CP=1\n"
                              "$APO.CDIS=10\nf={X 900,Y 0,Z 900,A 0,B 80,C 0}\nPTP " + axes(0) + "\nIF $IN[1] THEN\n" + sets +
