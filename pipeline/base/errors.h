@@ -23,6 +23,8 @@ class InputError : public std::runtime_error {
  public:
   /// what: the problem; remedy: what to do about it. Reads "WHERE: error: WHAT; REMEDY".
   InputError(const Where& where, const std::string& what, const std::string& remedy);
+  /// The words of another one, with more lines.
+  explicit InputError(const std::string& words) : std::runtime_error(words) {}
 };
 
 /// A file is there and cannot be read: nothing is known of what it holds. This is no InputError: what is damaged

@@ -45,6 +45,7 @@ struct Choice {
   Node routing;
   std::string source;
   std::vector<std::string> faults = {};  ///< what dresslife check says of it
+  std::vector<std::string> doubts = {};  ///< and of the program, whatever the routing
   bool refused = false;
 };
 
@@ -113,7 +114,10 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
     const JobCheck check = check_of(file.path(), {});
     choice.refused = !check.refusal.empty();
     if (choice.refused) choice.faults.push_back(check.refusal);
-    for (const Warning& warning : check.warnings) choice.faults.push_back(warning.line());
+    for (const Warning& warning : check.warnings) {
+      const bool of_program = warning.kind == WarningKind::program || warning.kind == WarningKind::motion;
+      (of_program ? choice.doubts : choice.faults).push_back(warning.line());
+    }
   } catch (const InputError& problem) {
     choice.refused = true;
     choice.faults.emplace_back(problem.what());
@@ -258,6 +262,7 @@ int make(Options options) {
     fs::create_directories(folder);
   write_text_if_changed(options.job, with_mark(text_of(options, draft, choice, accelerations), Mark::yaml));
   print(shown(fmt::format("Job: {}\n", options.job)));
+  for (const std::string& doubt : choice.doubts) print(shown(doubt + "\n"));
   if (options.dresspack_is_example)
     print(fmt::format("Its dresspack {} is an example for a large robot: name yours.\n", default_dresspack));
   if (accelerations > 0) print("Fill in the accelerations of its axes.\n");

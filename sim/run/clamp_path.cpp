@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numbers>
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/setup.h"
@@ -75,6 +76,70 @@ std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const
                                "robot: the one for which the program was written")};
 }
 
+/// Steps that give a time in which no axis of the robot gets there.
+struct TooFast {
+  int count = 0, axis = 0;
+  double ratio = 0, time = 0, speed = 0;  ///< of the worst one: to the limit, at its end [s], that it asks for [rad/s or m/s]
+  const pipeline::MotionStep* worst = nullptr;
+};
+
+/// before: the step that they follow; null: none. time: [s] at which they begin. Returns the time at their end.
+double add_too_fast(const std::vector<pipeline::MotionStep>& steps, const std::vector<Axis>& axes,
+                    const pipeline::MotionStep*& before, double time, TooFast& found) {
+  constexpr double rounding = 1.01;  // of times and angles in recordings
+  for (const pipeline::MotionStep& step : steps) {
+    if (step.repeat > 0) {
+      const double end = add_too_fast(step.steps, axes, before, time, found);
+      time += step.repeat * (end - time);
+      continue;
+    }
+    time += step.dwell + step.duration.value_or(0);
+    if (!step.is_move()) continue;
+    double worst = rounding;
+    const std::size_t count = before && step.duration.value_or(0) > 0 ? std::min(step.joints.size(), before->joints.size()) : 0;
+    for (std::size_t i = 0; i < std::min(count, axes.size()); ++i) {
+      const double speed = std::abs(step.joints[i] - before->joints[i]) / *step.duration, ratio = speed / axes[i].speed;
+      if (ratio > worst && ratio > found.ratio) found = {found.count, static_cast<int>(i), ratio, time, speed, &step};
+      worst = std::max(worst, ratio);
+    }
+    found.count += worst > rounding;
+    before = &step;
+  }
+  return time;
+}
+
+/// Times that the robot cannot keep: the motion is slower there.
+std::vector<pipeline::Warning> too_fast(const pipeline::Motion& motion, const pipeline::Robot& robot) {
+  TooFast found;
+  const std::vector<Axis> axes = axes_of(robot);
+  const pipeline::MotionStep* before = nullptr;
+  add_too_fast(motion.steps, axes, before, 0, found);
+  if (found.count == 0) return {};
+  const Axis& axis = axes[static_cast<std::size_t>(found.axis)];
+  const double unit = axis.turns ? std::numbers::pi / 180 : 1e-3;
+  const char* const name = axis.turns ? "deg/s" : "mm/s";
+  return {pipeline::warning_of(
+      pipeline::WarningKind::motion, found.worst->where.text(),
+      fmt::format("{} is to move at {:.1f} {} up to {:.6g} s (limit {:.1f} {}){}: the robot takes longer", axis.name,
+                  found.speed / unit, name, found.time, axis.speed / unit, name,
+                  found.count > 1 ? fmt::format(", and {} further steps are too fast", found.count - 1) : ""),
+      "times or angles in another unit, or a recording of a faster robot",
+      "times that the robot can keep, or the axis' limit in robot.joints if it is larger")};
+}
+
+/// The motion in time. Errors: InputError, with what other_maker() says.
+JointMotion motion_in_time(const RunMotion& run, const pipeline::Setup& setup) {
+  try {
+    return {run.motion, setup.robot};
+  } catch (const pipeline::InputError& error) {
+    std::string words = error.what();
+    const auto doubts = other_maker(setup.motion, setup.robot);
+    if (doubts.empty()) throw;
+    for (const pipeline::Warning& doubt : doubts) words += "\n" + doubt.line();
+    throw pipeline::InputError(words);
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup) {
@@ -86,10 +151,10 @@ RobotPath::RobotPath(const pipeline::Setup& setup) : RobotPath(setup, run_motion
 
 RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
     : kinematics_(setup.robot),
-      motion_(run.motion, setup.robot),
+      motion_(motion_in_time(run, setup)),
       doubts_(pipeline::joined(
           pipeline::joined(pipeline::joined(run.motion.left_out, missing_external_axes(run.motion, setup.robot)),
-                           other_maker(setup.motion, setup.robot)),
+                           pipeline::joined(other_maker(setup.motion, setup.robot), too_fast(run.motion, setup.robot))),
           setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
                                        : pipeline::plausibility_of_steps(run.motion))),
       note_(run.note),

@@ -207,6 +207,47 @@ TEST_CASE("clamp path: external axes that the motion moves and the robot does no
   CHECK(RobotPath(job).doubts().empty());
 }
 
+TEST_CASE("clamp path: times that an axis cannot keep are named, the worst with axis, time, speed and limit") {
+  pipeline::Job job = turning_job();  // 2 rad/s = 114.6 deg/s
+  const auto doubts = [&](const std::vector<double>& angles) {
+    pipeline::MotionStep step = job.motion.steps[0];
+    job.motion.steps = {step};
+    for (const double angle : angles) {
+      step.joints = {angle};
+      step.duration = 0.5;
+      step.where = {"log.csv", static_cast<int>(job.motion.steps.size()) + 2, 1};
+      job.motion.steps.push_back(step);
+    }
+    return RobotPath(job).doubts();
+  };
+  CHECK(doubts({1, 2, 1}).empty());  // at the limit
+  const auto named = doubts({1.2, 0, 1.5});
+  REQUIRE(named.size() == 1);
+  CHECK(named[0].where == "log.csv:5:1");
+  CHECK(named[0].words.starts_with("table is to move at 171.9 deg/s up to 1.5 s (limit 114.6 deg/s), and 2 further steps are too "
+                                   "fast: the robot takes longer"));
+  CHECK(named[0].words.find("Remedy: ") != std::string::npos);
+}
+
+TEST_CASE("clamp path: a program of another maker that the robot cannot follow is named beside the error") {
+  const TemporaryFile program("far.src", "DEF far()\nPTP {A1 0,A2 0,A3 0,A4 0,A5 0,A6 0}\nEND\n");
+  pipeline::Job job = turning_job();
+  job.motion = {};
+  job.motion.program = program.path();
+  const auto words = [&](const std::string& robot) {
+    job.robot.name = robot;
+    try {
+      const RobotPath path(job);
+    } catch (const pipeline::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(words("KUKA KR 16").find("error: ") != std::string::npos);
+  CHECK(words("KUKA KR 16").find("is one of KUKA") == std::string::npos);
+  CHECK(words("Fanuc M-20iA").find("is one of KUKA, and the robot is Fanuc M-20iA") != std::string::npos);
+}
+
 TEST_CASE("clamp path: a clamp on no link is named") {
   pipeline::Job job = turning_job();
   job.dresspacks[0].routing.tool_clamp->link = "tabel";
