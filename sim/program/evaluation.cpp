@@ -435,7 +435,14 @@ std::optional<Value> Interpreter::character_of(const Expression& expression) {
 Value Interpreter::unknown_index(const Expression& expression) {
   if (expression.kind == Kind::field) return unknown_index(expression.items[0]);
   for (std::size_t i = 1; expression.kind == Kind::element && i < expression.items.size(); ++i)
-    if (const Value index = evaluate(expression.items[i]); !index.known()) return unknown_value(index);
+    if (const Value index = evaluate(expression.items[i]); !index.known()) {
+      // Of a list that holds nothing known the element is asked for too, in the same round.
+      const Value list = evaluate(expression.items[0]);
+      const bool empty = list.kind == Value::Kind::unknown || std::none_of(list.items.begin(), list.items.end(), [](const Value& item) {
+                           return item.kind != Value::Kind::unknown && item.first_cause() == nullptr;
+                         });
+      return empty && list.first_cause() ? unknown_value(index, list) : unknown_value(index);
+    }
   return {};
 }
 
@@ -661,7 +668,16 @@ std::string Interpreter::form_of(const std::string& name) {
   const Variable* variable = part ? nullptr : find(path);
   const Statement* declared =
       !variable ? nullptr : variable->datum ? &variable->datum->statement : variable->declaration;
-  return declared && declared->arguments.size() == 1 ? dialect_.form_of(declared->text) : "";
+  if (!declared) return "";
+  const std::string form = dialect_.form_of(declared->text);
+  if (declared->arguments.size() == 1) return form;
+  std::string sizes;  // of a list
+  for (std::size_t i = 1; i < declared->arguments.size(); ++i) {
+    const auto size = number(declared->arguments[i]);
+    if (!size) return "";
+    sizes += fmt::format("{}{}", i > 1 ? " x " : "", *size);
+  }
+  return dialect_.gives_lists() && !form.empty() ? fmt::format("[.., ..], {} times {}", sizes, form) : "";
 }
 
 Value Interpreter::aggregate(const Expression& expression) {

@@ -216,6 +216,22 @@ void tell_external_axes(Program& program) {
                    moving, entries)});
 }
 
+/// Takes out the frames that no move uses: those of passes that were cut off.
+void drop_unused(std::vector<NamedFrame>& frames, int Instruction::* index, std::vector<Instruction>& instructions) {
+  std::vector<int> now(frames.size(), -1);
+  for (const Instruction& instruction : instructions)
+    if (instruction.*index >= 0) now[static_cast<std::size_t>(instruction.*index)] = 0;
+  std::vector<NamedFrame> used;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    if (now[i] == 0) {
+      now[i] = static_cast<int>(used.size());
+      used.push_back(std::move(frames[i]));
+    }
+  for (Instruction& instruction : instructions)
+    if (instruction.*index >= 0) instruction.*index = now[static_cast<std::size_t>(instruction.*index)];
+  frames = std::move(used);
+}
+
 bool moves_anywhere(const Program& program) {
   return std::any_of(program.instructions.begin(), program.instructions.end(),
                      [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
@@ -272,6 +288,8 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
       read_ros_trajectory(files[0], options, program, problems);
       break;
   }
+  drop_unused(program.tools, &Instruction::tool, program.instructions);
+  drop_unused(program.work_objects, &Instruction::work_object, program.instructions);
   if (problems.empty() && !moves_anywhere(program)) tell_nothing(program, options, problems);
   tell_external_axes(program);
   return program;

@@ -360,7 +360,20 @@ class Inform final : public Dialect {
                   fmt::format("moves to {}, which is known only while the robot runs", shown(written)),
                   "give VAR.DAT of the backup (--module), or the job that holds its value (///NPOS)",
                   position_form);
+    for (const int tool : tools_of_jobs()) frame(true, tool, written.place);  // its tool is asked for in the same round
     return {};
+  }
+
+  /// Numbers of the tools with which positions of the jobs were taught; without any the first one, TL#(0).
+  std::set<int> tools_of_jobs() const {
+    std::set<int> numbers;
+    for (const Datum& datum : code_.data) {
+      const std::vector<Expression>& written = datum.statement.arguments;
+      const bool position = datum.statement.text == "position" && datum.statement.name.find('#') == std::string::npos &&
+                            !written.empty() && written[0].items.size() == 5;
+      if (const double tool = position ? written[0].items[3].number : -1; tool >= 0) numbers.insert(static_cast<int>(tool));
+    }
+    return numbers.empty() ? std::set<int>{0} : numbers;
   }
 
   /// Where the robot is: the last target.

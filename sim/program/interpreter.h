@@ -107,6 +107,8 @@ class Dialect {
   virtual const RecordType* type_of(const std::string& name) const = 0;
   /// How a value of a type is written: "a number"; empty: as it is in the program.
   virtual std::string form_of(const std::string& type) const = 0;
+  /// Whether a value can be a whole list.
+  virtual bool gives_lists() const { return true; }
   /// Where files hold copies of data of the controller, which differ if they were saved at different times: how such a value is
   /// written, which is asked for then. Absent: two files that differ are a mistake.
   virtual std::optional<std::string> form_of_copies(const std::string&) const { return {}; }

@@ -669,6 +669,8 @@ bool Krl::wait(const Statement& statement, Interpreter& run) {
   if (!time.is_number()) {
     run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
                 "write it as a constant", "a time in s");
+  } else if (statement.continued && !run.program().instructions.empty()) {
+    run.note(statement.place, "CONTINUE: the time passes while the robot moves, and is not added to the motion", true);
   } else if (time.number > 0) {  // the controller does not wait for 0 and less
     Instruction wait;
     wait.kind = Instruction::Kind::dwell;

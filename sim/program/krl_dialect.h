@@ -32,6 +32,7 @@ class Krl final : public Dialect {
   Value initial(const std::string& type) const override;
   void store(Value& place, Value value) const override;
   std::string form_of(const std::string& type) const override;
+  bool gives_lists() const override { return false; }
   Value of_form(const Value& value, const char* type) const;
   std::optional<double> letter(const Value& text) const override;
   bool shares(const std::string& name, int module) const override;

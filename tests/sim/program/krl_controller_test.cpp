@@ -411,6 +411,12 @@ TEST_CASE("krl: the robot stops where the controller, which runs ahead, waits fo
   for (const char* goes_on : {"", "; a comment with $OUT[1]", "CONTINUE\n$OUT[1]=TRUE", "CONTINUE\nWAIT FOR $IN[1]", "$FLAG[1]=TRUE",
                               "TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE", "INTERRUPT DECL 9 WHEN $IN[1] DO halted()"})
     CHECK(blends(goes_on));
+  // A time behind CONTINUE passes while the robot moves.
+  const Reading ahead = run("$VEL.CP=1\n$APO.CDIS=10\nCONTINUE\nWAIT SEC 2\nLIN " + pose + " C_DIS\nCONTINUE\nWAIT SEC 1\nLIN {X 900}");
+  REQUIRE(ahead.program.instructions.size() == 3);
+  CHECK(ahead.move(0).dwell == 2);
+  CHECK(ahead.move(1).zone.distance > 0);
+  CHECK(ahead.program.skipped.at(0).may_move);
   // Without moves read ahead none is approximated.
   const Reading none = run("$VEL.CP=1\n$APO.CDIS=10\n$ADVANCE=0\nLIN " + pose + " C_DIS\n$ADVANCE=3\nLIN {X 900} C_DIS\nLIN {X 800}");
   CHECK(none.move(0).zone.distance == 0);

@@ -132,6 +132,16 @@ TEST_CASE("rapid controller: ConfL and ConfJ in an undecided branch are asked fo
   }
 }
 
+TEST_CASE("rapid controller: frames of passes that are cut off are none of the motion") {
+  const Reading r = run("w.oframe.trans.x:=w.oframe.trans.x+1;\nMoveL p,v100,fine,tool0\\WObj:=w;\n",
+                        pose + "PERS wobjdata w:=[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n");
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 1);
+  CHECK(r.move(0).work_object == 0);
+  REQUIRE(r.program.work_objects.size() == 1);
+  CHECK(r.program.work_objects[0].frame.position.x() == Approx(0.001));
+}
+
 TEST_CASE("rapid controller: ConfL frees lines, ConfJ joint moves") {
   const Reading lines =
       run("ConfL\\Off;\nMoveJ p,v1000,fine,tool0;\nMoveL Offs(p,0,0,-100),v1000,fine,tool0;\n", pose);
