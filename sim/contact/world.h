@@ -83,6 +83,8 @@ class World {
   const std::vector<Contact>& contacts() const;
   const Rod& rod() const;
   double time_step() const;
+  /// Of all steps so far, in steps of one segment without contact. A contact's impulse moves all segments and all contacts.
+  double work() const;
 
  private:
   struct Parts;

@@ -26,6 +26,7 @@ constexpr double degree = EIGEN_PI / 180;
 constexpr int tried_lengths = 8, tried_poses = 8;  // 256 equilibria with four pairs of directions: a second
 constexpr double margin = 1.05;  // of a limit at rest and in a short run: a program at work adds to it
 constexpr std::array<std::size_t, 4> most_tried{4, 3, 3, 3};  // by the checks, of each pair of directions: a second each
+constexpr double most_work = 1e7;  // of all trials of one job: ten seconds
 constexpr int most_segments = 32;  // of a trial: a bend radius within a few percent
 
 std::string in_words(double value, const std::string& unit) {
@@ -120,9 +121,10 @@ class RestTrials {
 
 std::string radius_words(double curvature) { return in_words(1 / curvature, "m"); }
 
-std::string no_other_words(const std::string& limit) {
-  return fmt::format("no length and no direction of these two clamps keeps the limit{}, so that a clamp must move: "
-                     "`dresslife route` finds other clamps",
+std::string no_other_words(const CheckedMotion& motion, const std::string& limit) {
+  return fmt::format("{} keeps the limit{}, so that a clamp must move: `dresslife route` finds other clamps",
+                     motion.work > most_work ? "no length and no direction of these two clamps that was tried in the time of a check"
+                                             : "no length and no direction of these two clamps",
                      limit);
 }
 
@@ -133,9 +135,11 @@ bool is_among(const Kinds& kinds, const Check& check) {
 
 /// Whether a changed job keeps the limits of these kinds, and passes no other one than the job does now. Most that do not
 /// are found with few segments.
-bool cures(const pipeline::Setup& changed, const Kinds& kinds, int dresspack, const std::vector<Check>& now,
-           int segments = rest_segments) {
+bool cures(const CheckedMotion& motion, const pipeline::Setup& changed, const Kinds& kinds, int dresspack,
+           const std::vector<Check>& now, int segments = rest_segments) {
+  if (motion.work > most_work) return false;
   const QuickFindings found = quick_findings(changed, segments);
+  motion.work += found.run.work;
   if (!found.run.refusal.empty()) return false;
   const bool cured = std::all_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
     if (check.dresspack != dresspack) return true;
@@ -146,7 +150,7 @@ bool cures(const pipeline::Setup& changed, const Kinds& kinds, int dresspack, co
     }));
   });
   const bool coarse = segments < std::min(short_run_segments, changed.simulation.segments);
-  return cured && (!coarse || cures(changed, kinds, dresspack, now, short_run_segments));
+  return cured && (!coarse || cures(motion, changed, kinds, dresspack, now, short_run_segments));
 }
 
 /// A routing between the same links.
@@ -226,7 +230,7 @@ class RemedySearch {
     to.pre_twist = change.pre_twist;
     if (change.turned[0]) to.base_clamp->direction = direction(0);
     if (change.turned[1]) to.tool_clamp->direction = direction(1);
-    return cures(changed, {WarningKind::bend_radius, WarningKind::slack}, dresspack_, checks_);
+    return cures(motion_, changed, {WarningKind::bend_radius, WarningKind::slack}, dresspack_, checks_);
   }
 
   std::string words_of(const Change& change) const {
@@ -272,7 +276,7 @@ double slower(const CheckedMotion& motion, const std::vector<Check>& checks, con
   for (int k = 0; k < most && next >= 1; ++k, next = std::floor(less * next)) {
     pipeline::Setup changed = motion.setup;
     changed.motion.acceleration_percent = next;
-    if (cures(changed, {WarningKind::bend_radius}, broken.dresspack, checks)) return next;
+    if (cures(motion, changed, {WarningKind::bend_radius}, broken.dresspack, checks)) return next;
   }
   return 0;
 }
@@ -320,7 +324,7 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
       if (check.kind == WarningKind::bend_radius && check.dresspack == broken.dresspack) least = std::min(least, check.value);
     remedy = fmt::format("{}: {:.0f} if the maker allows it; {}",
                          key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), std::floor(1e3 * least),
-                         no_other_words(std::isinf(search.best().curvature)
+                         no_other_words(motion, std::isinf(search.best().curvature)
                                             ? ""
                                             : fmt::format(" (best at rest: {} m, {})", at_least_metres(search.best().length),
                                                           radius_words(search.best().curvature))));
@@ -350,7 +354,7 @@ Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
     pipeline::Routing& to = changed.dresspacks[static_cast<std::size_t>(broken.dresspack)].routing;
     to.free_length = free_length;
     to.pre_twist = pre_twist;
-    return cures(changed, {WarningKind::twist}, broken.dresspack, checks);
+    return cures(motion, changed, {WarningKind::twist}, broken.dresspack, checks);
   };
   const std::string other_link = "the tool clamp on a link that turns less";
   if (half_range < broken.limit * length && std::abs(centre) > 0.02 * most &&
@@ -387,10 +391,10 @@ Cure slack_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
   if (!can_be_tried(motion, broken.dresspack)) return {cause, alone};
   pipeline::Setup changed = motion.setup;
   changed.dresspacks[static_cast<std::size_t>(broken.dresspack)].routing.free_length = wanted;
-  if (cures(changed, {WarningKind::bend_radius, WarningKind::slack}, broken.dresspack, checks)) return {cause, alone};
+  if (cures(motion, changed, {WarningKind::bend_radius, WarningKind::slack}, broken.dresspack, checks)) return {cause, alone};
   const RestTrials trials(motion, broken);
   const std::string remedy = RemedySearch(motion, checks, trials, broken.dresspack).words();
-  return {cause, remedy.empty() ? alone + " for the slack alone; " + no_other_words(" of the bend radius") : remedy};
+  return {cause, remedy.empty() ? alone + " for the slack alone; " + no_other_words(motion, " of the bend radius") : remedy};
 }
 
 Cure tension_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
@@ -436,7 +440,7 @@ std::string remedy_for(const CheckedMotion& motion, int dresspack, double time, 
   const RestTrials trials(motion, refused);
   const std::vector<Check> none;
   const std::string remedy = RemedySearch(motion, none, trials, dresspack).words();
-  return remedy.empty() ? untried + "; " + no_other_words("s") : remedy;
+  return remedy.empty() ? untried + "; " + no_other_words(motion, "s") : remedy;
 }
 
 }  // namespace

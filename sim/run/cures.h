@@ -26,6 +26,7 @@ struct CheckedMotion {
   std::function<std::string(double)> moment;  ///< "at 1.2 s, program step 3 'text'"
   const Rod* rod = nullptr;                   ///< null: a prescribed deformation
   const ClampPath* path = nullptr;            ///< null: a prescribed deformation
+  mutable double work = 0;                    ///< of short runs that tried remedies, as World::work
 };
 
 struct Cure {

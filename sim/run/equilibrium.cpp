@@ -17,6 +17,7 @@ constexpr int most_saddles = 10;
 constexpr double least_gain = 1e-4;        // a step must free this share of the work it promises
 constexpr double shift_factor = 4;         // by which the shift grows and shrinks
 constexpr double smallest_step = 1e-13;    // of the length: rounding of positions
+constexpr double settling_work = 5;  // of a step without contact, for each step: usual contacts take 3
 constexpr double energy_rounding = 1e-12;  // of the energies summed over some hundred links
 
 /// The tangent stiffness and the unbalanced forces of one state, and the Newton step from it.
@@ -453,7 +454,8 @@ Equilibrium settle(World& world, std::span<const Frame> links, int steps, double
   const ClampFrames clamps = rod.home(world.state());
   Equilibrium result;
   double energy_before = 0, speed_before = 0;
-  for (result.iterations = 1; result.iterations <= steps; ++result.iterations) {
+  const double most_work = world.work() + settling_work * steps * rod.segments();
+  for (result.iterations = 1; result.iterations <= steps && world.work() <= most_work; ++result.iterations) {
     if (!world.advance(clamps, links).finite) return result;
     double fastest = 0;
     for (const Vector3& v : world.state().velocity) fastest = std::max(fastest, v.norm());

@@ -64,8 +64,8 @@ std::vector<TwistFreeClamp> rest_shapes(const RodProperties& hose, const ClampFr
                                         const EquilibriumSettings& settings = {});
 
 /// Lets the chain come to rest in the world, among its obstacles, by steps whose velocities are taken away as
-/// soon as the kinetic energy falls. Any number of spans; clamps and links stay. iterations counts steps;
-/// residual is the largest speed left [m/s].
+/// soon as the kinetic energy falls. Any number of spans; clamps and links stay. iterations counts steps, fewer
+/// than `steps` where hundreds of contacts make them slow; residual is the largest speed left [m/s].
 Equilibrium settle(World& world, std::span<const Frame> links = {}, int steps = 20000, double speed = 1e-4);
 
 }  // namespace dresslife::sim

@@ -370,11 +370,18 @@ class Mounting {
     const Equilibrium found = settle(*world, pose.links, settling_steps, rest);
     if (found.status == EquilibriumStatus::too_short)
       fail(rod_.most_stretched(found.state).dresspack, "is drawn taut when it is clamped");
-    if (found.status != EquilibriumStatus::converged && !(found.residual < near_rest))
-      fail(0,
-           fmt::format("{} (it still moves at {:.3g} m/s)",
-                       rod_.dresspacks() > 1 ? "or another does not come to rest" : "does not come to rest",
-                       found.residual));
+    if (found.status != EquilibriumStatus::converged && !(found.residual < near_rest)) {
+      const std::size_t contacts = world->contacts().size();
+      const std::string what =
+          fmt::format("{} (it still moves at {:.3g} m/s{})",
+                      rod_.dresspacks() > 1 ? "or another does not come to rest" : "does not come to rest", found.residual,
+                      contacts > 0 ? fmt::format(", with {} contacts", contacts) : "");
+      RoutingRefusal refusal(routing(0).where, fmt::format("{} {}", pipeline::dresspack_words(setup_, 0), what),
+                             "check diameter and stiffness of the dresspack, the free length and the clamps' places and "
+                             "directions in the mounting pose (dresslife preview shows them)", 0);
+      refusal.work = world->work();
+      throw refusal;
+    }
     RodState still = found.state;
     for (int i = 0; i < rod_.segments(); ++i) still.velocity[i] = still.angular_velocity[i] = Vector3::Zero();
     for (Travel& travel : still.travel) travel.speed = 0;

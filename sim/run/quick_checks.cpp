@@ -29,6 +29,8 @@ constexpr int mounting_moments = 100;  // of the way from the mounting pose to t
 // Between two rests: far below the half turn at which the shorter way around is the other one.
 constexpr double rest_turn = 20 * degree;
 constexpr double rest_way = 0.05;  // the same for displacements, of the length: a hose sags by as much
+constexpr double short_run_work = 5e6;  // a few seconds: two repeats of three minutes, 64 segments without contact
+constexpr double lead_in_share = 0.5;  // of it: a motion that takes longer runs once, from rest
 constexpr double same_radius = 0.05;  // of a bend radius: what few segments leave of doubt
 
 pipeline::Setup with_segments(pipeline::Setup setup, int most) {
@@ -61,11 +63,16 @@ class QuickChecks {
     add_slack(found.checks);
     if (robot_) found.others = robot_->doubts();
     add_rests(found);
+    if (found.run.stopped_at)
+      found.notes.push_back(fmt::format("The short run of the checks ended after {:.3g} s of {:.6g} s, because the program is long "
+                                        "or the dresspack touches much. `dresslife run` checks all of it",
+                                        *found.run.stopped_at, path_->duration()));
     for (const Check& check : found.run.checks) {
       if (check.name != check_name::bend_radius) continue;
       // At rest the hose hangs free of the robot, on which it may lie: a bend that the short run has not is none.
       for (Check& other : found.checks)
-        if (other.name == check_name::bend_radius_at_rest && other.dresspack == check.dresspack) other.warning &= check.warning;
+        if (other.name == check_name::bend_radius_at_rest && other.dresspack == check.dresspack)
+          other.warning &= check.warning || found.run.stopped_at.has_value();
       found.checks.push_back(check);
     }
     add_winding(found.others);
@@ -368,10 +375,17 @@ ShortRun short_run(pipeline::Setup setup, int segments) {
   try {
     const Simulation simulation(with_segments(std::move(setup), segments));
     result.begin = simulation.start();
-    result.checks = simulation.run({[](const Sample&) {}}).checks;
+    RunSinks sinks{[](const Sample&) {}};
+    sinks.goes_on = [&](double work, bool leads_in) {
+      return (result.work += work) <= (leads_in ? lead_in_share : 1) * short_run_work;
+    };
+    RunSummary summary = simulation.run(sinks);
+    result.checks = std::move(summary.checks);
+    result.stopped_at = summary.stopped_at;
   } catch (const RoutingRefusal& refusal) {
     result.refusal = refusal.problem;
     result.dresspack = refusal.dresspack;
+    result.work += refusal.work;
     if (result.begin) result.taut_at = refusal.time;
   } catch (const pipeline::InputError& problem) {
     result.refusal = problem.what();

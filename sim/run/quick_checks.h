@@ -25,6 +25,8 @@ struct ShortRun {
   std::vector<Check> checks;
   std::string refusal;               ///< why it does not run; empty: it does
   std::optional<double> taut_at;     ///< time at which a dresspack is drawn taut [s]; absent: it is not
+  std::optional<double> stopped_at;  ///< time at which the run was stopped [s], because it takes long; absent: it was not
+  double work = 0;                   ///< as World::work
   int dresspack = 0;                 ///< that is refused
   std::optional<RodState> begin;     ///< absent: it did not begin
 };

@@ -32,6 +32,7 @@ struct RoutingRefusal : pipeline::InputError {
   std::string problem, remedy;
   int dresspack;
   std::optional<double> time;  ///< of the program [s]; absent: before it
+  double work = 0;             ///< that was in vain, as World::work
 };
 
 /// Of dresspacks whose clamps and rings all are on one link: they hardly bend.

@@ -174,7 +174,7 @@ struct Simulation::Repeat {
 
 // (R8) What a repeat forgets need not be exact: the first one of a motion that returns only leads into the
 // cycle, with twice the step, but for its last tenth. Whether it did is judged as between any two repeats.
-// Null: it broke down or drew the dresspack taut; the motion then runs from rest, which says where.
+// Null: it broke down, drew the dresspack taut or was stopped; the motion then runs from rest, which says where.
 std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
   const double h = setup_.simulation.time_step;
   const int steps = (description_.samples - 1) * steps_per_sample(h);
@@ -185,8 +185,10 @@ std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
     const Pose pose = path_->at(at * h);
     if (at == 2 * coarse) before = world->state();
     if (sinks.progress) sinks.progress(static_cast<double>(at) / steps);
+    const double before_step = world->work();
     return world->advance(pose.clamps, pose.links).finite &&
-           rod_.mean_elongation(world->state()) <= longest_elongation;
+           rod_.mean_elongation(world->state()) <= longest_elongation &&
+           (!sinks.goes_on || sinks.goes_on(world->work() - before_step, true));
   };
   for (int k = 1; k <= coarse; ++k)
     if (!advance(2 * k)) return nullptr;
@@ -213,7 +215,11 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
     const RodState begin = world->state();
     if (!first && sinks.begin) sinks.begin(summary.repeats);
     Repeat repeat(*this, summary.time_step);
-    run_once(*world, repeat, sinks);
+    if (const std::optional<double> stop = run_once(*world, repeat, sinks)) {
+      if (first) summary.stopped_at = stop, summary.checks = repeat.checks.table();
+      return summary;
+    }
+    summary.checks = repeat.checks.table();
     summary.distance = state_distance(rod_, begin, world->state());
     summary.periodic = summary.returns && summary.distance <= settings.periodic_tolerance;
     if (choose) {  // (R11) once, after the first repeat
@@ -231,7 +237,6 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
     summary.curvature = repeat.checks.curvature();
     summary.twist = repeat.checks.twist();
     summary.tension = repeat.checks.tension();
-    summary.checks = repeat.checks.table();
     summary.rubbed = std::move(repeat.rubbed);
     summary.obstacles = std::move(repeat.obstacles);
     return summary;
@@ -246,7 +251,7 @@ std::vector<double> Simulation::pulled_out(const RodState& state) const {
   return ways;
 }
 
-void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) const {
+std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) const {
   const double step = world.time_step();
   const int per_sample = steps_per_sample(step);
   MotionChecks& checks = repeat.checks;
@@ -279,6 +284,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
   repeat.error.see(0, world.state());
   hand_over(0);
   for (int sample = 1; sample < description_.samples; ++sample) {  // (R6)
+    const double before = world.work();
     for (int k = 1; k <= per_sample; ++k) {
       const int count = (sample - 1) * per_sample + k;
       const double time = count * step;
@@ -294,9 +300,11 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
     }
     check_taut(world.state(), sample / setup_.simulation.sample_rate);
     hand_over(sample);
+    if (sinks.goes_on && !sinks.goes_on(world.work() - before, false)) return sample / setup_.simulation.sample_rate;
   }
   repeat.rubbed = rubbing.patches(touch);
   repeat.obstacles = touch.obstacles();
+  return {};
 }
 
 std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary) {

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,7 @@ struct RunSummary {
   int repeats = 1;        ///< of the motion that were run, the one that leads in too; the last is the result
   bool returns = false;   ///< the motion ends where it begins
   bool periodic = false;  ///< the last repeat began and ended alike
+  std::optional<double> stopped_at;  ///< time of the first repeat at which goes_on ended the run [s]: its checks until then
   double distance = 0;    ///< between the states at the last repeat's begin and end (R8) [m]
   double time_step = 0;   ///< [s]
   /// Estimated error that the step leaves in the curvature of the last repeat's liveliest seconds (R10),
@@ -85,6 +87,8 @@ struct RunSinks {
   std::function<void(const Sample&)> take;    ///< every sample of every repeat but the one that leads in
   std::function<void(int)> begin = {};        ///< a further repeat begins: samples taken so far do not count
   std::function<void(double)> progress = {};  ///< share of the repeat that is done, 0..1
+  /// Whether the run goes on after further work (World::work), of the repeat that leads in or of others.
+  std::function<bool(double, bool)> goes_on = {};
 };
 
 class Simulation {
@@ -114,7 +118,8 @@ class Simulation {
   struct Repeat;  // what looks on while a repeat runs
   std::unique_ptr<World> world_at(const RodState& state, const Pose& pose, double step) const;
   std::unique_ptr<World> led_in(const RunSinks& sinks) const;
-  void run_once(World& world, Repeat& repeat, const RunSinks& sinks) const;
+  /// The time at which it was stopped; absent: it was not.
+  std::optional<double> run_once(World& world, Repeat& repeat, const RunSinks& sinks) const;
   int steps_per_sample(double step) const;
   std::vector<double> pulled_out(const RodState& state) const;
   void check_reach() const;
