@@ -111,16 +111,18 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
   write_text_if_changed(file.path(),
                         with_mark(to_yaml(routed(draft, to_yaml(choice.routing), motion, 1)), Mark::yaml));
   try {
-    const JobCheck check = check_of(file.path(), {});
-    choice.refused = !check.refusal.empty();
-    if (choice.refused) choice.faults.push_back(check.refusal);
-    for (const Warning& warning : check.warnings) {
-      const bool of_program = warning.kind == WarningKind::program || warning.kind == WarningKind::motion;
-      (of_program ? choice.doubts : choice.faults).push_back(warning.line());
-    }
+    read_job(file.path(), {});
   } catch (const InputError& problem) {
     choice.refused = true;
     choice.faults.emplace_back(problem.what());
+    return;
+  }
+  const JobCheck check = check_of(file.path(), {});  // a full disk or a killed stage is no fault of the routing
+  choice.refused = !check.refusal.empty();
+  if (choice.refused) choice.faults.push_back(check.refusal);
+  for (const Warning& warning : check.warnings) {
+    const bool of_program = warning.kind == WarningKind::program || warning.kind == WarningKind::motion;
+    (of_program ? choice.doubts : choice.faults).push_back(warning.line());
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <set>
 #include <string_view>
@@ -116,6 +117,9 @@ StudyRequest request_of(const StudyOptions& options) {
   return {named_study(options.study), options.sets, options.out, program_folder()};
 }
 
-void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+void print(const std::string& text) {
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) < text.size()) note_failed_output(errno);
+}
 
 }  // namespace dresslife::pipeline

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/report/job_page.h"
 
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 /// Of any folder that holds a job's results.
 int page(const fs::path& folder) {
   JobFolder files{fs::weakly_canonical(folder).filename().string(), folder};
-  if (kind_of(files.life()) != FileKind::file)
+  if (kind_of(files.life()) == FileKind::absent)
     throw InputError({folder.string()}, "holds no life.h5",
                      "name the folder of a job that is done: runs/STUDY/JOB");
   refresh_job_page(files);

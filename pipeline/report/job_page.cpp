@@ -35,7 +35,7 @@ namespace {
 using Reader = std::unique_ptr<const FileReader>;
 
 Reader opened(const std::filesystem::path& file, const Format& format, std::vector<std::string>& notes) {
-  if (kind_of(file) == FileKind::file) return std::make_unique<FileReader>(file, format);
+  if (kind_of(file) != FileKind::absent) return std::make_unique<FileReader>(file, format);
   notes.push_back(
       fmt::format("{} is not there (run the job again to see what it tells)", file.filename().string()));
   return nullptr;

@@ -231,7 +231,7 @@ LifeSummary read_life(const std::filesystem::path& life_file, const std::filesys
   const FileReader file(life_file, life_format());
   LifeSummary life;
   std::optional<FileReader> strain;
-  if (kind_of(strain_file) == FileKind::file) strain.emplace(strain_file, strain_format());
+  if (kind_of(strain_file) != FileKind::absent) strain.emplace(strain_file, strain_format());
   const KnownHistory history = known_history(file, strain ? &*strain : nullptr);
   life.strain = history.strain;
   life.strain_of = history.words();

@@ -26,7 +26,7 @@ std::string name_from(const fs::path& output, const fs::path& file) {
 
 /// The other file of a job, if it lies there and is of the same motion.
 std::unique_ptr<FileReader> beside(const fs::path& file, const Format& format, const FileReader& motion) {
-  if (kind_of(file) != FileKind::file) return nullptr;
+  if (kind_of(file) == FileKind::absent) return nullptr;
   auto reader = std::make_unique<FileReader>(file, format);
   if (reader->rows("/time") != motion.rows("/time") ||
       reader->rows("/segment/length") != motion.rows("/segment/length"))

@@ -9,6 +9,7 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/report/chart_style.h"
@@ -452,7 +453,7 @@ std::string charts(const RankingRow& row) {
 /// The worst moment as a picture; none when the motion file has been cleared away.
 std::string scene(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
-  if (!damaged(row) || kind_of(motion) != FileKind::file) return "";
+  if (!damaged(row) || kind_of(motion) == FileKind::absent) return "";
   const std::string picture =
       scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack);
   return picture.empty()
@@ -465,7 +466,7 @@ std::string scene(const RankingRow& row) {
 /// What a cell designer asks; none when the motion file has been cleared away.
 std::string checks(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
-  if (kind_of(motion) != FileKind::file) return "";
+  if (kind_of(motion) == FileKind::absent) return "";
   const std::string table = check_table(motion);
   return table.empty() ? "" : "<h3>Checks of the motion</h3>\n" + table;
 }

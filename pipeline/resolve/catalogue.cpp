@@ -8,6 +8,7 @@
 #include <set>
 
 #include "pipeline/base/installation.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/resolve/beds.h"
 #include "pipeline/resolve/cable_alone.h"
 #include "pipeline/resolve/data_sheet.h"
@@ -344,6 +345,7 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   names.erase(std::unique(names.begin(), names.end()), names.end());
   const std::string near = nearest_entry(name, names);
   const bool may_be_file = folder == "programs" && fs::path(name).has_extension();
+  if (may_be_file && kind_of(beside) != FileKind::absent) PlainFile{beside};  // refuses it
   throw InputError(
       named_at,
       fmt::format("'{}' is not in the catalogue (config/{}){}", name, folder,

@@ -57,6 +57,7 @@ void check_output(const StageCall& call, const StageFlags& flags) {
 FileState input_state(const std::filesystem::path& file) {
   std::error_code failure;
   const std::filesystem::path target = std::filesystem::canonical(file, failure);
+  if (failure && failure != std::errc::no_such_file_or_directory) throw DiskError(file.string(), failure.value());
   return failure ? FileState{} : state_of(target);
 }
 
@@ -242,11 +243,19 @@ int run_stage(const StageInfo& info, int argc, char** argv,
   });
 }
 
+namespace {
+int output_error = 0;
+}
+
+void note_failed_output(int error) { output_error = error; }
+
 int finish_output(int status) {
+  errno = 0;
   std::cout.flush();
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good()) return status;
-  tell(fmt::format("standard output: error: cannot be written ({}); free space or name another place\n",
-                   std::strerror(errno)));
+  if (errno != 0) note_failed_output(errno);
+  tell(fmt::format("standard output: error: cannot be written{}; free space or name another place\n",
+                   output_error == 0 ? "" : fmt::format(" ({})", std::strerror(output_error))));
   return std::max(status, 1);
 }
 

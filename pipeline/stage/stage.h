@@ -69,6 +69,8 @@ int run_stage(const StageInfo& info, int argc, char** argv,
 /// failure.
 int guarded(const std::string& program, const std::function<int()>& body);
 
+/// Notes why standard output could not be written (errno), for finish_output().
+void note_failed_output(int error);
 /// The exit status of a program that has printed to standard output: `status`, unless what it printed is
 /// lost.
 int finish_output(int status);

@@ -51,7 +51,9 @@ Programs found_programs(const StudyPlaces& places) {
   Programs programs;
   for (std::size_t k = 0; k < stage_count; ++k) {
     const fs::path program = places.programs / program_name(stages[k]);
-    if (::access(program.c_str(), X_OK) != 0)
+    const bool may_run = ::access(program.c_str(), X_OK) == 0;
+    if (!may_run && errno != ENOENT) throw DiskError(program.string(), errno);
+    if (!may_run)
       throw InputError({program.string()}, "is not there (the stages stand beside dresslife)",
                        "build it: scripts/build");
     programs[k] = fs::canonical(program);

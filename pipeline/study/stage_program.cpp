@@ -62,12 +62,8 @@ PassingFile::PassingFile(const std::string& name) {
 }
 
 PassingFile::~PassingFile() {
-  try {
-    remove_leftovers(file_.parent_path());
-    remove_ours(file_);
-  } catch (const std::runtime_error&) {  // the disk fails: a temporary file stays, what was asked for is made
-  }
-  remove_empty(file_.parent_path());
+  std::error_code ignored;  // what was asked for is made
+  std::filesystem::remove_all(file_.parent_path(), ignored);
 }
 
 }  // namespace dresslife::pipeline

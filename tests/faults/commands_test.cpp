@@ -30,6 +30,8 @@ const std::vector<Command> commands{
     {"dresslife", "submit study.yaml --only-write"},
     {"dresslife", "clean lives.yaml"},
     {"dresslife", "run study.yaml --quiet"},
+    {"dresslife-sim", "job.yaml --preview -o preview.h5 --quiet"},
+    {"dresslife-sim", "job.yaml --screen list.yaml -o screening.h5 --quiet"},
     {"dresslife-import", "swing.mod -o swing.yaml"},
     {"dresslife-import", "asks.mod -o asks.yaml --answers answers.yaml"}};
 /// Results of a study and a user's own files beside them.
@@ -50,6 +52,7 @@ void write_inputs(const Scratch& scratch) {
       "asks.mod",
       module +
           "    IF di1=1 THEN\n      MoveAbsJ home, v100, fine, tool0;\n    ENDIF\n  ENDPROC\nENDMODULE\n");
+  scratch.write("list.yaml", "- {routing.free_length_m: 0.95}\n");
   REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
   // The same results are those of a study that keeps less.
   scratch.write("lives.yaml", "base: job.yaml\njobs: {a: {}}\nkeep: lives\n");
@@ -128,5 +131,57 @@ TEST_CASE(
     }
     std::cout << command.program << ' ' << command.arguments << ": " << refused << " refused, " << whole
               << " whole, 0 false, 0 lost, of " << calls << " calls\n";
+  }
+}
+
+TEST_CASE("a system that refuses while a routing is checked is no fault of the routing") {
+  Scratch scratch;
+  write_inputs(scratch);
+  const auto fail_at = [&](int at) {
+    return run_failing(scratch, Fault{"make", at, "ENOSPC", "dresslife-"}, "dresslife",
+                       "new --robot abb_irb6640_185_280 --program swing.mod new.yaml");
+  };
+  REQUIRE(fail_at(0).status == 0);
+  fs::remove(scratch / "new.yaml");
+  const int total = calls_counted(scratch);
+  REQUIRE(total > 1);
+  for (int at = 1; at <= total; ++at) {
+    const Outcome outcome = fail_at(at);
+    INFO(at << " of " << total << ": " << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(is_one_error(outcome.err));
+    CHECK(outcome.err.find("takes no temporary folder (No space left on device)") != std::string::npos);
+    CHECK_FALSE(fs::exists(scratch / "new.yaml"));
+  }
+}
+
+TEST_CASE("a temporary folder is removed, whatever in it cannot be opened or read") {
+  Scratch scratch;
+  write_small_job(scratch);
+  const fs::path temporary = scratch / "tmp";
+  fs::create_directories(temporary);
+  for (const std::string call : {"open", "read"})
+    for (int at = 1; at <= 8; ++at) {
+      const Outcome outcome =
+          run_with(scratch,
+                   "env TMPDIR='" + temporary.string() + "' FAULT_CALL=" + call + " FAULT_AT=" + std::to_string(at) +
+                       " FAULT_PATH=/tmp/dresslife- FAULT_PROGRAM=dresslife LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "'",
+                   "dresslife", "preview job.yaml -o job.html");
+      INFO(call << ' ' << at << ": " << outcome.err);
+      CHECK((outcome.status == 0 || outcome.status == 1));
+      CHECK(fs::is_empty(temporary));
+    }
+}
+
+TEST_CASE("output that cannot be printed ends with status 1 and the reason") {
+  Scratch scratch;
+  write_inputs(scratch);
+  for (const Command& command : commands) {
+    const Outcome right = run(scratch, command.program, command.arguments);
+    if (right.out.empty()) continue;
+    const Outcome outcome = run_with(scratch, "", command.program, command.arguments + " >/dev/full");
+    INFO(command.program << ' ' << command.arguments << ": " << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find("standard output: error: cannot be written (No space left on device)") != std::string::npos);
   }
 }

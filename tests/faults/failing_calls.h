@@ -74,6 +74,7 @@ struct Kind {
 };
 /// A disk that is full, broken or slow to tell, in every call by which a program can notice.
 inline const std::vector<Kind> kinds{{"write", "ENOSPC", ""},
+                                     {"write", "short", ""},
                                      {"sync", "EIO", ""},
                                      {"close", "EIO", ""},
                                      {"cut", "EIO", ""},

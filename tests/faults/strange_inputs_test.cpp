@@ -147,6 +147,13 @@ TEST_CASE("a strange file in the place of a result stops nothing but what needs 
       CHECK((outcome.status == 0 || outcome.status == 1));
       CHECK((outcome.status == 0 || !outcome.err.empty()));
     }
+    if (name.ends_with(".h5"))  // it is there: what could be shown without it is not shown as whole
+      for (const std::string command : {"page runs/study/a", "export runs/study/a --paraview p.xdmf"}) {
+        const Outcome outcome = run_with(scratch, "timeout -s KILL 20", "dresslife", command);
+        INFO(name << ": " << command << ": " << outcome.status << outcome.err);
+        CHECK(outcome.status == 1);
+        CHECK(outcome.err.find(name + ": error: is a device or a pipe, not a file") != std::string::npos);
+      }
     CHECK(fs::is_fifo(file));
   }
 }

@@ -7,8 +7,8 @@
 //                  allocate: any allocation
 //   FAULT_AT       the first call that fails, from 1; 0: none does
 //   FAULT_MORE     how many further calls fail; "all"
-//   FAULT_MODE     an error (EIO, ENOSPC, ENOTSUP ...), or of a read: short (half of it), end (as at the end of the
-//                  file), flip (one bit turned); without it ENOSPC of a write, EIO of others
+//   FAULT_MODE     an error (EIO, ENOSPC, ENOTSUP ...); of a read or write: short (half of it); of a read: end (as
+//                  at the end of the file), flip (one bit turned); without it ENOSPC of a write, EIO of others
 //   FAULT_COUNT    a file for the number of such calls, written at the end
 #include <dirent.h>
 #include <dlfcn.h>
@@ -133,6 +133,12 @@ ssize_t read_or_fail(int descriptor, void* bytes, size_t size, const Read& read)
   return got;
 }
 
+template <class Write>
+ssize_t write_or_fail(int descriptor, size_t size, const Write& write) {
+  if (!fails("write", descriptor)) return write(size);
+  return has_mode("short") ? write(size > 1 ? size / 2 : size) : -1;
+}
+
 }  // namespace
 
 // A call of the C library under another name; `fail` is what it returns where it fails.
@@ -144,9 +150,6 @@ ssize_t read_or_fail(int descriptor, void* bytes, size_t size, const Read& read)
 
 extern "C" {
 
-FAILING("write", ssize_t, write, -1, d, (int d, const void* b, size_t n), d, b, n)
-FAILING("write", ssize_t, pwrite, -1, d, (int d, const void* b, size_t n, off_t at), d, b, n, at)
-FAILING("write", ssize_t, pwrite64, -1, d, (int d, const void* b, size_t n, off64_t at), d, b, n, at)
 FAILING("sync", int, fsync, -1, d, (int d), d)
 FAILING("cut", int, ftruncate, -1, d, (int d, off_t length), d, length)
 FAILING("cut", int, ftruncate64, -1, d, (int d, off64_t length), d, length)
@@ -154,9 +157,16 @@ FAILING("rename", int, rename, -1, from, (const char* from, const char* to), fro
 FAILING("link", int, link, -1, from, (const char* from, const char* to), from, to)
 FAILING("remove", int, unlink, -1, path, (const char* path), path)
 FAILING("remove", int, remove, -1, path, (const char* path), path)
+FAILING("remove", int, unlinkat, -1, path, (int d, const char* path, int flags), d, path, flags)
+FAILING("remove", int, rmdir, -1, path, (const char* path), path)
 FAILING("make", int, mkdir, -1, path, (const char* path, mode_t mode), path, mode)
+FAILING("make", char*, mkdtemp, nullptr, path, (char* path), path)
 FAILING("lock", int, flock, -1, d, (int d, int operation), d, operation)
 FAILING("list", DIR*, opendir, nullptr, path, (const char* path), path)
+FAILING("list", struct dirent*, readdir, nullptr, ::dirfd(dir), (DIR* dir), dir)
+FAILING("look", int, access, -1, path, (const char* path, int mode), path, mode)
+FAILING("look", ssize_t, readlink, -1, path, (const char* path, char* link, size_t n), path, link, n)
+FAILING("look", char*, realpath, nullptr, path, (const char* path, char* name), path, name)
 FAILING("look", int, stat, -1, path, (const char* path, struct stat* s), path, s)
 FAILING("look", int, stat64, -1, path, (const char* path, struct stat64* s), path, s)
 FAILING("look", int, lstat, -1, path, (const char* path, struct stat* s), path, s)
@@ -165,6 +175,19 @@ FAILING("look", int, fstat, -1, d, (int d, struct stat* s), d, s)
 FAILING("look", int, fstat64, -1, d, (int d, struct stat64* s), d, s)
 FAILING("open", std::FILE*, fopen, nullptr, path, (const char* path, const char* mode), path, mode)
 FAILING("open", std::FILE*, fopen64, nullptr, path, (const char* path, const char* mode), path, mode)
+
+ssize_t write(int d, const void* bytes, size_t size) {
+  static auto* const call = real<ssize_t(int, const void*, size_t)>("write");
+  return write_or_fail(d, size, [&](size_t n) { return call(d, bytes, n); });
+}
+ssize_t pwrite(int d, const void* bytes, size_t size, off_t at) {
+  static auto* const call = real<ssize_t(int, const void*, size_t, off_t)>("pwrite");
+  return write_or_fail(d, size, [&](size_t n) { return call(d, bytes, n, at); });
+}
+ssize_t pwrite64(int d, const void* bytes, size_t size, off64_t at) {
+  static auto* const call = real<ssize_t(int, const void*, size_t, off64_t)>("pwrite64");
+  return write_or_fail(d, size, [&](size_t n) { return call(d, bytes, n, at); });
+}
 
 int close(int descriptor) {
   static auto* const call = real<int(int)>("close");
