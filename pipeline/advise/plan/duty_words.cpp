@@ -75,7 +75,7 @@ std::string duty_words(const std::vector<DutyResult>& results) {
     for (std::size_t k = 0; k < duty.parts.size(); ++k)
       text += fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>18}  {:>21}\n", duty.parts[k].job, wide,
                           readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time, 100 * duty.lives.share[k],
-                          shown_hours(duty.robot_life_hours, duty.lives.without[k][0]), shown_hours(duty.robot_life_hours, duty.lives.as_twice[k][0]));
+                          shown_hours(duty.robot_life_hours, duty.parts[k].without[0]), shown_hours(duty.robot_life_hours, duty.parts[k].as_twice[0]));
     text += fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
     text += caution_words(duty);
     for (std::size_t m = 0; m < duty.modes.size(); ++m)
@@ -100,7 +100,7 @@ std::string duty_csv(const std::vector<DutyResult>& results) {
                                  lives.percentiles[1], lives.percentiles[2], duty.past_hours, lives.survived})
         cells.push_back(shortest_text(value));
       for (const double value : lives.remaining) cells.push_back(remains ? shortest_text(value) : "");
-      for (const double value : {lives.without[k][0], lives.as_twice[k][0]}) cells.push_back(shortest_text(value));
+      for (const double value : {duty.parts[k].without[0], duty.parts[k].as_twice[0]}) cells.push_back(shortest_text(value));
       text += fmt::format("{}\n", fmt::join(cells, ","));
     }
   return text;
