@@ -45,6 +45,7 @@ constexpr std::array beginnings{
     Beginning{"cable,job,rig,status,cycles_p10,"},                     // rate.csv
     Beginning{"duty,job,repeats_per_hour,share_of_time,"},             // of duty
     Beginning{"name,duty,installed,age_hours,"},                       // of plan
+    Beginning{"name,fails_in_week_of_"},
     Beginning{"BEGIN:VCALENDAR\r\nPRODID:-//dresslife//plan"},
     Beginning{"lines,way,life_hours_p10,times_as_long,"},              // of reprogram
     // Older versions:

@@ -9,6 +9,7 @@
 #include "pipeline/commands/as_json.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/duties_run.h"
+#include "pipeline/report/duty_page.h"
 #include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
@@ -24,8 +25,10 @@ int duty(const RunOptions& options) {
   const std::string csv = duty_csv(results);
   const fs::path table = made.places.folder / ("duty_" + name.stem().string() + ".csv");
   write_text_if_changed(table, csv);
+  const fs::path page = made.places.folder / ("duty_" + name.stem().string() + ".html");
+  write_text_if_changed(page, with_mark(duty_page(name.stem().string(), results, table.filename().string()), Mark::page));
   print(options.json ? json_of_csv(csv).text + "\n"
-                     : shown(fmt::format("{}\nTable: {}\n", duty_words(results), table.string())));
+                     : shown(fmt::format("{}\nTable: {}\nPage: {}\n", duty_words(results), table.string(), page.string())));
   if (!options.quiet) tell(warning_lines(rows_of(file, made.rows)));
   return 0;
 }

@@ -14,6 +14,7 @@
 #include "pipeline/commands/as_json.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/duties_run.h"
+#include "pipeline/report/plan_page.h"
 #include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
@@ -33,19 +34,24 @@ Day day_of(const std::string& text) {
 }
 
 /// Duties whose programs have warnings that spoil a plan.
-std::string doubts(const std::vector<DutyResult>& duties) {
-  std::string text;
+std::vector<std::string> doubts(const std::vector<DutyResult>& duties) {
+  std::vector<std::string> lines;
   for (const DutyResult& duty : duties)
     if (!duty.doubtful.empty())
-      text += fmt::format("Do not plan with duty '{}': {} (see the warnings).\n", duty.name, fmt::join(duty.doubtful, ", "));
-  return text.empty() ? "" : text + "\n";
+      lines.push_back(fmt::format("Do not plan with duty '{}': {} (see the warnings).\n", duty.name, fmt::join(duty.doubtful, ", ")));
+  return lines;
 }
 
-std::string cautions(const std::vector<DutyResult>& duties) {
-  std::string text;
+std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
+  std::vector<std::string> texts;
   for (const DutyResult& duty : duties)
-    if (const std::string words = caution_words(duty); !words.empty()) text += duty.name + "\n" + words;
-  return text.empty() ? "" : text + "\n";
+    if (const std::string words = caution_words(duty); !words.empty()) texts.push_back(duty.name + "\n" + words);
+  return texts;
+}
+
+/// The texts one after the other, and an empty line where there are some.
+std::string block(const std::vector<std::string>& texts) {
+  return fmt::format("{}{}", fmt::join(texts, ""), texts.empty() ? "" : "\n");
 }
 
 int plan(const Options& options) {
@@ -73,11 +79,18 @@ int plan(const Options& options) {
                      "learn from them first: dresslife calibrate");
   const std::string stem = "plan_" + fs::path(options.fleet).stem().string(), csv = plan_csv(fleet, found);
   const fs::path table = made.places.folder / (stem + ".csv"), calendar = made.places.folder / (stem + ".ics");
+  const fs::path weeks = made.places.folder / (stem + "_weeks.csv"), page = made.places.folder / (stem + ".html");
   write_text_if_changed(table, csv);
+  write_text_if_changed(weeks, plan_weeks_csv(fleet, found));
+  std::vector<std::string> notes = doubts(duties);
+  for (const std::string& caution : cautions(duties)) notes.push_back(caution);
+  write_text_if_changed(page, with_mark(plan_page(fs::path(options.fleet).stem().string(), fleet, found, notes, table.filename().string()),
+                                        Mark::page));
   write_text_if_changed(calendar, plan_calendar(fleet, found));
   print(options.json ? json_of_csv(csv).text + "\n"
-                     : shown(fmt::format("{}{}\n{}Table: {}\nCalendar: {}\n", doubts(duties), plan_words(fleet, found),
-                                         cautions(duties), table.string(), calendar.string())));
+                     : shown(fmt::format("{}{}\n{}Table: {}\nWeeks: {}\nCalendar: {}\nPage: {}\n", block(doubts(duties)),
+                                         plan_words(fleet, found), block(cautions(duties)), table.string(), weeks.string(),
+                                         calendar.string(), page.string())));
   if (!options.quiet) tell(warning_lines(rows_of(file, made.rows)));
   return 0;
 }

@@ -20,6 +20,7 @@
 #include "pipeline/report/page_assets.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene.h"
+#include "pipeline/report/table_page.h"
 #include "pipeline/settings/document.h"
 #include "pipeline/settings/units.h"
 #include "pipeline/study/row_warnings.h"
@@ -30,50 +31,8 @@ namespace {
 
 /// A job's charts take about 60 kB: of a larger study only the best and the worst have them.
 constexpr std::size_t most_detailed = 40;
-/// What a browser lays out at once; it asks for the others.
-constexpr std::size_t rows_at_once = 100;
 constexpr std::size_t most_compared = 40;
 constexpr double least_shear_told = 5e-5;  // what two decimals of a per cent show
-
-constexpr const char* report_style = R"(
-body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1rem 4rem; background: var(--page); color: var(--ink);
-  font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
-h1 { font-size: 1.7rem; margin: 0 0 .3rem; } h2 { font-size: 1.3rem; margin: 3rem 0 .3rem; padding-top: .8rem;
-  border-top: 2px solid var(--rule); }
-h3 { font-size: 1rem; margin: 1.6rem 0 .2rem; } p { margin: .3rem 0 .6rem; max-width: 46rem; }
-.soft { color: var(--soft); font-size: .9rem; }
-a { color: var(--blue); } .wide { overflow-x: auto; }
-table { border-collapse: collapse; width: 100%; font-size: .9rem; font-variant-numeric: tabular-nums; }
-th, td { text-align: left; padding: .3rem .6rem .3rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
-th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .number { text-align: right;
-  white-space: nowrap; } th.number, .certainty { white-space: normal; }
-.certainty { display: block; max-width: 9rem; margin-left: auto; } #ranking td:nth-child(n + 7) { min-width: 8rem; } .failed { color: var(--hot); font-weight: 600; }
-dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .1rem 1rem; margin: .5rem 0; }
-dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
-@media (max-width: 40rem) { dl { grid-template-columns: minmax(0, 1fr); } dd { margin-bottom: .5rem; } }
-[id^=job-] { content-visibility: auto; contain-intrinsic-size: auto 60rem; }
-details { margin: .8rem 0; } summary { cursor: pointer; color: var(--soft); }
-pre { background: var(--band); padding: .8rem; overflow-x: auto; font-size: .8rem; line-height: 1.35; }
-.tools { display: flex; flex-wrap: wrap; gap: .4rem 1rem; align-items: center; margin: .8rem 0; font-size: .9rem; }
-.tools input[type=search] { font: inherit; padding: .2rem .5rem; min-width: 14rem; color: inherit;
-  background: var(--page); border: 1px solid var(--rule); border-radius: .3rem; }
-.sort { font: inherit; color: inherit; text-align: inherit; background: none; border: 0; padding: 0;
-  cursor: pointer; }
-.sort::after { content: ""; } [aria-sort=ascending] .sort::after { content: " \25B2"; }
-[aria-sort=descending] .sort::after { content: " \25BC"; }
-.pick { margin-right: .3rem; } caption { text-align: left; color: var(--soft); padding: .6rem 0 .2rem; }
-tbody th { font-weight: 400; vertical-align: top; }
-#compared td { overflow-wrap: anywhere; } #ranking details { margin: 0; } #ranking summary { color: var(--hot); }
-#matrix { width: auto; } #matrix td, #matrix th { padding: .25rem .6rem; } #matrix td { text-align: right;
-  border: 1px solid var(--page); } #matrix thead th { overflow-wrap: anywhere; }
-#matrix .coloured, #matrix .coloured a { color: #111; } #ranking ul { margin: .2rem 0; padding-left: 1rem; }
-@media print { [id^=job-] { content-visibility: visible; } .tools, .pick, .sort::after { display: none; }
-  details, template { display: none; } td details { display: block; } summary { list-style: none; } h2 { break-before: page; break-after: avoid; }
-  tr, dd { break-inside: avoid; } #ranking { font-size: 9px; } #ranking td { white-space: normal; }
-  #ranking td:nth-child(n + 7) { min-width: 0; } h3, h3 + p { break-after: avoid; }
-  body { max-width: none; padding: 0; font-size: 12px; } thead { display: table-header-group; }
-  .wide { overflow: visible; } #matrix .coloured { print-color-adjust: exact; -webkit-print-color-adjust: exact; }  }
-)";
 
 /// When the first wire of such dresspacks breaks, in 10 to 90 % of them.
 std::string first_break_cell(const RankingRow& row) {
@@ -120,21 +79,10 @@ std::string warning_cell(const RankingRow& row) {
                      list);
 }
 
-/// What a cell is sorted by; empty: nothing.
-std::string sorted_by(double value) {
-  return fmt::format(" data-value=\"{}\"", std::isnan(value)   ? ""
-                                           : std::isinf(value) ? "Infinity"
-                                                               : shortest_text(value));
-}
-
 /// Data of a row of the table for sorting and comparing.
 std::string row_begin(const RankingRow& row, std::size_t rank) {
   return fmt::format("<tr data-rank=\"{}\" data-job=\"{}\" data-warnings=\"{}\">", rank, escaped(row.job),
                      warnings_of(row).size());
-}
-
-std::string number_cell(double value, const std::string& words) {
-  return fmt::format("<td class=\"number\"{}>{}</td>", sorted_by(value), words);
 }
 
 /// Where half and 90 % lie, and how sure the job's place is, below its life.
@@ -154,20 +102,18 @@ std::string stale_note(const RankingRow& row) {
                      page_link(row, "preview.html", "See where"));
 }
 
-/// Of rows [first, end).
-std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed,
-                         std::size_t first, std::size_t end) {
-  std::string text;
-  for (std::size_t i = first; i < std::min(end, rows.size()); ++i) {
+std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     const RankingRow& row = rows[i];
     const std::string name =
         detailed[i] ? fmt::format("<a href=\"#job-{}\">{}</a>", i + 1, escaped(row.job)) : escaped(row.job);
     if (!row.has_result()) {
-      text += fmt::format(
+      all.push_back(fmt::format(
           "{}<td class=\"number\">-</td><td>{}</td><td colspan=\"7\"><span class=\"failed\">{}</span> "
           "{}</td></tr>\n",
           row_begin(row, i + 1), name, row.waits() ? escaped(row.failure) : "failed",
-          (row.waits() ? "" : escaped(row.failure)) + page_link(row, "preview.html", "See where"));
+          (row.waits() ? "" : escaped(row.failure)) + page_link(row, "preview.html", "See where")));
       continue;
     }
     const std::string where = !damaged(row)
@@ -194,7 +140,7 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
         std::pair(planned ? row.glued_hours[0] : row.hours_of(row.life_repeats_all_stick),
                   planned ? row.free_hours[0] : row.hours_of(row.life_repeats_all_free));
     const auto count = static_cast<double>(warnings_of(row).size());
-    text += fmt::format(
+    all.push_back(fmt::format(
         "{}{}<td>{}</td>{}{}{}{}<td>{}</td><td>{}</td><td{}>{}</td></tr>\n", row_begin(row, i + 1),
         number_cell(static_cast<double>(i + 1), row.rank ? std::to_string(row.rank) : "-"),
         name + stale_note(row),
@@ -203,9 +149,9 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
         number_cell(bounds.first, shown_range(row, bounds.first, bounds.second)),
         number_cell(row.first_wire_hours[0], first_break_cell(row)),
         number_cell(row.headline_months(), shown_calendar(row)), fails_first + where + unvalidated, moved,
-        sorted_by(count), warning_cell(row));
+        sorted_by(count), warning_cell(row)));
   }
-  return text;
+  return all;
 }
 
 /// Where a job's life lies for 10 to 90 % of such dresspacks: the planner's, of older files the first wire's.
@@ -261,27 +207,19 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
   return picture.svg();
 }
 
-/// Read when somebody asks for them: a browser neither lays out nor draws what a template holds.
-std::string more_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
-  if (rows.size() <= rows_at_once) return "";
-  return fmt::format(
-      "<noscript><p>The first {} of {} jobs; ranking.csv holds all.</p></noscript>\n<template "
-      "id=\"more-jobs\">\n{}</template>\n",
-      rows_at_once, rows.size(), ranking_rows(rows, detailed, rows_at_once, rows.size()));
-}
-
 std::string ranking_section(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
   const std::string chart = comparison_chart(rows);
   const std::string matrix = life_matrix(rows, [&](std::size_t k) {
     return detailed[k] ? fmt::format("#job-{}", k + 1)
                        : page_address(rows[k], rows[k].has_result() ? "page.html" : "preview.html");
   });
-  return fmt::format(
-      "<div class=\"wide\"><table id=\"ranking\">\n<thead><tr><th>rank</th><th>job</th><th class=\"number\">replace after [h]</th>"
+  constexpr const char* heads =
+      "<th>rank</th><th>job</th><th class=\"number\">replace after [h]</th>"
       "<th class=\"number\">replace if glued .. free inside [h]</th><th class=\"number\">first wire by scatter "
-      "alone, 10 .. 90 % [h]</th><th "
-      "class=\"number\">calendar</th>"
-      "<th>fails first</th><th>what moved then</th><th>warnings</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}{}{}"
+      "alone, 10 .. 90 % [h]</th><th class=\"number\">calendar</th>"
+      "<th>fails first</th><th>what moved then</th><th>warnings</th>";
+  return fmt::format(
+      "{}{}{}"
       "<p class=\"soft\">Replace after: in so many hours of motion 1 of 10 such dresspacks has failed (p10), over everything "
       "that is uncertain and the scatter of wires. A dresspack has failed when a conductor has lost its share of wires "
       "(fatigue.failed_wires_percent) at one place. The calendar counts the job's operating hours per week. Jobs that "
@@ -289,7 +227,7 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "Parts inside a cable rub on each other. Glued .. free: the same p10 if they could not slip, and if they slipped "
       "without friction. First wire: by then a first single wire has broken, by the scatter of wires alone, in 10 .. 90 % "
       "of such dresspacks. Abrasion and the hose's wall are not in these hours: their laws have not been compared with a test.</p>\n",
-      ranking_rows(rows, detailed, 0, rows_at_once), more_rows(rows, detailed), matrix,
+      sorted_table(heads, ranking_rows(rows, detailed), "jobs", "ranking.csv"), matrix,
       chart.empty()
           ? ""
           : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: replace after. Blue bar: the median of the worst wire, glued to "
@@ -530,20 +468,10 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
 std::string report_page(const std::string& study, const std::vector<RankingRow>& rows,
                         std::vector<ReportProblem>& problems) {
   const std::vector<bool> detailed = detailed_jobs(rows);
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}: dresspack "
-      "life</title>\n"
-      "<style>{}</style>\n</head>\n<body>\n<h1>{}: dresspack life by motion</h1>\n",
-      escaped(study), chart_style() + report_style, escaped(study));
-  page += summary(rows) + ranking_section(rows, detailed);
+  std::string body = summary(rows) + ranking_section(rows, detailed);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (detailed[i]) page += job_section(rows[i], i + 1, problems);
-  return page +
-         fmt::format(
-             "<p class=\"soft\">dresslife {}</p>\n<script>\n\"use strict\";\n(() => {{\n{}}})();\n</script>\n"
-             "</body>\n</html>\n",
-             version(), study_script());
+    if (detailed[i]) body += job_section(rows[i], i + 1, problems);
+  return table_page(study + ": dresspack life", study + ": dresspack life by motion", body);
 }
 
 std::vector<ReportProblem> write_report(const std::filesystem::path& file, const std::string& study,

@@ -1,11 +1,12 @@
-// The page of a study: its ranking sorted by any column and filtered by words, two jobs side by side. Without scripts
-// the table stands as it was written, best life first.
+// The table of a page, sorted by any column and filtered by words; two jobs of a study side by side. Without scripts the
+// table stands as it was written.
 const table = document.getElementById('ranking'), body = table.tBodies[0];
 const more = document.getElementById('more-jobs');
 // In their order on the page. Of thousands of rows a browser lays out those that are shown.
 const rowsAtOnce = 100;
 let rows = [...body.rows, ...(more ? more.content.children : [])], most = rowsAtOnce;
 const heads = [...table.tHead.rows[0].cells];
+const things = table.dataset.things, areJobs = things === 'jobs';
 
 function made(name, attributes = {}, ...children) {
   const element = document.createElement(name);
@@ -52,7 +53,7 @@ heads[0].setAttribute('aria-sort', 'ascending');
 
 // ---- filtering --------------------------------------------------------------------------------------------------------
 
-const words = made('input', {type: 'search', 'aria-label': 'show only jobs with these words', placeholder: 'filter jobs'});
+const words = made('input', {type: 'search', 'aria-label': `show only ${things} with these words`, placeholder: `filter ${things}`});
 const warned = made('input', {type: 'checkbox'});
 const count = made('span', {role: 'status'});
 const rest = made('p', {class: 'tools'}), texts = new Map();
@@ -74,9 +75,9 @@ function show() {
   const found = rows.filter(
       row => (!warned.checked || Number(row.dataset.warnings) > 0) && (!wanted.length || wanted.every(word => textOf(row).includes(word))));
   const shown = found.slice(0, most);
-  shown.forEach(offerComparison);
+  if (areJobs) shown.forEach(offerComparison);
   body.replaceChildren(...shown);
-  count.textContent = found.length === rows.length ? '' : `${counted(found.length)} of ${counted(rows.length)} jobs`;
+  count.textContent = found.length === rows.length ? '' : `${counted(found.length)} of ${counted(rows.length)} ${things}`;
   rest.hidden = shown.length === found.length;
   if (rest.hidden) return;
   const further = number => () => {
@@ -84,7 +85,7 @@ function show() {
     show();
   };
   rest.replaceChildren(
-      `The first ${counted(shown.length)} of ${counted(found.length)} jobs. `,
+      `The first ${counted(shown.length)} of ${counted(found.length)} ${things}. `,
       button(`${Math.min(rowsAtOnce, found.length - shown.length)} more`, further(rowsAtOnce)), button('all', further(Infinity)));
 }
 function filter() {
@@ -94,7 +95,8 @@ function filter() {
 words.addEventListener('input', filter);
 warned.addEventListener('change', filter);
 const compared = made('section', {id: 'compared', 'aria-live': 'polite'});
-table.parentElement.before(made('div', {class: 'tools'}, words, made('label', {}, warned, ' with warnings only'), count));
+const onlyWarned = areJobs ? [made('label', {}, warned, ' with warnings only')] : [];
+table.parentElement.before(made('div', {class: 'tools'}, words, ...onlyWarned, count));
 table.parentElement.after(rest, compared);
 
 // ---- two jobs side by side --------------------------------------------------------------------------------------------

@@ -1,6 +1,8 @@
 // Pages on paper and on a phone: nothing is cut, torn or squeezed.
 
+#include "pipeline/report/duty_page.h"
 #include "pipeline/report/improvement_page.h"
+#include "pipeline/report/plan_page.h"
 #include "tests/catch.h"
 #include "tests/cli/browser.h"
 #include "tests/cli/process.h"
@@ -114,4 +116,36 @@ TEST_CASE("the page of an improvement can be printed and read on a phone, its ch
   story.nudges = {{"base clamp, z + 10 mm", true, 0.86, ""}};
   scratch.write("improve.html", improvement_page(story));
   check_page(scratch, "improve.html");
+}
+
+TEST_CASE("the pages of a plan and of duties can be sorted, printed and read on a phone") {
+  using namespace dresslife::pipeline;
+  Scratch scratch;
+  LifeTable table{2, 100, {}, 40000, 80};
+  for (const double scale : {2000.0, 9000.0})
+    for (int d = 0; d < 100; ++d) table.hours.push_back(static_cast<float>(scale * std::pow(-std::log1p(-(d + 0.5) / 100), 0.4)));
+  Fleet fleet;
+  fleet.has_costs = true;
+  const Day today = *day_from("2026-11-23");
+  for (int i = 0; i < 120; ++i)
+    fleet.rows.push_back({{}, fmt::format("robot with a long name in hall {}", i), "day", today - std::chrono::days(3 * i), {}, 1, 10});
+  const Plan plan = plan_of(fleet, {{"day", table}}, windows_from("2027-02-12..2027-02-21,2027-07-12", today), today, {0.1, true});
+  scratch.write("plan.html", plan_page("line", fleet, plan, {"A note."}, "plan.csv"));
+  check_page(scratch, "plan.html");
+  const std::string sorted = in_browser(scratch, "plan.html", R"(
+    const first = () => evaluate(`document.querySelector('#ranking tbody tr').cells[1].textContent.split(' ').pop()`);
+    const seen = [];
+    for (let k = 0; k < 2; ++k) {
+      await evaluate(`document.querySelectorAll('#ranking th button')[4].click()`);
+      seen.push(await first());
+    }
+    return seen.join(' ');)");
+  if (!sorted.empty()) CHECK(result_of(sorted) == "119 0");  // by age
+  DutyResult duty;
+  duty.name = "day", duty.robot_life_hours = 40000, duty.modes = {"wires"}, duty.damage.same_place = {1};
+  duty.lives.percentiles = {900, 20000, 3e6}, duty.lives.share = {0.9, 0.1};
+  for (const char* job : {"a_program_with_a_name_that_is_long", "idle"})
+    duty.parts.push_back({job, 5, 0.3, {1e3, 1e4, HUGE_VAL}, {500, 1e4, 2e6}, {{0, {1e3, 1e4, HUGE_VAL}}, {0.3, {900, 20000, 3e6}}, {0.6, {450, 1e4, 1e6}}}});
+  scratch.write("duty.html", duty_page("line", {duty}, "duty.csv"));
+  check_page(scratch, "duty.html");
 }

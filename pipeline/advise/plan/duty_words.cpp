@@ -14,15 +14,16 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// As the tables of a study show it: beyond the robot's own life only that.
+/// The robot lived through the history, too.
+double robot_life_left(const DutyResult& duty) { return std::max(0.0, duty.robot_life_hours - duty.past_hours); }
+
+}  // namespace
+
 std::string shown_hours(double robot_life, double hours) {
   return hours > robot_life ? "over " + readable(robot_life) : life_text(hours);
 }
 
-/// The robot lived through the history, too.
-double robot_life_left(const DutyResult& duty) { return std::max(0.0, duty.robot_life_hours - duty.past_hours); }
-
-std::string action(const DutyResult& duty) {
+std::string duty_action(const DutyResult& duty) {
   const bool remains = duty.past_hours > 0;
   const double hours = remains ? duty.lives.remaining[0] : duty.lives.percentiles[0];
   const std::string when = remains ? fmt::format("in {} of operation from now on", hours_text(hours)) : "after " + hours_text(hours) + " of operation";
@@ -49,8 +50,6 @@ std::string percentile_words(const DutyResult& duty) {
   return words;
 }
 
-}  // namespace
-
 std::string caution_words(const DutyResult& duty) {
   std::string text;
   if (duty.worn_hours_p10 < duty.robot_life_hours)
@@ -69,13 +68,13 @@ std::string duty_words(const std::vector<DutyResult>& results) {
     std::size_t wide = 7;
     for (const DutyPart& part : duty.parts) time += part.share_of_time, wide = std::max(wide, columns_of(part.job));
     text += fmt::format("{}{}\n", text.empty() ? "" : "\n", duty.name);
-    text += wrapped(action(duty), 118, "  ") + wrapped(percentile_words(duty), 118, "  ");
+    text += wrapped(duty_action(duty), 118, "  ") + wrapped(percentile_words(duty), 118, "  ");
     text += fmt::format("  {:<{}}  {:>14}  {:>8}  {:>8}  {:>17}  {:>21}\n", "program", wide, "repeats per h", "time", "damage",
                         "p10 without it [h]", "p10 if twice as often");
     for (std::size_t k = 0; k < duty.parts.size(); ++k)
       text += fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>18}  {:>21}\n", duty.parts[k].job, wide,
                           readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time, 100 * duty.lives.share[k],
-                          shown_hours(duty.robot_life_hours, duty.lives.without[k][0]), shown_hours(duty.robot_life_hours, duty.lives.as_twice[k][0]));
+                          shown_hours(duty.robot_life_hours, duty.parts[k].without[0]), shown_hours(duty.robot_life_hours, duty.parts[k].as_twice[0]));
     text += fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
     text += caution_words(duty);
     for (std::size_t m = 0; m < duty.modes.size(); ++m)
@@ -100,7 +99,7 @@ std::string duty_csv(const std::vector<DutyResult>& results) {
                                  lives.percentiles[1], lives.percentiles[2], duty.past_hours, lives.survived})
         cells.push_back(shortest_text(value));
       for (const double value : lives.remaining) cells.push_back(remains ? shortest_text(value) : "");
-      for (const double value : {lives.without[k][0], lives.as_twice[k][0]}) cells.push_back(shortest_text(value));
+      for (const double value : {duty.parts[k].without[0], duty.parts[k].as_twice[0]}) cells.push_back(shortest_text(value));
       text += fmt::format("{}\n", fmt::join(cells, ","));
     }
   return text;

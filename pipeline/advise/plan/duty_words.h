@@ -11,6 +11,12 @@ namespace dresslife::pipeline {
 /// Of each duty: when to replace, then a line for each program. Ends with a line feed.
 std::string duty_words(const std::vector<DutyResult>& results);
 
+/// When to replace, a sentence; and the hours by which 1 of 10, half and 90 % have failed.
+std::string duty_action(const DutyResult& duty);
+std::string percentile_words(const DutyResult& duty);
+/// Hours as the tables of a study show them: beyond the robot's own life only that.
+std::string shown_hours(double robot_life, double hours);
+
 /// What is not in its hours: abrasion, and what is not evaluated. Lines, or empty.
 std::string caution_words(const DutyResult& duty);
 

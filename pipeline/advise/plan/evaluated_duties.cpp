@@ -122,6 +122,34 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
   return rates;
 }
 
+/// (program) per hour.
+std::vector<double> repeats_of(const std::vector<DutyPart>& parts) {
+  std::vector<double> repeats;
+  for (const DutyPart& part : parts) repeats.push_back(part.repeats_per_hour);
+  return repeats;
+}
+
+/// Lives at other numbers of repeats of one program at a time.
+void vary_repeats(DutyResult& result, const SamePlace& places) {
+  constexpr int steps = 10;  // of a chart
+  const std::vector<double> repeats = repeats_of(result.parts);
+  double idle = 1;
+  for (const DutyPart& part : result.parts) idle -= part.share_of_time;
+  for (std::size_t k = 0; k < repeats.size(); ++k) {
+    DutyPart& part = result.parts[k];
+    const auto lives_at = [&](double factor) {
+      std::vector<double> times(repeats.size(), 1), changed = repeats;
+      times[k] = factor, changed[k] *= factor;
+      return lives_with(result.damage, times, places.at(changed));
+    };
+    part.without = lives_at(0), part.as_twice = lives_at(2);
+    if (!(part.share_of_time > 0)) continue;
+    const double most = std::max(part.share_of_time, part.share_of_time + idle);  // no rounding below today's
+    for (int i = 0; i <= steps; ++i)
+      part.over_share.push_back({most * i / steps, lives_at(most * i / steps / part.share_of_time)});
+  }
+}
+
 /// Wear adds up like damage. The wear rate is the same for all programs, so that percentiles add up, too.
 double worn_hours(const std::vector<DutyPart>& parts, const Duty& duty, const Programs& programs) {
   double per_hour = 0;
@@ -171,7 +199,9 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
     const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
     result.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
     for (const LifeResponse& mode : evaluated.front().modes) result.modes.push_back(mode.mode);
-    result.damage = damage_under(evaluated, rates, dresspack);
+    const SamePlace places(evaluated);
+    result.damage = damage_under(evaluated, rates, places.at(repeats_of(result.parts)), dresspack);
+    vary_repeats(result, places);
   }
   for (std::size_t d = 0; d < file.duties.size(); ++d) {
     std::vector<PastDamage> history;
@@ -211,7 +241,7 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
     std::vector<DutyPart> parts;
     const std::vector<Rate> rates = rates_of(duty, programs, parts);
     const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
-    const std::vector<double> share = same_place(evaluated, rates);
+    const std::vector<double> share = SamePlace(evaluated).at(repeats_of(parts));
     LifeTable& table = tables[duty.name];
     table.worlds = worlds, table.draws = draws, table.hours.resize(worlds * draws);
     table.hours_per_week = duty.hours_per_week;

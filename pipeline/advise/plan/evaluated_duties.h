@@ -14,11 +14,19 @@
 
 namespace dresslife::pipeline {
 
+/// Lives under a duty in which one program runs in this share of the time, all others as often as before.
+struct LifeAtShare {
+  double share_of_time = 0;
+  LifePercentiles hours{};
+};
+
 /// One program of a duty.
 struct DutyPart {
   std::string job;
   double repeats_per_hour = 0;
   double share_of_time = 0;
+  LifePercentiles without{}, as_twice{};  ///< [h] under the duty without it, and if it ran twice as often
+  std::vector<LifeAtShare> over_share{};  ///< from 0 to all of the time that the others leave; empty: it never runs
 };
 
 struct DutyResult {

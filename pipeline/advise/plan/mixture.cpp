@@ -69,12 +69,6 @@ double log_deviation(double percent) { return std::sqrt(std::log1p(percent * per
 
 double log10_life(double damage) { return damage > 0 ? -std::log10(damage) : infinity; }
 
-LifePercentiles percentiles_under(const std::vector<double>& damage) {
-  std::vector<double> lives;
-  for (const double of_sample : damage) lives.push_back(log10_life(of_sample));
-  return percentiles_of(std::move(lives));
-}
-
 }  // namespace
 
 WireDamage wire_damage(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent) {
@@ -125,30 +119,36 @@ WireDamage wire_damage(const std::filesystem::path& life_file, const FailureMode
   return wires;
 }
 
-double DutyDamage::in_mode(std::size_t mode, std::size_t sample, std::size_t without) const {
+double DutyDamage::in_mode(std::size_t mode, std::size_t sample) const {
   double sum = 0;
-  for (std::size_t k = 0; k < of_program.size(); ++k)
-    if (k != without) sum += of_program[k][mode][sample];
+  for (const auto& program : of_program) sum += program[mode][sample];
   return sum;
 }
 
-std::vector<double> same_place(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates) {
-  const std::size_t modes = programs.front().modes.size();
-  std::vector<double> all(programs.front().wires.damage.size(), 0.0), apart(modes, 0.0);
-  for (std::size_t k = 0; k < programs.size(); ++k) {
-    const double rate = rates[k].repeats_per_hour;
-    for (std::size_t site = 0; site < all.size(); ++site) all[site] += rate * programs[k].wires.damage[site];
-    const std::vector<double> alone = worst_places(programs[k].wires, programs[k].wires.damage, modes);
-    for (std::size_t m = 0; m < modes; ++m) apart[m] += rate * alone[m];
+SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs) : programs_(programs) {
+  for (const EvaluatedProgram& program : programs)
+    alone_.push_back(worst_places(program.wires, program.wires.damage, program.modes.size()));
+}
+
+std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour) const {
+  const WireDamage& wires = programs_.front().wires;
+  const std::size_t modes = programs_.front().modes.size();
+  std::vector<double> all(wires.damage.size(), 0.0), apart(modes, 0.0);
+  for (std::size_t k = 0; k < programs_.size(); ++k) {
+    const double rate = repeats_per_hour[k];
+    for (std::size_t site = 0; site < all.size(); ++site) all[site] += rate * programs_[k].wires.damage[site];
+    for (std::size_t m = 0; m < modes; ++m) apart[m] += rate * alone_[k][m];
   }
-  std::vector<double> share = worst_places(programs.front().wires, all, modes);
+  std::vector<double> share = worst_places(wires, all, modes);
   for (std::size_t m = 0; m < modes; ++m) share[m] = apart[m] > 0 ? share[m] / apart[m] : 1;
   return share;
 }
 
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                         const std::string& dresspack, std::size_t samples) {
-  return damage_under(programs, rates, same_place(programs, rates), dresspack, samples);
+  std::vector<double> repeats;
+  for (const Rate& rate : rates) repeats.push_back(rate.repeats_per_hour);
+  return damage_under(programs, rates, SamePlace(programs).at(repeats), dresspack, samples);
 }
 
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
@@ -167,10 +167,10 @@ DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std
   return duty;
 }
 
-std::vector<double> DutyDamage::of_first_mode(std::size_t without) const {
+std::vector<double> DutyDamage::of_first_mode() const {
   std::vector<double> damage(samples(), 0.0);
   for (std::size_t s = 0; s < damage.size(); ++s)
-    for (std::size_t m = 0; m < modes(); ++m) damage[s] = std::max(damage[s], in_mode(m, s, without));
+    for (std::size_t m = 0; m < modes(); ++m) damage[s] = std::max(damage[s], in_mode(m, s));
   return damage;
 }
 
@@ -191,14 +191,6 @@ DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& his
     for (std::size_t k = 0; k < programs; ++k) lives.share[k] += duty.of_program[k][first][s] / damage[s];
   }
   for (double& share : lives.share) share = damaged > 0 ? share / damaged : 0;
-  for (std::size_t k = 0; k < programs; ++k) {
-    lives.without.push_back(percentiles_under(duty.of_first_mode(k)));
-    std::vector<double> twice(samples, 0.0);
-    for (std::size_t s = 0; s < samples; ++s)
-      for (std::size_t m = 0; m < duty.modes(); ++m)
-        twice[s] = std::max(twice[s], duty.in_mode(m, s) + duty.of_program[k][m][s]);
-    lives.as_twice.push_back(percentiles_under(twice));
-  }
   if (history.empty()) return lives;
   std::vector<double> remaining;
   for (std::size_t s = 0; s < samples; ++s) {
@@ -214,6 +206,20 @@ DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& his
   lives.survived = static_cast<double>(remaining.size()) / static_cast<double>(samples);
   if (!remaining.empty()) lives.remaining = percentiles_of(std::move(remaining));
   return lives;
+}
+
+LifePercentiles lives_with(const DutyDamage& duty, const std::vector<double>& times, const std::vector<double>& share) {
+  std::vector<double> lives;
+  for (std::size_t s = 0; s < duty.samples(); ++s) {
+    double worst = 0;
+    for (std::size_t m = 0; m < duty.modes(); ++m) {
+      double damage = 0;
+      for (std::size_t k = 0; k < times.size(); ++k) damage += times[k] * duty.of_program[k][m][s];
+      worst = std::max(worst, damage * share[m] / duty.same_place[m]);
+    }
+    lives.push_back(log10_life(worst));
+  }
+  return percentiles_of(std::move(lives));
 }
 
 }  // namespace dresslife::pipeline

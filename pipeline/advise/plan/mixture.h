@@ -56,17 +56,26 @@ struct DutyDamage {
 
   std::size_t samples() const { return of_program.front().front().size(); }
   std::size_t modes() const { return of_program.front().size(); }
-  /// (D1). without: a program that is left out; none: all count.
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  double in_mode(std::size_t mode, std::size_t sample, std::size_t without = none) const;
+  /// (D1)
+  double in_mode(std::size_t mode, std::size_t sample) const;
   /// (sample) of the mode that fails first.
-  std::vector<double> of_first_mode(std::size_t without = none) const;
+  std::vector<double> of_first_mode() const;
 };
 
-/// (mode) c(m), (D2). Precondition: as many rates as programs, at least one; the programs have the same modes and layout.
-std::vector<double> same_place(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates);
+/// c(m) of one duty at any rates. Refers to the programs.
+class SamePlace {
+ public:
+  /// Precondition: at least one program; all have the same modes and layout.
+  explicit SamePlace(const std::vector<EvaluatedProgram>& programs);
+  /// (mode) c(m), (D2). repeats_per_hour: (program).
+  std::vector<double> at(const std::vector<double>& repeats_per_hour) const;
 
-/// Of one duty. share: same_place(). dresspack: names what only this dresspack has (first_failures()).
+ private:
+  const std::vector<EvaluatedProgram>& programs_;
+  std::vector<std::vector<double>> alone_;  ///< (program, mode) max over p of D_k(p)
+};
+
+/// Of one duty. share: of SamePlace. dresspack: names what only this dresspack has (first_failures()).
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                         const std::vector<double>& share, const std::string& dresspack, std::size_t samples = life_samples);
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
@@ -82,12 +91,13 @@ struct DutyLives {
   std::vector<double> log10_hours;  ///< (sample) of operation until failure, from a new dresspack on
   LifePercentiles percentiles{};    ///< [h]
   std::vector<double> share;        ///< (program) of the damage of the mode that fails first, mean over the samples
-  std::vector<LifePercentiles> without;   ///< (program) [h] the duty without it
-  std::vector<LifePercentiles> as_twice;  ///< (program) [h] if it ran twice as often
   /// With a history: the share of samples that have survived it, and the hours until failure from now on, of those.
   double survived = 1;
   LifePercentiles remaining{};
 };
 DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& history = {});
+
+/// Lives [h] with `times` (program) as many repeats. share: of SamePlace at those.
+LifePercentiles lives_with(const DutyDamage& duty, const std::vector<double>& times, const std::vector<double>& share);
 
 }  // namespace dresslife::pipeline

@@ -58,18 +58,24 @@ class Worlds {
   double lives(const LifeTable& table, double now, double at) const {
     return mean(table, now, [&](std::size_t w) { return table.alive(w, at); });
   }
-  /// E(hours of operation between two ages | it lives at `now`).
-  double running(const LifeTable& table, double now, double from, double to) const {
-    return mean(table, now, [&](std::size_t w) { return table.running(w, from, to); });
+  /// (interval) P(failure in it | it lives at `now`), of intervals of so many hours.
+  std::vector<double> fails_in(const LifeTable& table, double now, double hours, std::size_t intervals) const {
+    std::vector<double> fails(intervals, 0.0);
+    double all = 0;
+    for (std::size_t w = 0; w < weight_.size(); ++w) {
+      const float *const end = table.hours.data() + (w + 1) * table.draws, *life = table.first_after(w, now);
+      if (life == end) continue;
+      const double share = weight_[w] / double(end - life);
+      all += weight_[w];
+      for (; life != end && *life < now + hours * double(intervals); ++life)
+        fails[std::min(intervals - 1, static_cast<std::size_t>((*life - now) / hours))] += share;
+    }
+    for (double& of_interval : fails) of_interval /= all > 0 ? all : 1;
+    return fails;
   }
 
  private:
   std::vector<double> log_weight_, weight_;
-};
-
-/// What an interval brings to a dresspack that lives at its begin.
-struct Interval {
-  double fails = 0, running = 0;  ///< probability, mean hours of operation
 };
 
 /// Decides by (D4) or (D5).
@@ -77,55 +83,64 @@ class Decision {
  public:
   Decision(const Worlds& worlds, const PlanRule& rule) : worlds_(worlds), rule_(rule) {}
 
-  bool replace(const Installed& row, const LifeTable& table, const Interval& ahead) {
-    if (!rule_.by_cost) return ahead.fails > rule_.risk;
-    return ahead.fails > 0 &&
-           (row.unplanned_cost - row.planned_cost) * ahead.fails >= least_rate(row, curve_of(table)) * ahead.running;
+  /// A dresspack that lives at the age `now`, when it has the age `from`. interval: to the next window [h].
+  bool replace(const Installed& row, const LifeTable& table, double now, double from, double interval) {
+    if (!rule_.by_cost) {
+      const double lives = worlds_.lives(table, now, from);
+      const double fails = lives > 0 ? worlds_.fails(table, now, from, from + interval) / lives : 1;
+      return fails > rule_.risk && worlds_.fails(table, 0, 0, interval) < fails;
+    }
+    const std::vector<double>& rate = least_rates(row, table);
+    const double saves = row.unplanned_cost - row.planned_cost;
+    constexpr double growth = 1.5;  // of the times T: a curve of costs without corners
+    for (double hours = interval; hours < growth * std::max(interval, table.robot_life_hours); hours *= growth) {
+      const double to = from + hours;
+      const double gain = worlds_.mean(table, now, [&](std::size_t w) {
+        return saves * (table.alive(w, from) - table.alive(w, to)) - rate[w] * table.running(w, from, to);
+      });
+      if (gain <= 0) return false;
+    }
+    return true;
   }
-  /// The same for a dresspack that is put in later, at this age. hours: of operation in the interval.
-  bool replace_new(const Installed& row, const LifeTable& table, double age, double hours) {
+  /// The same for a dresspack that is put in later, at this age.
+  bool replace_new(const Installed& row, const LifeTable& table, double age, double interval) {
     age = age_step * std::round(age / age_step);
-    const auto [found, is_new] = ahead_.try_emplace({&table, age, hours});
-    if (is_new)
-      if (const double lives = worlds_.lives(table, 0, age); lives > 0)
-        found->second = {worlds_.fails(table, 0, age, age + hours) / lives, worlds_.running(table, 0, age, age + hours) / lives};
-    return replace(row, table, found->second);
+    const auto [found, is_new] = known_.try_emplace({&table, age, interval, row.planned_cost, row.unplanned_cost});
+    if (is_new) found->second = replace(row, table, 0, age, interval);
+    return found->second;
   }
 
  private:
   static constexpr double age_step = 10;  // [h]: an eighth of a week
 
-  /// (age) S, and its integral from 0 [h].
-  struct Curve {
-    std::vector<double> lives, running;
-  };
-  const Curve& curve_of(const LifeTable& table) {
-    const auto [found, is_new] = curves_.try_emplace(&table);
+  /// (world) cost per hour [1/h] of age replacement at the age with the least mean (D6).
+  const std::vector<double>& least_rates(const Installed& row, const LifeTable& table) {
+    const auto [found, is_new] = rates_.try_emplace({&table, row.planned_cost, row.unplanned_cost});
     if (!is_new) return found->second;
     const double shortest = *std::min_element(table.hours.begin(), table.hours.end()), last = std::min(table.robot_life_hours, longest);
-    const double first = std::min(last, shortest) / 10;
-    double running = 0, before = 0;
+    const double first = std::max(shortest_life, std::min(last, shortest)) / 10;
+    const std::vector<double>& weights = worlds_.weights();
+    std::vector<double> running(weights.size(), 0.0), rate(weights.size());
+    double least = infinity, before = 0;
     for (std::size_t k = 0; k < ages; ++k) {
       const double age = first * std::pow(last / first, double(k) / double(ages - 1));
-      running += worlds_.running(table, 0, before, age);
+      double mean = 0;
+      for (std::size_t w = 0; w < weights.size(); ++w) {
+        running[w] += table.running(w, before, age);
+        const double lives = table.alive(w, age);
+        rate[w] = (row.planned_cost * lives + row.unplanned_cost * (1 - lives)) / std::max(running[w], first);
+        mean += weights[w] * rate[w];
+      }
       before = age;
-      found->second.lives.push_back(worlds_.lives(table, 0, age));
-      found->second.running.push_back(running);
+      if (mean < least) least = mean, found->second = rate;
     }
     return found->second;
-  }
-  /// g (D6).
-  static double least_rate(const Installed& row, const Curve& curve) {
-    double least = infinity;
-    for (std::size_t k = 0; k < ages; ++k)
-      least = std::min(least, (row.planned_cost * curve.lives[k] + row.unplanned_cost * (1 - curve.lives[k])) / curve.running[k]);
-    return least;
   }
 
   const Worlds& worlds_;
   const PlanRule rule_;
-  std::map<std::tuple<const LifeTable*, double, double>, Interval> ahead_;
-  std::map<const LifeTable*, Curve> curves_;
+  std::map<std::tuple<const LifeTable*, double, double, double, double>, bool> known_;
+  std::map<std::tuple<const LifeTable*, double, double>, std::vector<double>> rates_;
 };
 
 /// Times [days from today] of the windows, then the end of the plan.
@@ -137,9 +152,12 @@ std::vector<double> times_of(const std::vector<Window>& windows, Day today) {
   return times;
 }
 
+std::size_t weeks_until(double days) { return static_cast<std::size_t>(std::ceil(days / 7)); }
+
 /// One simulated plant.
 struct Outcome {
   std::vector<int> planned, unplanned;  ///< (year)
+  std::vector<int> failures;            ///< (week)
   double cost = 0;
 };
 
@@ -151,11 +169,12 @@ class Simulation {
     double sum = 0;
     for (const double weight : worlds.weights()) until_.push_back(sum += weight);
     years_ = static_cast<std::size_t>(std::ceil(times.back() / days_per_year));
+    weeks_ = weeks_until(times.back());
   }
 
   /// decision: null: only failures are replaced.
   Outcome plant(RandomNumbers& random, Decision* decision) const {
-    Outcome outcome{std::vector<int>(years_, 0), std::vector<int>(years_, 0)};
+    Outcome outcome{std::vector<int>(years_, 0), std::vector<int>(years_, 0), std::vector<int>(weeks_, 0)};
     const double at = random.uniform() * until_.back();
     const auto world = static_cast<std::size_t>(std::upper_bound(until_.begin(), until_.end(), at) - until_.begin());
     for (std::size_t i = 0; i < fleet_.rows.size(); ++i) dresspack(i, std::min(world, until_.size() - 1), random, decision, outcome);
@@ -165,10 +184,8 @@ class Simulation {
  private:
   /// A life in a world that is longer than an age.
   static double draw(const LifeTable& table, std::size_t world, double age, RandomNumbers& random) {
-    const float* const first = table.hours.data() + world * table.draws;
-    const auto dead = static_cast<std::size_t>(std::upper_bound(first, first + table.draws, static_cast<float>(age)) - first);
-    if (dead == table.draws) return age;
-    return first[dead + static_cast<std::size_t>(random.uniform() * double(table.draws - dead))];
+    const float *const first = table.first_after(world, age), *const end = table.hours.data() + (world + 1) * table.draws;
+    return first == end ? age : first[static_cast<std::size_t>(random.uniform() * double(end - first))];
   }
 
   void dresspack(std::size_t i, std::size_t world, RandomNumbers& random, Decision* decision, Outcome& outcome) const {
@@ -180,6 +197,7 @@ class Simulation {
     bool is_first = true;
     const auto put_in = [&](double day, bool planned) {
       ++(planned ? outcome.planned : outcome.unplanned)[std::min(years_ - 1, static_cast<std::size_t>(day / days_per_year))];
+      if (!planned) ++outcome.failures[std::min(weeks_ - 1, static_cast<std::size_t>(day / 7))];
       outcome.cost += planned ? fleet_.rows[i].planned_cost : fleet_.rows[i].unplanned_cost;
       begun = day, is_first = false;
       fails = begun + std::max(shortest_life, draw(table, world, 0, random)) / rate;
@@ -206,14 +224,18 @@ class Simulation {
   const std::vector<RowPlan>& rows_;
   const std::vector<double>& times_;
   std::vector<double> until_;
-  std::size_t years_ = 1;
+  std::size_t years_ = 1, weeks_ = 1;
 };
 
 }  // namespace
 
 double LifeTable::alive(std::size_t world, double age) const {
+  return double(hours.data() + (world + 1) * draws - first_after(world, age)) / double(draws);
+}
+
+const float* LifeTable::first_after(std::size_t world, double age) const {
   const float* const first = hours.data() + world * draws;
-  return double(first + draws - std::upper_bound(first, first + draws, static_cast<float>(age))) / double(draws);
+  return std::upper_bound(first, first + draws, static_cast<float>(age));
 }
 
 double LifeTable::median() const {
@@ -224,9 +246,8 @@ double LifeTable::median() const {
 }
 
 double LifeTable::running(std::size_t world, double from, double to) const {
-  const float* const first = hours.data() + world * draws;
   double sum = 0;
-  for (const float* life = std::upper_bound(first, first + draws, static_cast<float>(from)); life != first + draws; ++life)
+  for (const float* life = first_after(world, from); life != hours.data() + (world + 1) * draws; ++life)
     sum += std::min<double>(*life, to) - from;
   return sum / double(draws);
 }
@@ -253,14 +274,14 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     RowPlan& row = plan.rows[i];
     const LifeTable& table = *of_row[i];
     const auto age_at = [&](double day) { return row.age_hours + day * hours_per_day[i]; };
+    row.fails_in_week = worlds.fails_in(table, row.age_hours, 7 * hours_per_day[i], weeks_until(times.back()));
     row.fails_before_first = worlds.fails(table, row.age_hours, row.age_hours, age_at(times.front()));
     double failed = row.fails_before_first;
     for (std::size_t n = 0; n < windows.size(); ++n) {
       const double lives = 1 - failed, from = age_at(times[n]), to = age_at(times[n + 1]);
       const double fails = worlds.fails(table, row.age_hours, from, to);
       row.fails_until_next.push_back(lives > 0 ? fails / lives : 1);
-      const double running = lives > 0 ? worlds.running(table, row.age_hours, from, to) / lives : 0;
-      if (!row.window && decision.replace(fleet.rows[i], table, {row.fails_until_next.back(), running}))
+      if (!row.window && decision.replace(fleet.rows[i], table, row.age_hours, from, to - from))
         row.window = n, row.fails_before = failed;
       failed += fails;
     }
@@ -268,6 +289,8 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   }
   const Simulation simulation(fleet, of_row, hours_per_day, plan.rows, times, worlds);
   std::vector<std::vector<double>> replaced;  // (year, plant)
+  plan.failures_in_week.resize(weeks_until(times.back()));
+  plan.failures_in_week_without_windows.resize(plan.failures_in_week.size());
   for (std::size_t p = 0; p < plants; ++p) {
     RandomNumbers random(mixed(seed + p)), same(mixed(seed + p));  // costs are compared plant by plant
     const Outcome outcome = simulation.plant(random, &decision);
@@ -278,8 +301,13 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
       plan.years[y].unplanned += double(outcome.unplanned[y]) / plants;
       replaced[y].push_back(outcome.planned[y] + outcome.unplanned[y]);
     }
+    const Outcome without = simulation.plant(same, nullptr);
+    for (std::size_t week = 0; week < plan.failures_in_week.size(); ++week) {
+      plan.failures_in_week[week] += double(outcome.failures[week]) / plants;
+      plan.failures_in_week_without_windows[week] += double(without.failures[week]) / plants;
+    }
     plan.cost += outcome.cost / plants;
-    plan.cost_without_windows += simulation.plant(same, nullptr).cost / plants;
+    plan.cost_without_windows += without.cost / plants;
   }
   for (std::size_t y = 0; y < plan.years.size(); ++y) {
     std::sort(replaced[y].begin(), replaced[y].end());

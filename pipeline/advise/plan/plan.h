@@ -8,11 +8,13 @@
 // the uncertainty does not shrink with the size of the fleet.
 //
 // A dresspack at a window has the age a, and the next window is an interval later. It is replaced in the first window with
-//     P(failure in the interval | it lives) > risk                                                             (D4)
-// or, with costs C_p (planned) and C_u (unplanned), in the first with (marginal cost analysis; Berg 1980)
-//     (C_u - C_p) P(failure in the interval | it lives) >= g E(hours of operation in the interval | it lives)  (D5)
-// g: least cost per hour of age replacement (Barlow and Hunter 1960),
-//     g = least over ages T of (C_p S(T) + C_u (1 - S(T))) / integral of S from 0 to T                         (D6)
+//     P(failure in the interval | it lives) > risk, and a new dresspack has less                               (D4)
+// or, with costs C_p (planned) and C_u (unplanned), in the first at which no later time T to replace it costs less:
+//     mean over w of (C_u - C_p) P_w(failure before T | it lives) - g_w E_w(hours until T or failure) > 0      (D5)
+// for every T from the next window on, as the stopping problem of the renewal reward theorem (Ross, Stochastic Processes,
+// 3.6). Where failures grow more frequent with age, the next window decides (marginal cost analysis; Berg 1980). g_w: cost
+// per hour in the world w of the age replacement with the least mean cost (Barlow and Hunter 1960),
+//     g_w = (C_p S_w(T) + C_u (1 - S_w(T))) / integral of S_w from 0 to T, at the T with the least mean over w (D6)
 #pragma once
 
 #include <cstdint>
@@ -31,6 +33,8 @@ struct LifeTable {
   double robot_life_hours = 0;
   double hours_per_week = 0;
 
+  /// The first life of a world that is longer than an age; the end of the world's lives if none is.
+  const float* first_after(std::size_t world, double age) const;
   /// S_w(age)
   double alive(std::size_t world, double age) const;
   /// Over all worlds [h].
@@ -48,6 +52,7 @@ struct PlanRule {
 struct RowPlan {
   double age_hours = 0;
   double fails_before_first = 0;         ///< before the first window
+  std::vector<double> fails_in_week;     ///< (week from today) P(failure in it) of today's dresspack, if it is not replaced
   std::vector<double> fails_until_next;  ///< (window) from it to the next one, if the dresspack lives then
   std::optional<std::size_t> window;     ///< in which it is replaced; absent: in none of them
   double fails_before = 0;               ///< before that window, or within the plan
@@ -63,6 +68,7 @@ struct Plan {
   std::vector<Window> windows;
   std::vector<RowPlan> rows;
   std::vector<YearOfPlan> years;
+  std::vector<double> failures_in_week, failures_in_week_without_windows;  ///< (week) of all, mean over simulated plants
   double cost = 0, cost_without_windows = 0;  ///< mean over simulated plants: by this plan; if only failures are replaced
   double effective_worlds = 0;                ///< (sum of weights)^2 / sum of their squares
 };

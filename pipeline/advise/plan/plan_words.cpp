@@ -14,17 +14,6 @@ namespace {
 
 constexpr std::size_t width = 118;
 
-std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::size_t window) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < fleet.rows.size(); ++i)
-    if (plan.rows[i].window == window) names.push_back(fleet.rows[i].name);
-  return names;
-}
-
-std::string window_text(const Window& window) { return day_text(window.first) + " .. " + day_text(window.last); }
-
-std::string percent(double share) { return readable(100 * share, 2) + " %"; }
-
 /// Text of an iCalendar property in lines of at most 75 bytes.
 std::string folded(std::string line) {
   std::string text;
@@ -55,12 +44,26 @@ std::string compact(Day day) {
 
 }  // namespace
 
-std::string plan_words(const Fleet& fleet, const Plan& plan) {
+std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::size_t window) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < fleet.rows.size(); ++i)
+    if (plan.rows[i].window == window) names.push_back(fleet.rows[i].name);
+  return names;
+}
+
+std::string window_text(const Window& window) { return day_text(window.first) + " .. " + day_text(window.last); }
+
+std::string percent_text(double share) { return readable(100 * share, 2) + " %"; }
+
+std::string expected_words(const Plan& plan) {
   double before = 0;
   for (const RowPlan& row : plan.rows) before += row.fails_before_first;
-  std::string text = wrapped(fmt::format("{} dresspacks, from {} to {}. Before the first window {} of them are expected to fail.",
-                                         plan.rows.size(), day_text(plan.today), day_text(plan.end), readable(before, 2)),
-                             width, "");
+  return fmt::format("{} dresspacks, from {} to {}. Before the first window {} of them are expected to fail.", plan.rows.size(),
+                     day_text(plan.today), day_text(plan.end), readable(before, 2));
+}
+
+std::string plan_words(const Fleet& fleet, const Plan& plan) {
+  std::string text = wrapped(expected_words(plan), width, "");
   for (std::size_t n = 0; n < plan.windows.size(); ++n) {
     const std::vector<std::string> names = replaced_in(fleet, plan, n);
     text += fmt::format("\n{}: {}\n", window_text(plan.windows[n]),
@@ -81,7 +84,7 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
   for (const std::size_t i : risky) {
     const RowPlan& row = plan.rows[i];
     text += fmt::format("{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", fleet.rows[i].name, wide, readable(row.age_hours),
-                        percent(row.fails_before_first), percent(row.fails_before),
+                        percent_text(row.fails_before_first), percent_text(row.fails_before),
                         row.window ? day_text(plan.windows[*row.window].first) : "in no window");
   }
   text += '\n';
@@ -108,6 +111,19 @@ std::string plan_csv(const Fleet& fleet, const Plan& plan) {
                                    row.window ? day_text(plan.windows[*row.window].first) : "", shortest_text(row.fails_before)};
     for (const double share : row.fails_until_next) cells.push_back(shortest_text(share));
     text += fmt::format("{}\n", fmt::join(cells, ","));
+  }
+  return text;
+}
+
+std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan) {
+  std::string text = "name";
+  for (std::size_t week = 0; week < plan.failures_in_week.size(); ++week)
+    text += fmt::format(",fails_in_week_of_{}", day_text(plan.today + std::chrono::days(7 * static_cast<int>(week))));
+  text += '\n';
+  for (std::size_t i = 0; i < fleet.rows.size(); ++i) {
+    text += csv_cell(fleet.rows[i].name);
+    for (const double share : plan.rows[i].fails_in_week) text += "," + shortest_text(share);
+    text += '\n';
   }
   return text;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "pipeline/advise/plan/plan.h"
 
@@ -9,6 +10,17 @@ namespace dresslife::pipeline {
 
 /// What to replace in which window, failures before it, spare parts per year, costs. Ends with a line feed.
 std::string plan_words(const Fleet& fleet, const Plan& plan);
+
+/// The first sentence of it.
+std::string expected_words(const Plan& plan);
+/// Names of the dresspacks that are replaced in a window.
+std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::size_t window);
+/// "2027-07-12 .. 2027-08-01", "4.2 %"
+std::string window_text(const Window& window);
+std::string percent_text(double share);
+
+/// One row per dresspack and one column per week from today: P(failure in it) of today's dresspack, if it is not replaced.
+std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan);
 
 /// One row per dresspack; numbers read back exactly.
 std::string plan_csv(const Fleet& fleet, const Plan& plan);

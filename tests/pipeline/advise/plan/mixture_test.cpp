@@ -50,13 +50,14 @@ const std::vector<std::vector<double>> first_place{{3, 2, 1}, {0, 0, 0}}, second
 TEST_CASE("a program mixed with itself is itself, in any order and parts") {
   const EvaluatedProgram one = program("a", 5, first_place), same = program("b", 5, first_place);
   const DutyLives whole = lives_under(damage_under({one}, {{30, 0}}, "", many));
-  const DutyLives parts = lives_under(damage_under({one, same}, {{10, 0}, {20, 0}}, "", many));
+  const DutyDamage mixed = damage_under({one, same}, {{10, 0}, {20, 0}}, "", many);
+  const DutyLives parts = lives_under(mixed);
   const DutyLives nothing_more = lives_under(damage_under({one, same}, {{30, 0}, {0, 0}}, "", many));
   for (std::size_t p = 0; p < 3; ++p) {
     CHECK(parts.percentiles[p] == Approx(whole.percentiles[p]).epsilon(rounding));
     CHECK(nothing_more.percentiles[p] == Approx(whole.percentiles[p]).epsilon(rounding));
-    CHECK(parts.without[0][p] == Approx(1.5 * whole.percentiles[p]).epsilon(rounding));
-    CHECK(parts.as_twice[0][p] == Approx(0.75 * whole.percentiles[p]).epsilon(rounding));
+    CHECK(lives_with(mixed, {0, 1}, {1})[p] == Approx(1.5 * whole.percentiles[p]).epsilon(rounding));
+    CHECK(lives_with(mixed, {2, 1}, {1})[p] == Approx(0.75 * whole.percentiles[p]).epsilon(rounding));
   }
   CHECK(parts.share[0] == Approx(1.0 / 3).epsilon(rounding));
   CHECK(parts.share[1] == Approx(2.0 / 3).epsilon(rounding));
@@ -73,6 +74,11 @@ TEST_CASE("damage of programs adds up at one place, and not at two") {
   CHECK(lives_under(same).percentiles[1] == Approx(1 / (10 / 1e5 + 10 / 1e6)).epsilon(1e-4));
   // Neither wears the other's place.
   CHECK(lives_under(apart).percentiles[1] == Approx(1e5 / 10).epsilon(1e-4));
+  // Without the one the other lives as it does alone: what the places have in common depends on the rates.
+  const std::vector<EvaluatedProgram> both{hard, elsewhere};
+  const SamePlace places(both);
+  CHECK(lives_with(apart, {1, 0}, places.at({10, 0}))[1] == Approx(1e5 / 10).epsilon(1e-4));
+  CHECK(lives_with(apart, {1, 3}, places.at({10, 30}))[1] == Approx(1e5 / 30).epsilon(1e-4));
   // The second wire of three decides: equal damage of one wire of each place is not the same place's damage.
   const EvaluatedProgram another_wire = program("another wire", 5, {{1, 2, 3}, {0, 0, 0}});
   CHECK(damage_under({hard, another_wire}, rates, "", many).same_place[0] == Approx(1).epsilon(rounding));  // 4, 4, 4
@@ -91,7 +97,7 @@ TEST_CASE("the first of two modes decides in each sample, and programs may wear 
   const DutyLives lives = lives_under(duty);
   CHECK(lives.percentiles[1] == Approx(1e4).epsilon(1e-4));
   CHECK(lives.share[1] == Approx(1).epsilon(1e-6));  // a life of 1e12 has some damage
-  CHECK(lives.without[1][1] == Approx(1e5).epsilon(1e-4));
+  CHECK(lives_with(duty, {1, 0}, {1, 1})[1] == Approx(1e5).epsilon(1e-4));
 }
 
 TEST_CASE("the remaining life is the life without the past, of the dresspacks that have survived it") {

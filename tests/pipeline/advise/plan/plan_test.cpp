@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "pipeline/advise/plan/plan_words.h"
 #include "tests/catch.h"
@@ -88,6 +89,33 @@ TEST_CASE("by risk a dresspack is replaced where a Weibull life fails in the int
       CHECK((plan.rows[k].window == std::optional<std::size_t>(0)) == (1 - lives(14) / lives(4) > risk));
     }
   }
+}
+
+TEST_CASE("dresspacks that fail young or never are not replaced: a new one would be worse") {
+  // Shape 0.6: the longer one has lived, the longer it will. In each world alone, and in two worlds of which nobody knows which.
+  for (const auto& [shape, scales] : {std::pair(0.6, std::vector<double>{4000}), std::pair(1.0, std::vector<double>{500, 100000})}) {
+    const auto tables = std::map<std::string, LifeTable>{{"d", weibull(shape, scales, 4000)}};
+    const Plan plan = plan_of(fleet_of(many(20, 4), 1, 6), tables, windows_in({2, 10, 30, 60}), start, {0.1, true});
+    for (const RowPlan& row : plan.rows) CHECK_FALSE(row.window);
+    CHECK(plan.cost == Approx(plan.cost_without_windows).epsilon(1e-12));
+    if (shape == 1) continue;  // with a constant rate a new one is neither better nor worse, but for rounding
+    const Plan by_risk = plan_of(fleet_of(many(20, 4)), tables, windows_in({2, 10, 30, 60}), start, {0.01, false});
+    for (const RowPlan& row : by_risk.rows) CHECK_FALSE(row.window);
+  }
+}
+
+TEST_CASE("the failures of the weeks add up to those until the windows, and to those of the years") {
+  const Plan plan = plan_of(fleet_of({5, 40, 60}), {{"d", weibull(2.5, {4000, 9000})}}, windows_in({4, 14}), start, {0.2, false});
+  REQUIRE(plan.failures_in_week.size() == 24);
+  for (const RowPlan& row : plan.rows) {
+    const auto until = [&](std::size_t week) { return std::accumulate(row.fails_in_week.begin(), row.fails_in_week.begin() + std::ptrdiff_t(week), 0.0); };
+    CHECK(until(4) == Approx(row.fails_before_first).margin(2e-4));  // 20,000 draws, a life on the edge of a week
+    CHECK(until(14) == Approx(1 - (1 - row.fails_before_first) * (1 - row.fails_until_next[0])).margin(4e-4));
+  }
+  double unplanned = 0;
+  for (const YearOfPlan& year : plan.years) unplanned += year.unplanned;
+  CHECK(std::accumulate(plan.failures_in_week.begin(), plan.failures_in_week.end(), 0.0) == Approx(unplanned).epsilon(1e-9));
+  CHECK(plan_weeks_csv(fleet_of({5, 40, 60}), plan).starts_with("name,fails_in_week_of_2026-11-23,fails_in_week_of_2026-11-30,"));
 }
 
 TEST_CASE("without windows a constant failure rate needs so many spare dresspacks, with the spread of a Poisson number") {

@@ -1,0 +1,14 @@
+// The page of duties: of each program its share of the damage, the life without it, and the life over its share of the time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/advise/plan/evaluated_duties.h"
+
+namespace dresslife::pipeline {
+
+/// name: of the file of duties. table: the file with the same numbers.
+std::string duty_page(const std::string& name, const std::vector<DutyResult>& results, const std::string& table);
+
+}  // namespace dresslife::pipeline
