@@ -357,6 +357,8 @@ std::optional<Value> Rapid::function(const Expression& call, Interpreter& run) {
     arguments.push_back(
         {argument.option, argument.kind == Expression::Kind::none ? Value{} : run.evaluate(argument)});
   if (auto value = rapid_function(code_, name, arguments)) return value;
+  if (name == "gettaskname")
+    return unknown_value(name, "is the name of the task", form_of("string"));
   return rapid_asks_the_robot(name) ? std::optional(Value{}) : std::nullopt;
 }
 

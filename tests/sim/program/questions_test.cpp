@@ -494,3 +494,17 @@ TEST_CASE("questions: a position that is not known asks for the tools of the job
                           "C00000=1,2,3,0,0,0\n//INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVL P005 V=10.0\nEND\n";
   CHECK(questions(Reader{Language::inform}({{"A.JBI", job}})) == std::set<std::string>{"frame TL#(3)", "value P005"});
 }
+
+TEST_CASE("questions: a routine by an unknown name is one of those that move, and what they need is asked for as well") {
+  const std::string program =
+      "MODULE m\nPERS string command;\nPERS robtarget p;\nPROC main()\nWaitTime 1;\n%command%;\nENDPROC\nPROC go()\n"
+      "MoveJ p,v100,fine,tool0;\nENDPROC\nPROC say()\nTPWrite \"x\";\nENDPROC\nPROC by(num n)\nMoveJ p,v100,fine,tool0;\nENDPROC\nENDMODULE\n";
+  Reader reader{Language::rapid};
+  const Reading asked = reader({{"m.mod", program}});
+  CHECK(questions(asked) == std::set<std::string>{"value command", "value p"});
+  for (const Problem& problem : asked.problems)
+    for (const Question& question : problem.questions)
+      if (question.name == "command") CHECK(question.form == "one of \"go\"");
+  reader.options.values = {{"command", "\"go\""}, {"p", "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"}};
+  CHECK(reader({{"m.mod", program}}).problem() == "no such problem");
+}
