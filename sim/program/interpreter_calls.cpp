@@ -67,6 +67,7 @@ void Interpreter::run_late(const Statement& statement) {
     const int ways = static_cast<int>(commands.size());
     call(*commands[static_cast<std::size_t>(guess(statement.place, ways))],
          {statement.arguments.begin() + 1, statement.arguments.end()}, statement.place);
+    if (!loops_.empty()) throw Stop{};  // further messages ask for the same
     return;
   }
   run_named(name.text, {statement.arguments.begin() + 1, statement.arguments.end()}, statement.place);

@@ -507,4 +507,9 @@ TEST_CASE("questions: a routine by an unknown name is one of those that move, an
       if (question.name == "command") CHECK(question.form == "one of \"go\"");
   reader.options.values = {{"command", "\"go\""}, {"p", "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"}};
   CHECK(reader({{"m.mod", program}}).problem() == "no such problem");
+  // A server: the buffer's first message alone is asked for.
+  const Reading server = Reader{Language::rapid}(
+      {{"m.mod", "MODULE m\nVAR num i:=0;\nPROC main()\nWHILE TRUE DO\nIncr i;\n%command{i}%;\nENDWHILE\nENDPROC\n"
+                 "PROC go()\nMoveJ p{i},v100,fine,tool0;\nENDPROC\nENDMODULE\n"}});
+  CHECK(questions(server) == std::set<std::string>{"value command[1]", "value p[1]"});
 }
