@@ -23,11 +23,16 @@ bool Exploration::next_reading() {
   guessing_ = false;
   if (news_ > news_told_) tell_ways();
   last_ways_.clear();
+  taken_here_.clear();
   return ++readings_ <= most_readings && barren_ < barren_in_a_row && spent_ <= most_work;
 }
 
 int Exploration::choose(const std::string& place, int ways) {
   guessing_ = true;
+  // The same inputs, mostly: a condition that is met again goes the same way, unless it may be what ends a loop.
+  constexpr int same_times = 3;
+  auto& [before, times] = taken_here_.try_emplace(place, -1, 0).first->second;
+  if (before >= 0 && before < ways && ++times < same_times) return before;
   std::vector<Way>& known = ways_[place];
   known.resize(std::max(known.size(), static_cast<std::size_t>(ways)));
   const auto begin = known.begin(), end = begin + ways;
@@ -42,7 +47,7 @@ int Exploration::choose(const std::string& place, int ways) {
   if (last_ways_.size() == remembered_ways) last_ways_.pop_front();
   last_ways_.emplace_back(&known, way - begin);
   if (news_ > news_told_) tell_ways();
-  return static_cast<int>(way - begin);
+  return before = static_cast<int>(way - begin);
 }
 
 /// The last ways led to something new.
