@@ -10,8 +10,7 @@ namespace {
 // hundred readings; a reading of a large backup takes some hundredths of a second.
 constexpr int most_readings = 150;
 constexpr long most_work = ImportLimits::executed;  // of all readings together: a second or two
-constexpr int barren_in_a_row =
-    12;  // readings that met nothing new, before it is taken that there is nothing
+constexpr int barren_in_a_row = 20;  // readings that met nothing new, before it is taken that there is nothing
 constexpr std::size_t remembered_ways =
     12;  // that must be taken together to get somewhere: conditions of a state
 
@@ -29,10 +28,10 @@ bool Exploration::next_reading() {
 
 int Exploration::choose(const std::string& place, int ways) {
   guessing_ = true;
-  // The same inputs, mostly: a condition that is met again goes the same way, unless it may be what ends a loop.
-  constexpr int same_times = 3;
+  // Late readings: a condition that is met again goes the same way a few times. Inputs keep their values for a while.
+  constexpr int late = 10, same_times = 3;
   auto& [before, times] = taken_here_.try_emplace(place, -1, 0).first->second;
-  if (before >= 0 && before < ways && ++times < same_times) return before;
+  if (barren_ >= late && before >= 0 && before < ways && ++times < same_times) return before;
   std::vector<Way>& known = ways_[place];
   known.resize(std::max(known.size(), static_cast<std::size_t>(ways)));
   const auto begin = known.begin(), end = begin + ways;

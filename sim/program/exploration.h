@@ -2,10 +2,9 @@
 //
 // Where nobody knows which way a program takes, a reading asks, and goes on along one of the ways as if that were the answer.
 // The next reading takes a way that was not taken yet. Where all were, it takes every other time the one that led to something
-// new last, else one by lot: in turns, two places that follow each other would always take the same of their ways together. A
-// place that is met again in a reading goes the same way a few times. It
-// ends when several readings in a row meet nothing new. What such a
-// reading meets behind the first guess may never happen: its questions count, its mistakes do not.
+// new last, else one by lot: in turns, two places that follow each other would always take the same of their ways together. When
+// several readings in a row meet nothing new, a place that is met again goes the same way a few times; when these do not
+// either, the search ends. What such a reading meets behind the first guess may never happen: its questions count, its mistakes do not.
 #pragma once
 
 #include <cstddef>
