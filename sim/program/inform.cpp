@@ -409,10 +409,9 @@ class Inform final : public Dialect {
                             "teach it in pulses, BASE, ROBOT or USER"),
              false;
     } else if (shift_) {
-      return run_->complain(written->place,
-                            "shifts a position that is given in pulses (SFTON): where it lies is known only "
-                            "with the robot",
-                            "store the positions as BASE or USER (a relative job)"),
+      return run_->miss("SFTON", written->place,
+                        "shifts a position that is given in pulses (SFTON): where it lies is known only with the robot",
+                        "store the positions as BASE or USER (a relative job)"),
              false;
     } else if (!read_joints(*read, written->place, move.target.joints)) {
       return false;

@@ -132,6 +132,12 @@ TEST_CASE("rapid controller: ConfL and ConfJ in an undecided branch are asked fo
   }
 }
 
+TEST_CASE("rapid controller: a record takes no single value") {
+  for (const char* wrong : {"j.robax:=1;\n", "j.robax:=given;\n"})
+    CHECK_THAT(run("VAR jointtarget j;\n" + std::string(wrong) + "MoveAbsJ j,v100,fine,tool0;\n", "", giving("given", "1")).problem(),
+               Catch::Contains("is given a value that is no robjoint"));
+}
+
 TEST_CASE("rapid controller: frames of passes that are cut off are none of the motion") {
   const Reading r = run("w.oframe.trans.x:=w.oframe.trans.x+1;\nMoveL p,v100,fine,tool0\\WObj:=w;\n",
                         pose + "PERS wobjdata w:=[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n");
