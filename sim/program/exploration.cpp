@@ -10,7 +10,8 @@ namespace {
 // hundred readings; a reading of a large backup takes some hundredths of a second.
 constexpr int most_readings = 150;
 constexpr long most_work = ImportLimits::executed;  // of all readings together: a second or two
-constexpr int barren_in_a_row = 30;  // readings that met nothing new, before it is taken that there is nothing
+constexpr int barren_in_a_row =
+    30;  // readings that met nothing new, before it is taken that there is nothing
 constexpr std::size_t remembered_ways =
     12;  // that must be taken together to get somewhere: conditions of a state
 

@@ -47,8 +47,9 @@ std::optional<Value> Rapid::constant(const std::string& name) {
 }
 
 bool Rapid::matters(const std::string& name) const {
-  static const std::set<std::string> others{"accset",  "velset",   "speedrefresh", "pdispset",  "pdispon", "pdispoff",
-                                            "eoffson", "eoffsset", "eoffsoff",     "callbyvar", "confl",   "confj"};
+  static const std::set<std::string> others{"accset",   "velset",    "speedrefresh", "pdispset",
+                                            "pdispon",  "pdispoff",  "eoffson",      "eoffsset",
+                                            "eoffsoff", "callbyvar", "confl",        "confj"};
   return rapid_move(name) || others.contains(name) || name.starts_with("move");
 }
 
@@ -79,7 +80,8 @@ Value Rapid::initial(const std::string& type) const { return rapid_initial(code_
 /// A record takes no single value: the controller stops there.
 void Rapid::store(Value& place, Value value) const {
   if (place.type && value.kind != Value::Kind::list && value.kind != Value::Kind::unknown)
-    value = forgotten(place, unknown_value("", fmt::format("is given a value that is no {}", place.type->name)).cause);
+    value = forgotten(
+        place, unknown_value("", fmt::format("is given a value that is no {}", place.type->name)).cause);
   place = std::move(value);
 }
 
@@ -365,8 +367,7 @@ std::optional<Value> Rapid::function(const Expression& call, Interpreter& run) {
     arguments.push_back(
         {argument.option, argument.kind == Expression::Kind::none ? Value{} : run.evaluate(argument)});
   if (auto value = rapid_function(code_, name, arguments)) return value;
-  if (name == "gettaskname")
-    return unknown_value(name, "is the name of the task", form_of("string"));
+  if (name == "gettaskname") return unknown_value(name, "is the name of the task", form_of("string"));
   return rapid_asks_the_robot(name) ? std::optional(Value{}) : std::nullopt;
 }
 
