@@ -30,7 +30,7 @@ bool Exploration::next_reading() {
 int Exploration::choose(const std::string& place, int ways) {
   guessing_ = true;
   // Late readings: a condition that is met again goes the same way a few times. Inputs keep their values for a while.
-  constexpr int late = 10, same_times = 3;
+  constexpr int late = 10, same_times = 10;
   auto& [before, times] = taken_here_.try_emplace(place, -1, 0).first->second;
   if (barren_ >= late && before >= 0 && before < ways && ++times < same_times) return before;
   std::vector<Way>& known = ways_[place];
