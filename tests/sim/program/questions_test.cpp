@@ -529,14 +529,18 @@ TEST_CASE(
   CHECK(questions(server) == std::set<std::string>{"value command[1]", "value p[1]"});
 }
 
-TEST_CASE("questions: what stands behind several inputs that are read again and again is asked for in the first round") {
+TEST_CASE(
+    "questions: what stands behind several inputs that are read again and again is asked for in the first round") {
   std::string program = "MODULE m\nVAR num code;\nPROC main()\n";
   std::set<std::string> wanted{"value di9"};
   for (int k = 1; k <= 6; ++k)
-    program += fmt::format("check;\nIF code<>0 THEN\nRETURN;\nENDIF\nMoveAbsJ [[{},0,0,0,30,0],"
-                           "[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n", k);
-  program += "IF di9=1 THEN\nMoveAbsJ [[9,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDIF\n"
-             "ENDPROC\nPROC check()\ncode:=0;\n";
+    program += fmt::format(
+        "check;\nIF code<>0 THEN\nRETURN;\nENDIF\nMoveAbsJ [[{},0,0,0,30,0],"
+        "[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n",
+        k);
+  program +=
+      "IF di9=1 THEN\nMoveAbsJ [[9,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDIF\n"
+      "ENDPROC\nPROC check()\ncode:=0;\n";
   for (int i = 1; i <= 5; ++i) {
     program += fmt::format("IF di{0}={1} THEN\ncode:={0};\nRETURN;\nENDIF\n", i, i % 2);
     wanted.insert(fmt::format("value di{}", i));
