@@ -438,7 +438,8 @@ Value Interpreter::unknown_index(const Expression& expression) {
     if (const Value index = evaluate(expression.items[i]); !index.known()) {
       // Of a list that holds nothing known the element is asked for too, in the same round.
       const Value list = evaluate(expression.items[0]);
-      const bool empty = list.kind == Value::Kind::unknown || std::none_of(list.items.begin(), list.items.end(), [](const Value& item) {
+      const bool empty = list.kind == Value::Kind::unknown ||
+                         std::none_of(list.items.begin(), list.items.end(), [](const Value& item) {
                            return item.kind != Value::Kind::unknown && item.first_cause() == nullptr;
                          });
       return empty && list.first_cause() ? unknown_value(index, list) : unknown_value(index);

@@ -1,10 +1,11 @@
 // The search for all that a program asks, so that one round of answers is enough.
 //
-// Where nobody knows which way a program takes, a reading asks, and goes on along one of the ways as if that were the answer.
-// The next reading takes a way that was not taken yet. Where all were, it takes every other time the one that led to something
-// new last, else one by lot: in turns, two places that follow each other would always take the same of their ways together. It
-// ends when several readings in a row meet nothing new. What such a
-// reading meets behind the first guess may never happen: its questions count, its mistakes do not.
+// Where nobody knows which way a program takes, a reading asks, and goes on along one of the ways as if that were
+// the answer. The next reading takes a way that was not taken yet. Where all were, it takes every other time the one
+// that led to something new last, else one by lot: in turns, two places that follow each other would always take the
+// same of their ways together. When several readings in a row meet nothing new, a place that is met again goes the
+// same way a few times; when these do not either, the search ends. What such a reading meets behind the first guess
+// may never happen: its questions count, its mistakes do not.
 #pragma once
 
 #include <cstddef>
@@ -60,6 +61,8 @@ class Exploration {
   };
   std::map<std::string, std::vector<Way>> ways_;                        // by their places
   std::deque<std::pair<std::vector<Way>*, std::ptrdiff_t>> last_ways_;  // of this reading
+  std::map<std::string, std::pair<int, int>>
+      taken_here_;  // place -> last way in this reading, and how often it was met again
   std::minstd_rand lot_;
   std::set<const void*> met_;
   std::set<std::string> asked_, followed_;

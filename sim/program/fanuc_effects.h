@@ -18,7 +18,8 @@ struct FanucEffects {
   bool leaves = false;        ///< a jump may lead out of these statements
   bool any_register = false;  ///< writes registers and position registers that are not known before
   std::set<int> registers, positions;
-  std::set<std::string> named;  ///< "override", "$prgoverride", "uframe_num", "utool_num", "uframe[2]", "uframe[]": any
+  std::set<std::string>
+      named;  ///< "override", "$prgoverride", "uframe_num", "utool_num", "uframe[2]", "uframe[]": any
 
   void add(const FanucEffects& other);
 };

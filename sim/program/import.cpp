@@ -217,7 +217,8 @@ void tell_external_axes(Program& program) {
 }
 
 /// Takes out the frames that no move uses: those of passes that were cut off.
-void drop_unused(std::vector<NamedFrame>& frames, int Instruction::* index, std::vector<Instruction>& instructions) {
+void drop_unused(std::vector<NamedFrame>& frames, int Instruction::*index,
+                 std::vector<Instruction>& instructions) {
   std::vector<int> now(frames.size(), -1);
   for (const Instruction& instruction : instructions)
     if (instruction.*index >= 0) now[static_cast<std::size_t>(instruction.*index)] = 0;

@@ -360,7 +360,8 @@ class Inform final : public Dialect {
                   fmt::format("moves to {}, which is known only while the robot runs", shown(written)),
                   "give VAR.DAT of the backup (--module), or the job that holds its value (///NPOS)",
                   position_form);
-    for (const int tool : tools_of_jobs()) frame(true, tool, written.place);  // its tool is asked for in the same round
+    for (const int tool : tools_of_jobs())
+      frame(true, tool, written.place);  // its tool is asked for in the same round
     return {};
   }
 
@@ -369,9 +370,11 @@ class Inform final : public Dialect {
     std::set<int> numbers;
     for (const Datum& datum : code_.data) {
       const std::vector<Expression>& written = datum.statement.arguments;
-      const bool position = datum.statement.text == "position" && datum.statement.name.find('#') == std::string::npos &&
-                            !written.empty() && written[0].items.size() == 5;
-      if (const double tool = position ? written[0].items[3].number : -1; tool >= 0) numbers.insert(static_cast<int>(tool));
+      const bool position = datum.statement.text == "position" &&
+                            datum.statement.name.find('#') == std::string::npos && !written.empty() &&
+                            written[0].items.size() == 5;
+      if (const double tool = position ? written[0].items[3].number : -1; tool >= 0)
+        numbers.insert(static_cast<int>(tool));
     }
     return numbers.empty() ? std::set<int>{0} : numbers;
   }
@@ -409,10 +412,10 @@ class Inform final : public Dialect {
                             "teach it in pulses, BASE, ROBOT or USER"),
              false;
     } else if (shift_) {
-      return run_->complain(written->place,
-                            "shifts a position that is given in pulses (SFTON): where it lies is known only "
-                            "with the robot",
-                            "store the positions as BASE or USER (a relative job)"),
+      return run_->miss(
+                 "SFTON", written->place,
+                 "shifts a position that is given in pulses (SFTON): where it lies is known only with the robot",
+                 "store the positions as BASE or USER (a relative job)"),
              false;
     } else if (!read_joints(*read, written->place, move.target.joints)) {
       return false;

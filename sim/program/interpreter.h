@@ -254,6 +254,7 @@ class Interpreter {
   Flow leave_out(const Statement& statement, const Value& unknown);
   void run_instruction(const Statement& statement);
   void run_late(const Statement& statement);
+  bool is_command(const Routine& routine, std::size_t arguments);
   void declare(const Statement& statement);
   static const Parameter* parameter_of(const Routine& routine, const Expression& argument,
                                        std::size_t& position);

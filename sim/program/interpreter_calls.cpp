@@ -32,12 +32,44 @@ void Interpreter::run_instruction(const Statement& statement) {
          true);
 }
 
+/// Whether a routine that moves the robot can be called with so many arguments by a name that is worked out.
+bool Interpreter::is_command(const Routine& routine, std::size_t arguments) {
+  const auto needed = std::count_if(routine.parameters.begin(), routine.parameters.end(),
+                                    [](const Parameter& p) { return !p.option; });
+  const bool runs = std::find(routines_.begin(), routines_.end(), &routine) != routines_.end();
+  return !routine.local && !runs && &routine != started_ && static_cast<std::size_t>(needed) == arguments &&
+         moves(routine) && code_.find(routine.name, module_) == &routine;
+}
+
 /// %"step" + ValToStr(n)% x: the name is worked out.
 void Interpreter::run_late(const Statement& statement) {
   const Value name = evaluate(statement.arguments[0]);
   if (name.kind != Value::Kind::text) {
-    ask_for(name, statement.place, "runs a routine whose name is known only while the robot runs",
-            "write its name", "the routine's name, in quotes");
+    // A server of messages: its commands are the routines that it may run. What they need is asked for as well.
+    std::vector<const Routine*> commands;
+    std::string names;
+    for (const Routine& routine : code_.routines)
+      if (is_command(routine, statement.arguments.size() - 1)) {
+        commands.push_back(&routine);
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", routine.written);
+      }
+    const std::string form = commands.empty() ? "the routine's name, in quotes" : "one of " + names;
+    Value unknown = name;
+    if (const std::vector<const Cause*> causes = name.causes();
+        causes.size() == 1 && causes[0]->line.empty()) {
+      Cause named = *causes[0];
+      named.form = form;
+      unknown.cause = std::make_shared<const Cause>(std::move(named));
+    }
+    ask_for(unknown, statement.place,
+            fmt::format("runs a routine whose name is known only while the robot runs{}",
+                        commands.empty() ? "" : fmt::format(" (of those that move: {})", names)),
+            "write its name", form);
+    if (commands.empty()) return;
+    const int ways = static_cast<int>(commands.size());
+    call(*commands[static_cast<std::size_t>(guess(statement.place, ways))],
+         {statement.arguments.begin() + 1, statement.arguments.end()}, statement.place);
+    if (!loops_.empty()) throw Stop{};  // further messages ask for the same
     return;
   }
   run_named(name.text, {statement.arguments.begin() + 1, statement.arguments.end()}, statement.place);

@@ -126,7 +126,8 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
   std::optional<bool> decision = assumed(statement.place);
   const auto end_unknown = [&] {  // where the counter stands behind a loop whose end is not known
     if (statement.keeps_counter)
-      make_unknown(counter_of(statement), {"", "is the counter of the loop in " + short_place(statement.place)});
+      make_unknown(counter_of(statement),
+                   {"", "is the counter of the loop in " + short_place(statement.place)});
     return Flow::next;
   };
   if (decision && !*decision) return end_unknown();

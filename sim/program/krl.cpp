@@ -493,8 +493,7 @@ void Krl::ask_for_frame(const Value& unknown, const Statement& statement, Interp
                  tool ? "tools" : "work_objects", cause->name),
              {{kind, cause->name, ""}});
   } else {
-    run.ask_for(unknown, statement.place,
-                "moves with a $TOOL or $BASE that the files do not contain",
+    run.ask_for(unknown, statement.place, "moves with a $TOOL or $BASE that the files do not contain",
                 "assign a constant frame", "{X .., Y .., Z .., A .., B .., C ..} in mm and deg");
   }
 }
@@ -670,7 +669,8 @@ bool Krl::wait(const Statement& statement, Interpreter& run) {
     run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
                 "write it as a constant", "a time in s");
   } else if (statement.continued && !run.program().instructions.empty()) {
-    run.note(statement.place, "CONTINUE: the time passes while the robot moves, and is not added to the motion", true);
+    run.note(statement.place,
+             "CONTINUE: the time passes while the robot moves, and is not added to the motion", true);
   } else if (time.number > 0) {  // the controller does not wait for 0 and less
     Instruction wait;
     wait.kind = Instruction::Kind::dwell;
@@ -700,18 +700,22 @@ void Krl::wait_for_robot(const Statement& statement, Interpreter& run) {
     before->zone = {};
     return;
   }
-  run.note(statement.place,
-           fmt::format("'{}' is declared in no file read: if it is a SIGNAL, the robot stops at the target before, where its "
-                       "blend is taken; give the $config.dat that declares it",
-                       statement.arguments[0].text),
-           true);
+  run.note(
+      statement.place,
+      fmt::format(
+          "'{}' is declared in no file read: if it is a SIGNAL, the robot stops at the target before, where its "
+          "blend is taken; give the $config.dat that declares it",
+          statement.arguments[0].text),
+      true);
 }
 
 void Krl::may_have_run(const Statement& statement, const Cause& why, Interpreter& run) {
   if (statement.name == advance_stop && !why.line.empty() && blending(run))
-    run.note(statement.place,
-             fmt::format("the robot stops at the target before if the branch in {} leads here: its blend is taken", why.line),
-             true);
+    run.note(
+        statement.place,
+        fmt::format("the robot stops at the target before if the branch in {} leads here: its blend is taken",
+                    why.line),
+        true);
 }
 
 bool Krl::instruction(const Statement& statement, Interpreter& run) {

@@ -26,9 +26,9 @@ void add_krl_types(Code& code);
 
 void parse_krl(Code& code, int file, Problems& problems);
 
-/// Writes a stop of the advance before each statement that names an input or output by its SIGNAL, or an imported variable: to
-/// be called when all files are read, because a data list may declare the names. A name that no file declares, and that is
-/// written as outputs are, may be one: the stop before it has the name as its argument.
+/// Writes a stop of the advance before each statement that names an input or output by its SIGNAL, or an imported
+/// variable. To be called when all files are read, because a data list may declare the names. A name that no file
+/// declares, and that is written as outputs are, may be one: the stop before it has the name as its argument.
 void stop_at_signals(Code& code);
 
 void run_krl(const Code& code, const ImportOptions& options, const std::vector<NamedFrame>& tools,

@@ -289,12 +289,15 @@ Frame Krl::current(const char* variable, const char* list, Frames& frames, std::
     if (const std::optional<Value> held = run.given(variable)) {
       const Coordinates given = coordinates(*held, frame_names);
       for (std::size_t i = 0; i < read.numbers.size(); ++i)
-        if (!std::exchange(read.given[i], read.given[i] || given.given[i])) read.numbers[i] = given.numbers[i];
+        if (!std::exchange(read.given[i], read.given[i] || given.given[i]))
+          read.numbers[i] = given.numbers[i];
     }
   if (!read.all()) {
     Value& why = frames.unknown.known() ? frames.unknown : frames.base_too;
-    const char* none = read.any() ? "is set in part only" : "is assigned nowhere before: the controller holds it";
-    why = read.unknown.known() ? unknown_value(run.answer_name(variable), none, form_of("frame")) : read.unknown;
+    const char* none =
+        read.any() ? "is set in part only" : "is assigned nowhere before: the controller holds it";
+    why = read.unknown.known() ? unknown_value(run.answer_name(variable), none, form_of("frame"))
+                               : read.unknown;
     return {};
   }
   name = name_of(list, read.numbers, run);

@@ -18,20 +18,21 @@ constexpr const char* ends[] = {"end",      "endfct",    "enddat",    "endif", "
                                 "until",    "endswitch", "endspline", "def",   "deffct"};
 
 /// Statements of which the robot's motion knows nothing.
-constexpr const char* left_out_words[] = {"enum",      "ext",    "extfct",  "extp",    "extfctp",   "channel", "anin",    "anout",
-                                          "pulse",     "brake",  "resume",  "halt",    "time_block",
-                                          "const_vel", "asyptp", "asycont", "asystop", "asycancel"};
+constexpr const char* left_out_words[] = {
+    "enum",  "ext",    "extfct", "extp",       "extfctp",   "channel", "anin",    "anout",   "pulse",
+    "brake", "resume", "halt",   "time_block", "const_vel", "asyptp",  "asycont", "asystop", "asycancel"};
 /// System variables that the controller changes: values that a program writes to them do not last.
 constexpr const char* living_names[] = {"$timer", "$timer_flag", "$cycflag", "$in", "$anin", "$err"};
 
-/// What needs the robot where the program is: the controller, which runs ahead of the robot, waits for it here. Source: KUKA's
-/// course on programming (HALT, WAIT, PULSE, ANIN, ANOUT, $IN, $OUT, $ANIN, $ANOUT, imported variables) and the descriptions of
-/// the variables that say where the robot is. Names that SIGNAL and IMPORT declare: krl_advance.cpp.
+/// What needs the robot where the program is: the controller, which runs ahead of the robot, waits for it here.
+/// Source: KUKA's course on programming (HALT, WAIT, PULSE, ANIN, ANOUT, $IN, $OUT, $ANIN, $ANOUT, imported
+/// variables) and the description of $AXIS_ACT; the other places of the robot are ESTIMATED to do the same.
+/// Names that SIGNAL and IMPORT declare: krl_advance.cpp.
 constexpr const char* present_words[] = {
-    "wait",      "halt",          "pulse",     "anin",     "anout",        "$in",       "$out",      "$anin",     "$anout",
-    "$digin1",   "$digin2",       "$digin3",   "$digin4",  "$digin5",      "$digin6",   "$pos_act",  "$pos_act_mes",
-    "$axis_act", "$axis_act_meas", "$axis_int", "$pos_int", "$axis_back",   "$pos_back", "$axis_for", "$pos_for",
-    "$axis_ret", "$pos_ret"};
+    "wait",       "halt",      "pulse",        "anin",      "anout",          "$in",       "$out",
+    "$anin",      "$anout",    "$digin1",      "$digin2",   "$digin3",        "$digin4",   "$digin5",
+    "$digin6",    "$pos_act",  "$pos_act_mes", "$axis_act", "$axis_act_meas", "$axis_int", "$pos_int",
+    "$axis_back", "$pos_back", "$axis_for",    "$pos_for",  "$axis_ret",      "$pos_ret"};
 
 class KrlParser : StatementParser {
  public:
@@ -239,8 +240,7 @@ class KrlParser : StatementParser {
     else if (at_.take_word("while")) {
       loop(s, Kind::while_loop, "endwhile", true);
       if (waits) s.branches[0].body.push_back(stop_of_advance(s.place));  // before each pass
-    }
-    else if (at_.take_word("loop"))
+    } else if (at_.take_word("loop"))
       loop(s, Kind::endless, "endloop", false);
     else if (at_.take_word("repeat"))
       repeat_statement(s);

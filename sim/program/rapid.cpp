@@ -47,8 +47,9 @@ std::optional<Value> Rapid::constant(const std::string& name) {
 }
 
 bool Rapid::matters(const std::string& name) const {
-  static const std::set<std::string> others{"accset",  "velset",   "speedrefresh", "pdispset",  "pdispon", "pdispoff",
-                                            "eoffson", "eoffsset", "eoffsoff",     "callbyvar", "confl",   "confj"};
+  static const std::set<std::string> others{"accset",   "velset",    "speedrefresh", "pdispset",
+                                            "pdispon",  "pdispoff",  "eoffson",      "eoffsset",
+                                            "eoffsoff", "callbyvar", "confl",        "confj"};
   return rapid_move(name) || others.contains(name) || name.starts_with("move");
 }
 
@@ -76,6 +77,14 @@ bool Rapid::writes(const std::string& name, int position, const Expression& argu
 
 Value Rapid::initial(const std::string& type) const { return rapid_initial(code_, type); }
 
+/// A record takes no single value: the controller stops there.
+void Rapid::store(Value& place, Value value) const {
+  if (place.type && value.kind != Value::Kind::list && value.kind != Value::Kind::unknown)
+    value = forgotten(
+        place, unknown_value("", fmt::format("is given a value that is no {}", place.type->name)).cause);
+  place = std::move(value);
+}
+
 std::string Rapid::form_of(const std::string& type) const {
   static const std::map<std::string, const char*> forms{
       {"num", "a number"},
@@ -93,6 +102,7 @@ std::string Rapid::form_of(const std::string& type) const {
       {"wobjdata", "[FALSE, TRUE, \"\", [[x, y, z], [q1, q2, q3, q4]], [[0, 0, 0], [1, 0, 0, 0]]] in mm"},
       {"speeddata", "a speed's name (v100), or [mm/s, deg/s, 5000, 1000]"},
       {"zonedata", "a zone's name (z10, fine)"},
+      {"robjoint", "[a1, a2, a3, a4, a5, a6] in deg"},
       {"extjoint", "[a, b, c, d, e, f] in mm or deg, 9E9 for axes that are not there"}};
   const auto found = forms.find(type);
   return found == forms.end() ? "" : found->second;
@@ -357,6 +367,7 @@ std::optional<Value> Rapid::function(const Expression& call, Interpreter& run) {
     arguments.push_back(
         {argument.option, argument.kind == Expression::Kind::none ? Value{} : run.evaluate(argument)});
   if (auto value = rapid_function(code_, name, arguments)) return value;
+  if (name == "gettaskname") return unknown_value(name, "is the name of the task", form_of("string"));
   return rapid_asks_the_robot(name) ? std::optional(Value{}) : std::nullopt;
 }
 

@@ -35,6 +35,7 @@ class Rapid final : public Dialect {
   bool harmless(const std::string& name) const override;
   bool writes(const std::string& name, int position, const Expression& argument) const override;
   const RecordType* type_of(const std::string& name) const override { return code_.record(name); }
+  void store(Value& place, Value value) const override;
   Value initial(const std::string& type) const override;
   std::string form_of(const std::string& type) const override;
 

@@ -79,7 +79,8 @@ std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const
 /// Steps that give a time in which no axis of the robot gets there.
 struct TooFast {
   int count = 0, axis = 0;
-  double ratio = 0, time = 0, speed = 0;  ///< of the worst one: to the limit, at its end [s], that it asks for [rad/s or m/s]
+  double ratio = 0, time = 0,
+         speed = 0;  ///< of the worst one: to the limit, at its end [s], that it asks for [rad/s or m/s]
   const pipeline::MotionStep* worst = nullptr;
 };
 
@@ -96,10 +97,13 @@ double add_too_fast(const std::vector<pipeline::MotionStep>& steps, const std::v
     time += step.dwell + step.duration.value_or(0);
     if (!step.is_move()) continue;
     double worst = rounding;
-    const std::size_t count = before && step.duration.value_or(0) > 0 ? std::min(step.joints.size(), before->joints.size()) : 0;
+    const std::size_t count =
+        before && step.duration.value_or(0) > 0 ? std::min(step.joints.size(), before->joints.size()) : 0;
     for (std::size_t i = 0; i < std::min(count, axes.size()); ++i) {
-      const double speed = std::abs(step.joints[i] - before->joints[i]) / *step.duration, ratio = speed / axes[i].speed;
-      if (ratio > worst && ratio > found.ratio) found = {found.count, static_cast<int>(i), ratio, time, speed, &step};
+      const double speed = std::abs(step.joints[i] - before->joints[i]) / *step.duration,
+                   ratio = speed / axes[i].speed;
+      if (ratio > worst && ratio > found.ratio)
+        found = {found.count, static_cast<int>(i), ratio, time, speed, &step};
       worst = std::max(worst, ratio);
     }
     found.count += worst > rounding;
@@ -120,8 +124,8 @@ std::vector<pipeline::Warning> too_fast(const pipeline::Motion& motion, const pi
   const char* const name = axis.turns ? "deg/s" : "mm/s";
   return {pipeline::warning_of(
       pipeline::WarningKind::motion, found.worst->where.text(),
-      fmt::format("{} is to move at {:.1f} {} up to {:.6g} s (limit {:.1f} {}){}: the robot takes longer", axis.name,
-                  found.speed / unit, name, found.time, axis.speed / unit, name,
+      fmt::format("{} is to move at {:.1f} {} up to {:.6g} s (limit {:.1f} {}){}: the robot takes longer",
+                  axis.name, found.speed / unit, name, found.time, axis.speed / unit, name,
                   found.count > 1 ? fmt::format(", and {} further steps are too fast", found.count - 1) : ""),
       "times or angles in another unit, or a recording of a faster robot",
       "times that the robot can keep, or the axis' limit in robot.joints if it is larger")};
@@ -153,8 +157,9 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
     : kinematics_(setup.robot),
       motion_(motion_in_time(run, setup)),
       doubts_(pipeline::joined(
-          pipeline::joined(pipeline::joined(run.motion.left_out, missing_external_axes(run.motion, setup.robot)),
-                           pipeline::joined(other_maker(setup.motion, setup.robot), too_fast(run.motion, setup.robot))),
+          pipeline::joined(
+              pipeline::joined(run.motion.left_out, missing_external_axes(run.motion, setup.robot)),
+              pipeline::joined(other_maker(setup.motion, setup.robot), too_fast(run.motion, setup.robot))),
           setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
                                        : pipeline::plausibility_of_steps(run.motion))),
       note_(run.note),

@@ -339,7 +339,10 @@ TEST_CASE("a program of another maker's robot is warned of, one of its own is no
     CHECK(outcome.status == 0);
     const bool warned = outcome.out.find("the program nod.src is one of KUKA, and the robot is ABB IRB 6640-185/2.80") != std::string::npos;
     CHECK(warned == (std::string(program) == "nod.src"));
-    const Outcome made = run(scratch, "dresslife", std::string("new --robot abb_irb6640_185_280 --dresspack spot_welding new.yaml --program ") + program);
+    const Outcome made =
+        run(scratch, "dresslife",
+            std::string("new --robot abb_irb6640_185_280 --dresspack spot_welding new.yaml --program ") +
+                program);
     CAPTURE(made.out, made.err);
     CHECK(made.status == 0);
     CHECK((made.out.find("the program nod.src is one of KUKA") != std::string::npos) == warned);

@@ -321,14 +321,21 @@ TEST_CASE("fanuc frames: a system variable's component is written, the others st
   CHECK((object.orientation * Vector3::UnitX() - Vector3::UnitY()).norm() < rounding);
 }
 
-TEST_CASE("fanuc frames: an assignment by an unknown number may be to any of the list, until one is assigned") {
+TEST_CASE(
+    "fanuc frames: an assignment by an unknown number may be to any of the list, until one is assigned") {
   const Asked known{.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}}};
   const std::string move = "   9:L P[8] 100mm/sec FINE ;\n";
-  CHECK(run("   1:  UTOOL[R[1]]=PR[1] ;\n" + move, known).problem(0).find("uses UTOOL[2], which depends on R[1]") != std::string::npos);
-  CHECK(run("   1:  UTOOL[2]=PR[1] ;\n   2:  UTOOL[GI[1]]=PR[1] ;\n" + move, known).problem(0).find("GI[1]") != std::string::npos);
-  CHECK(run("   1:  UTOOL[GI[1]]=PR[1] ;\n   2:  UTOOL[2]=PR[1] ;\n" + move, known).problem() == "no such problem");
-  CHECK(run("   1:  UTOOL[R[1]]=PR[1] ;\n" + move, {.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}, {"R[1]", "5"}}}).problem() ==
+  CHECK(run("   1:  UTOOL[R[1]]=PR[1] ;\n" + move, known)
+            .problem(0)
+            .find("uses UTOOL[2], which depends on R[1]") != std::string::npos);
+  CHECK(
+      run("   1:  UTOOL[2]=PR[1] ;\n   2:  UTOOL[GI[1]]=PR[1] ;\n" + move, known).problem(0).find("GI[1]") !=
+      std::string::npos);
+  CHECK(run("   1:  UTOOL[GI[1]]=PR[1] ;\n   2:  UTOOL[2]=PR[1] ;\n" + move, known).problem() ==
         "no such problem");
+  CHECK(run("   1:  UTOOL[R[1]]=PR[1] ;\n" + move,
+            {.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}, {"R[1]", "5"}}})
+            .problem() == "no such problem");
 }
 
 TEST_CASE("fanuc: what an undecided branch may set is asked for where a move needs it, whatever was given or backed up") {
@@ -340,12 +347,18 @@ TEST_CASE("fanuc: what an undecided branch may set is asked for where a move nee
        {std::pair("$MCR.$GENOVERRIDE=10", "moves under an OVERRIDE that is known only while the robot runs"),
         std::pair("$PRGOVERRIDE=10", "moves under an $PRGOVERRIDE that is known only while the robot runs"),
         std::pair("OVERRIDE=10%", "moves under an OVERRIDE that is known only while the robot runs"),
-        std::pair("$MNUTOOL[1,2]=PR[1]", "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
-        std::pair("$MNUTOOL[1,2].$Z=5", "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
-        std::pair("UTOOL[2]=PR[1]", "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
-        std::pair("UTOOL[R[1]]=PR[1]", "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
-        std::pair("$MNUTOOL[1,R[1]]=PR[1]", "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
-        std::pair("UFRAME[R[1]]=PR[1]", "uses UFRAME[3], which depends on DI[1], which is known only while the robot runs")}) {
+        std::pair("$MNUTOOL[1,2]=PR[1]",
+                  "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
+        std::pair("$MNUTOOL[1,2].$Z=5",
+                  "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
+        std::pair("UTOOL[2]=PR[1]",
+                  "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
+        std::pair("UTOOL[R[1]]=PR[1]",
+                  "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
+        std::pair("$MNUTOOL[1,R[1]]=PR[1]",
+                  "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
+        std::pair("UFRAME[R[1]]=PR[1]",
+                  "uses UFRAME[3], which depends on DI[1], which is known only while the robot runs")}) {
     INFO(sets);
     const std::string lines = fmt::format("   1:L P[3] 100mm/sec FINE ;\n   2:  IF (DI[1]=ON) THEN ;\n   3:  {} ;\n"
                                           "   4:  ENDIF ;\n   5:L P[8] 100mm/sec FINE ;\n", sets);

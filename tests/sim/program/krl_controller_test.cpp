@@ -180,8 +180,8 @@ TEST_CASE("krl: the counter behind a FOR whose end is not known is not known") {
     CHECK(run(loop + body + use, "", {}, {Language::krl, none}).problems.size() == 1);
   }
   CHECK(run(loop + "$FLAG[1]=TRUE\n" + use).problems.size() == 1);
-  CHECK(first_axes(run("INT n\nFOR n=1 TO 1\n$FLAG[1]=TRUE\nENDFOR\nIF n==2 THEN\nPTP " + axes(2) + "\nENDIF")) ==
-        std::vector<double>{2});
+  CHECK(first_axes(run("INT n\nFOR n=1 TO 1\n$FLAG[1]=TRUE\nENDFOR\nIF n==2 THEN\nPTP " + axes(2) +
+                       "\nENDIF")) == std::vector<double>{2});
 }
 
 TEST_CASE("krl: WITH sets speed, approximation, tool and base for its move alone") {
@@ -404,15 +404,17 @@ TEST_CASE("krl: the robot stops where the controller, which runs ahead, waits fo
     REQUIRE(r.problem() == "no such problem");
     return r.move(0).zone.distance > 0;
   };
-  for (const char* waits : {"WAIT SEC 0", "$OUT[1]=TRUE", "PULSE($OUT[1],TRUE,0.5)", "HALT", "WAIT FOR $IN[1]",
-                            "IF $IN[1] THEN\n$FLAG[1]=TRUE\nENDIF", "CONTINUE\n$OUT[1]=TRUE\n$OUT[2]=TRUE",
-                            "CONTINUE\n\n$OUT[1]=TRUE", "ANOUT OFF a1", "f=$POS_INT"})
+  for (const char* waits :
+       {"WAIT SEC 0", "$OUT[1]=TRUE", "PULSE($OUT[1],TRUE,0.5)", "HALT", "WAIT FOR $IN[1]",
+        "IF $IN[1] THEN\n$FLAG[1]=TRUE\nENDIF", "CONTINUE\n$OUT[1]=TRUE\n$OUT[2]=TRUE",
+        "CONTINUE\n\n$OUT[1]=TRUE", "ANOUT OFF a1", "f=$POS_INT"})
     CHECK_FALSE(blends(waits));
   for (const char* goes_on : {"", "; a comment with $OUT[1]", "CONTINUE\n$OUT[1]=TRUE", "CONTINUE\nWAIT FOR $IN[1]", "$FLAG[1]=TRUE",
                               "TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE", "INTERRUPT DECL 9 WHEN $IN[1] DO halted()"})
     CHECK(blends(goes_on));
   // A time behind CONTINUE passes while the robot moves.
-  const Reading ahead = run("$VEL.CP=1\n$APO.CDIS=10\nCONTINUE\nWAIT SEC 2\nLIN " + pose + " C_DIS\nCONTINUE\nWAIT SEC 1\nLIN {X 900}");
+  const Reading ahead = run("$VEL.CP=1\n$APO.CDIS=10\nCONTINUE\nWAIT SEC 2\nLIN " + pose +
+                            " C_DIS\nCONTINUE\nWAIT SEC 1\nLIN {X 900}");
   REQUIRE(ahead.program.instructions.size() == 3);
   CHECK(ahead.move(0).dwell == 2);
   CHECK(ahead.move(1).zone.distance > 0);
@@ -424,9 +426,12 @@ TEST_CASE("krl: the robot stops where the controller, which runs ahead, waits fo
 }
 
 TEST_CASE("krl: names of inputs, outputs and imported variables stop the advance as these do") {
-  const Files list{{"$config.dat", "DEFDAT $CONFIG\nSIGNAL GRIP $OUT[7]\nGLOBAL SIGNAL PART $IN[3] TO $IN[5]\nBOOL done\nENDDAT\n"}};
+  const Files list{
+      {"$config.dat",
+       "DEFDAT $CONFIG\nSIGNAL GRIP $OUT[7]\nGLOBAL SIGNAL PART $IN[3] TO $IN[5]\nBOOL done\nENDDAT\n"}};
   const auto reading = [&](const std::string& between, const Files& files) {
-    return run("SIGNAL lamp $OUT[9]\nDECL BOOL own\n$VEL.CP=1\n$APO.CDIS=10\nLIN " + pose + " C_DIS\n" + between + "\nLIN {X 900}",
+    return run("SIGNAL lamp $OUT[9]\nDECL BOOL own\n$VEL.CP=1\n$APO.CDIS=10\nLIN " + pose + " C_DIS\n" +
+                   between + "\nLIN {X 900}",
                "SIGNAL valve $OUT[8]\nIMPORT INT other IS /R1/q..n", files);
   };
   const auto blends = [&](const std::string& between) {
@@ -449,7 +454,8 @@ TEST_CASE("krl: names of inputs, outputs and imported variables stop the advance
 }
 
 TEST_CASE("krl: a condition that waits for the robot waits in every pass of its loop") {
-  const std::string begin = "DECL INT i\n$VEL.CP=1\n$APO.CDIS=10\ni=0\n", step = "LIN " + pose + " C_DIS\ni=i+1\n";
+  const std::string begin = "DECL INT i\n$VEL.CP=1\n$APO.CDIS=10\ni=0\n",
+                    step = "LIN " + pose + " C_DIS\ni=i+1\n";
   const auto stops = [&](const std::string& loop) {
     const Reading r = run(begin + loop + "LIN {X 800}");
     REQUIRE(r.problem() == "no such problem");
@@ -464,15 +470,18 @@ TEST_CASE("krl: a stop in a branch that is left out is reported where a blend de
   const std::string branch = "IF n>1 THEN\n$OUT[1]=TRUE\nENDIF\nLIN {X 900}";
   const auto warnings = [&](const std::string& zone) {
     const Reading r = run("$VEL.CP=1\n$APO.CDIS=10\nLIN " + pose + zone + "\n" + branch);
-    return std::count_if(r.program.skipped.begin(), r.program.skipped.end(), [](const Skipped& s) { return s.may_move; });
+    return std::count_if(r.program.skipped.begin(), r.program.skipped.end(),
+                         [](const Skipped& s) { return s.may_move; });
   };
   CHECK(warnings(" C_DIS") == 1);
   CHECK(warnings("") == 0);
 }
 
 TEST_CASE("krl: what an undecided branch may set is asked for where a move needs it") {
-  for (const char* sets : {"$VEL.CP=0.1", "$ACC.CP=0.5", "$APO.CDIS=50", "$ORI_TYPE=#CONSTANT", "$CIRC_TYPE=#PATH", "$IPO_MODE=#TCP",
-                           "$TOOL.Z=200", "$BASE=$NULLFRAME", "$ROBROOT={X 0,Y 0,Z 500,A 0,B 0,C 0}", "$ROBROOT.Z=500", "$OV_PRO=50", "$VEL_AXIS[1]=10", "f.X=950", "slow()"}) {
+  for (const char* sets :
+       {"$VEL.CP=0.1", "$ACC.CP=0.5", "$APO.CDIS=50", "$ORI_TYPE=#CONSTANT", "$CIRC_TYPE=#PATH",
+        "$IPO_MODE=#TCP", "$TOOL.Z=200", "$BASE=$NULLFRAME", "$ROBROOT={X 0,Y 0,Z 500,A 0,B 0,C 0}",
+        "$ROBROOT.Z=500", "$OV_PRO=50", "$VEL_AXIS[1]=10", "f.X=950", "slow()"}) {
     INFO(sets);
     const std::string body = "DECL FRAME f\n$TOOL={X 0,Y 0,Z 100,A 0,B 0,C 0}\n$BASE=$NULLFRAME\n$VEL.CP=0.5\n$ACC.CP=1\n"
                              "$APO.CDIS=10\nf={X 900,Y 0,Z 900,A 0,B 80,C 0}\nPTP " + axes(0) + "\nIF $IN[1] THEN\n" + sets +
@@ -603,7 +612,8 @@ TEST_CASE("krl: frames that the controller holds are asked for, and waiting alon
   const Reading given = reading(held, {{"$tool", tool}, {"$base", "$NULLFRAME"}});
   REQUIRE(given.problem() == "no such problem");
   CHECK(tool_length(given, 0) == Approx(0.1).epsilon(rounding));
-  CHECK(tool_length(reading("$TOOL.X=0\n$TOOL.Y=0\n" + held, {{"$tool", tool}, {"$base", "$NULLFRAME"}}), 0) == Approx(0.1).epsilon(rounding));
+  CHECK(tool_length(reading("$TOOL.X=0\n$TOOL.Y=0\n" + held, {{"$tool", tool}, {"$base", "$NULLFRAME"}}),
+                    0) == Approx(0.1).epsilon(rounding));
   CHECK(reading("$TOOL=$NULLFRAME\n$BASE=$WORLD\n" + held, {}).problems.empty());
   CHECK(reading("PTP " + axes(1), {}).problems.empty());
   CHECK(run("WAIT SEC 2").problem().find("moves the robot nowhere") != std::string::npos);

@@ -472,25 +472,78 @@ TEST_CASE("questions: the file of answers can be filled in and is read back as i
   CHECK(filled.tools[0].position.z() == Approx(0.111));
 }
 
-TEST_CASE("questions: the list is asked for beside its unknown index where nothing of it is known, with its form") {
+TEST_CASE(
+    "questions: the list is asked for beside its unknown index where nothing of it is known, with its form") {
   Reader reader{Language::rapid};
-  const std::string own = "MODULE m\nPERS jointtarget way{2};\nPERS num at;\nVAR num known{2}:=[10,20];\nPROC main()\n",
-                    end = "ENDPROC\nENDMODULE\n";
+  const std::string
+      own = "MODULE m\nPERS jointtarget way{2};\nPERS num at;\nVAR num known{2}:=[10,20];\nPROC main()\n",
+      end = "ENDPROC\nENDMODULE\n";
   const Reading list = reader({{"m.mod", own + "MoveAbsJ way{at},v100,fine,tool0;\n" + end}});
   CHECK(questions(list) == std::set<std::string>{"value at", "value way"});
   for (const Problem& problem : list.problems)
     for (const Question& question : problem.questions)
       if (question.name == "way")
-        CHECK(question.form == "[.., ..], 2 times [[a1, a2, a3, a4, a5, a6], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]] in deg");
-  const Reading index = reader({{"m.mod", own + "MoveAbsJ [[known{at},0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n" + end}});
+        CHECK(question.form ==
+              "[.., ..], 2 times [[a1, a2, a3, a4, a5, a6], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]] in deg");
+  const Reading index = reader(
+      {{"m.mod",
+        own + "MoveAbsJ [[known{at},0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n" + end}});
   CHECK(questions(index) == std::set<std::string>{"value at"});
   Reader answered = reader;
-  answered.options.values = {{"at", "2"}, {"way", "[[[1,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[2,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]]"}};
-  CHECK(answered({{"m.mod", own + "MoveAbsJ way{at},v100,fine,tool0;\n" + end}}).problem() == "no such problem");
+  answered.options.values = {
+      {"at", "2"},
+      {"way", "[[[1,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[2,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]]"}};
+  CHECK(answered({{"m.mod", own + "MoveAbsJ way{at},v100,fine,tool0;\n" + end}}).problem() ==
+        "no such problem");
 }
 
 TEST_CASE("questions: a position that is not known asks for the tools of the job, too") {
-  const std::string job = "/JOB\n//NAME A\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 3\n///POSTYPE BASE\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\n"
-                          "C00000=1,2,3,0,0,0\n//INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVL P005 V=10.0\nEND\n";
-  CHECK(questions(Reader{Language::inform}({{"A.JBI", job}})) == std::set<std::string>{"frame TL#(3)", "value P005"});
+  const std::string job =
+      "/JOB\n//NAME A\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 3\n///POSTYPE BASE\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\n"
+      "C00000=1,2,3,0,0,0\n//INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\n"
+      "///GROUP1 RB1\nNOP\nMOVL P005 V=10.0\nEND\n";
+  CHECK(questions(Reader{Language::inform}({{"A.JBI", job}})) ==
+        std::set<std::string>{"frame TL#(3)", "value P005"});
+}
+
+TEST_CASE(
+    "questions: a routine by an unknown name is one of those that move, and what they need is asked for as well") {
+  const std::string program =
+      "MODULE m\nPERS string command;\nPERS robtarget p;\nPROC main()\nWaitTime 1;\n%command%;\nENDPROC\nPROC go()\n"
+      "MoveJ p,v100,fine,tool0;\nENDPROC\nPROC say()\nTPWrite \"x\";\nENDPROC\nPROC by(num n)\n"
+      "MoveJ p,v100,fine,tool0;\nENDPROC\nENDMODULE\n";
+  Reader reader{Language::rapid};
+  const Reading asked = reader({{"m.mod", program}});
+  CHECK(questions(asked) == std::set<std::string>{"value command", "value p"});
+  for (const Problem& problem : asked.problems)
+    for (const Question& question : problem.questions)
+      if (question.name == "command") CHECK(question.form == "one of \"go\"");
+  reader.options.values = {{"command", "\"go\""},
+                           {"p", "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"}};
+  CHECK(reader({{"m.mod", program}}).problem() == "no such problem");
+  // A server: the buffer's first message alone is asked for.
+  const Reading server = Reader{Language::rapid}(
+      {{"m.mod",
+        "MODULE m\nVAR num i:=0;\nPROC main()\nWHILE TRUE DO\nIncr i;\n%command{i}%;\nENDWHILE\nENDPROC\n"
+        "PROC go()\nMoveJ p{i},v100,fine,tool0;\nENDPROC\nENDMODULE\n"}});
+  CHECK(questions(server) == std::set<std::string>{"value command[1]", "value p[1]"});
+}
+
+TEST_CASE(
+    "questions: what stands behind several inputs that are read again and again is asked for in the first round") {
+  std::string program = "MODULE m\nVAR num code;\nPROC main()\n";
+  std::set<std::string> wanted{"value di9"};
+  for (int k = 1; k <= 6; ++k)
+    program += fmt::format(
+        "check;\nIF code<>0 THEN\nRETURN;\nENDIF\nMoveAbsJ [[{},0,0,0,30,0],"
+        "[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n",
+        k);
+  program +=
+      "IF di9=1 THEN\nMoveAbsJ [[9,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDIF\n"
+      "ENDPROC\nPROC check()\ncode:=0;\n";
+  for (int i = 1; i <= 5; ++i) {
+    program += fmt::format("IF di{0}={1} THEN\ncode:={0};\nRETURN;\nENDIF\n", i, i % 2);
+    wanted.insert(fmt::format("value di{}", i));
+  }
+  CHECK(questions(Reader{Language::rapid}({{"m.mod", program + "ENDPROC\nENDMODULE\n"}})) == wanted);
 }

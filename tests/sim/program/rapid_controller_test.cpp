@@ -114,27 +114,40 @@ TEST_CASE("rapid controller: FOR counts down by itself where the end is smaller"
         Angles{3, 2, 1});
 }
 
-TEST_CASE("rapid controller: the counter of a FOR is known in its loop alone, and nothing else writes to it") {
+TEST_CASE(
+    "rapid controller: the counter of a FOR is known in its loop alone, and nothing else writes to it") {
   const std::string move = "MoveAbsJ [[i,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n";
   const std::string loop = "FOR i FROM 1 TO 2 DO\n" + move + "ENDFOR\n";
   CHECK(first_axes(run("VAR num i:=7;\n" + loop + move)) == Angles{1, 2, 7});
   CHECK_THAT(run(loop + move).problem(), Catch::Contains("'i'"));
   for (const char* writes : {"i:=i+1;\n", "Incr i;\n"})
-    CHECK_THAT(run("FOR i FROM 1 TO 2 DO\n" + move + writes + "ENDFOR\n").problem(), Catch::Contains("which only its FOR may do"));
-  CHECK(first_axes(run("FOR i FROM 1 TO 2 DO\nTPWrite \"x\"\\Num:=i;\nunread i;\n" + move + "ENDFOR\n")) == Angles{1, 2});
+    CHECK_THAT(run("FOR i FROM 1 TO 2 DO\n" + move + writes + "ENDFOR\n").problem(),
+               Catch::Contains("which only its FOR may do"));
+  CHECK(first_axes(run("FOR i FROM 1 TO 2 DO\nTPWrite \"x\"\\Num:=i;\nunread i;\n" + move + "ENDFOR\n")) ==
+        Angles{1, 2});
 }
 
 TEST_CASE("rapid controller: ConfL and ConfJ in an undecided branch are asked for") {
   for (const char* sets : {"ConfL\\Off", "ConfJ\\Off"}) {
-    const std::string body = fmt::format("MoveJ p,v1000,fine,tool0;\nIF di1=1 THEN\n{};\nENDIF\nMoveL p,v100,fine,tool0;\n", sets);
+    const std::string body =
+        fmt::format("MoveJ p,v1000,fine,tool0;\nIF di1=1 THEN\n{};\nENDIF\nMoveL p,v100,fine,tool0;\n", sets);
     CHECK_THAT(run(body, pose).problem(), Catch::Contains("di1"));
     CHECK(run(body, pose, giving("di1", "0")).problem() == "no such problem");
   }
 }
 
+TEST_CASE("rapid controller: a record takes no single value") {
+  for (const char* wrong : {"j.robax:=1;\n", "j.robax:=given;\n"})
+    CHECK_THAT(run("VAR jointtarget j;\n" + std::string(wrong) + "MoveAbsJ j,v100,fine,tool0;\n", "",
+                   giving("given", "1"))
+                   .problem(),
+               Catch::Contains("is given a value that is no robjoint"));
+}
+
 TEST_CASE("rapid controller: frames of passes that are cut off are none of the motion") {
-  const Reading r = run("w.oframe.trans.x:=w.oframe.trans.x+1;\nMoveL p,v100,fine,tool0\\WObj:=w;\n",
-                        pose + "PERS wobjdata w:=[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n");
+  const Reading r =
+      run("w.oframe.trans.x:=w.oframe.trans.x+1;\nMoveL p,v100,fine,tool0\\WObj:=w;\n",
+          pose + "PERS wobjdata w:=[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n");
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == 1);
   CHECK(r.move(0).work_object == 0);

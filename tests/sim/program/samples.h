@@ -25,10 +25,10 @@ inline const std::vector<std::pair<sim::Language, std::string>>& samples() {
        "x)\na{2}:=a{2}+y DIV 2;\nWHILE a{2}<9 DO\na{2}:=a{2}*2;\nENDWHILE\nENDPROC\nFUNC num f(num "
        "z)\nRETURN -z;\nENDFUNC\nENDMODULE\n"},
       {Language::krl,
-       "&ACCESS RVP\nDEF m()\nDECL E6POS P[2]\nINT i\nP[1]={X 1,Y 2,Z 3,A 0,B 0,C 0,S 2,T "
+       "&ACCESS RVP\nDEF m()\nDECL E6POS P[2]\nSIGNAL g $OUT[7]\nINT i\nP[1]={X 1,Y 2,Z 3,A 0,B 0,C 0,S 2,T "
        "35}\n$VEL.CP=0.5\nBAS(#VEL_PTP,50)\nPTP P[1] C_PTP\nFOR i=1 TO 3 STEP "
        "1\nLIN {X i} C_DIS\nENDFOR\nCIRC {X 1,Y 2,Z 4},P[1]\nSPLINE WITH $VEL.CP=1\nSPL P[1]\nENDSPLINE\nIF "
-       "$IN[1]==TRUE THEN\nPTP XHOME\nELSE\nHALT\nENDIF\nWAIT SEC 1\nSWITCH i\nCASE "
+       "$IN[1]==TRUE THEN\nPTP XHOME\nELSE\nHALT\nENDIF\nCONTINUE\ng=TRUE\nout=FALSE\nWAIT SEC 1\nSWITCH i\nCASE "
        "1,2\nf(i)\nDEFAULT\nENDSWITCH\nLOOP\nEXIT\nENDLOOP\n$BASE={X 1,Y 0,Z 0,A 0,B 0,C 0}:{X 0,Y 1,Z 0,A "
        "9,B 8,C 7}\nEND\nDEF f(x:IN)\nREPEAT\nx=x+1\nUNTIL x>4\nEND\n"},
       {Language::fanuc,

@@ -207,7 +207,8 @@ TEST_CASE("clamp path: external axes that the motion moves and the robot does no
   CHECK(RobotPath(job).doubts().empty());
 }
 
-TEST_CASE("clamp path: times that an axis cannot keep are named, the worst with axis, time, speed and limit") {
+TEST_CASE(
+    "clamp path: times that an axis cannot keep are named, the worst with axis, time, speed and limit") {
   pipeline::Job job = turning_job();  // 2 rad/s = 114.6 deg/s
   const auto doubts = [&](const std::vector<double>& angles) {
     pipeline::MotionStep step = job.motion.steps[0];
@@ -224,8 +225,9 @@ TEST_CASE("clamp path: times that an axis cannot keep are named, the worst with 
   const auto named = doubts({1.2, 0, 1.5});
   REQUIRE(named.size() == 1);
   CHECK(named[0].where == "log.csv:5:1");
-  CHECK(named[0].words.starts_with("table is to move at 171.9 deg/s up to 1.5 s (limit 114.6 deg/s), and 2 further steps are too "
-                                   "fast: the robot takes longer"));
+  CHECK(named[0].words.starts_with(
+      "table is to move at 171.9 deg/s up to 1.5 s (limit 114.6 deg/s), and 2 further steps are too "
+      "fast: the robot takes longer"));
   CHECK(named[0].words.find("Remedy: ") != std::string::npos);
 }
 
