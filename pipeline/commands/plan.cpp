@@ -45,7 +45,7 @@ std::vector<std::string> doubts(const std::vector<DutyResult>& duties) {
 std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
   std::vector<std::string> texts;
   for (const DutyResult& duty : duties)
-    if (const std::string words = caution_words(duty); !words.empty()) texts.push_back(duty.name + "\n" + words);
+    if (const std::string words = caution_words(duty); !words.empty()) texts.push_back(duty.name + ":\n" + words);
   return texts;
 }
 

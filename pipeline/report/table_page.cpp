@@ -54,7 +54,7 @@ tbody th { font-weight: 400; vertical-align: top; }
   details, template { display: none; } td details { display: block; } summary { list-style: none; } h2 { break-before: page; break-after: avoid; }
   tr, dd { break-inside: avoid; } #ranking { font-size: 9px; } #ranking td { white-space: normal; }
   #ranking td:nth-child(n + 7) { min-width: 0; } h3, h3 + p { break-after: avoid; }
-  body { max-width: none; padding: 0; font-size: 12px; } thead { display: table-header-group; }
+  body { max-width: none; padding: 0; font-size: 12px; } .soft { font-size: 11px; } thead { display: table-header-group; }
   .wide { overflow: visible; } #matrix .coloured { print-color-adjust: exact; -webkit-print-color-adjust: exact; }  }
 )";
 
