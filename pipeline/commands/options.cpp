@@ -13,6 +13,7 @@
 #include "pipeline/base/installation.h"
 #include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/stage/stage.h"
 
 namespace dresslife::pipeline {
 
