@@ -429,8 +429,8 @@ void CablePaths::put_curvature(std::size_t t) {
   for (std::size_t k = 0; k < loosened_.size(); ++k)
     for (std::size_t d = 0; d < 2; ++d) {
       const std::vector<double>& curvature = loose_->state(k).curvature;
-      curvature_->at(segments, 2 * k + d, t) = static_cast<float>(curvature[d]);
-      curvature_->at(segments + 1, 2 * k + d, t) = static_cast<float>(curvature[2 * elements + d]);
+      for (const std::size_t clamp : {0, 1})
+        curvature_->at(segments + clamp, 2 * k + d, t) = static_cast<float>(loose_->state(k).clamped[2 * clamp + d]);
       for (std::size_t i = 0; i < segments; ++i) {
         const std::size_t first = i * elements / segments,
                           end = std::max(first + 1, (i + 1) * elements / segments);

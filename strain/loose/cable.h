@@ -51,6 +51,9 @@ struct CableState {
   std::vector<double> press;      ///< on what it lies against [N/m] (node); empty: nobody asks
   std::vector<double> offset;     ///< b [m] (node, 2)
   std::vector<double> curvature;  ///< of its own path about the hose's d1 and d2 [1/m] (node, 2)
+  /// The same at the base and the tool clamp (clamp, 2), with what the distance of nodes leaves out there, see bend_at_clamp().
+  /// Means over several nodes are those of `curvature`.
+  std::array<double, 4> clamped{};
 };
 
 }  // namespace dresslife::strain

@@ -177,6 +177,12 @@ void CableLines::judge_mesh(const HoseLine& hose, std::size_t k) {
   }
 }
 
+Vector2d bend_at_clamp(const Vector2d& at_clamp, const Vector2d& next, const Vector2d& after_next, double q) {
+  // B' = second difference / (1 - r)^2 and (1 - r)^2 = q r; sqrt(1 + q/4) - 1 without the difference of equal numbers
+  const double root = std::sqrt(1 + q / 4), per_r = 1 + q / 2 + std::sqrt(q) * root;
+  return at_clamp + per_r / (4 * (root + 1)) * (at_clamp - 2 * next + after_next);
+}
+
 void CableLines::tell(const HoseLine& hose, std::size_t k, CableState& state) const {
   const std::size_t nodes = hose.nodes();
   state.gain = gain_;
@@ -192,6 +198,14 @@ void CableLines::tell(const HoseLine& hose, std::size_t k, CableState& state) co
     const Vector2d offset = at - vector(laid, i, k);
     state.offset[2 * i] = offset.x();
     state.offset[2 * i + 1] = offset.y();
+  }
+  const double q =
+      std::max(0.0, cables_[k].axial_stiffness * state.strain) * std::pow(hose.spacing, 2) / cables_[k].bending_stiffness;
+  for (const std::size_t clamp : {0, 1}) {
+    const std::size_t at = clamp == 0 ? 0 : nodes - 1, next = clamp == 0 ? 1 : nodes - 2, after = clamp == 0 ? 2 : nodes - 3;
+    const Vector2d bends = turned_back(bend_at_clamp(bent_[at], bent_[next], bent_[after], q), hose.turn[at]);
+    state.clamped[2 * clamp] = -bends.y();
+    state.clamped[2 * clamp + 1] = bends.x() + rest_curvature_;
   }
 }
 

@@ -24,6 +24,15 @@
 
 namespace dresslife::strain {
 
+/// A cable that is pulled with T between clamps bends at a clamp by B e^(-s/l), l = sqrt(E I/T), beside what changes slowly.
+/// At nodes h apart, with q = (h/l)^2, the same angle makes second differences B' r^i, r + 1/r = 2 + q, which give at the clamp
+///     B' = B/sqrt(1 + q/4).
+/// at_clamp, next, after_next: curvature at the clamp and the two nodes beside it [1/m]; what changes slowly counts as straight
+/// there. q: 0 where the cable is not pulled; then an eighth of the second difference is left.
+/// Returns the curvature at the clamp.
+Eigen::Vector2d bend_at_clamp(const Eigen::Vector2d& at_clamp, const Eigen::Vector2d& next, const Eigen::Vector2d& after_next,
+                              double q);
+
 class CableLines {
  public:
   /// hose: of so many nodes; it is read again in every call. presses: whether end() tells how they press.

@@ -187,3 +187,27 @@ TEST_CASE("a cable lying in a straight tube goes in waves, then in coils") {
   CHECK(at_fall < std::sqrt(2) * waves);
   CHECK(at_fall == Approx(std::sqrt(2) * waves).epsilon(0.1));  // the weight pulls its ends down first
 }
+
+TEST_CASE("a cable that is pulled bends at its clamp as a beam does, on any mesh") {
+  // In a bend without walls it lies straight and turns at the clamps by half of the bend's angle, as a beam with the tension T:
+  //     its bend at the clamp = K L / (2 l tanh(L / 2 l)), l = sqrt(E I / T).
+  LooseCable cable = signal_cable(0);
+  cable.bending_stiffness = 0.03;
+  constexpr double bend = 0.1, length = 2;  // [1/m], [m]
+  for (const double elongation : {1e-4, 1e-3, 3e-3})
+    for (const std::size_t elements : {128, 256, 512}) {
+      LooseCables cables({cable}, {length, elements});
+      for (int k = 0; k < 200; ++k)  // the drag lets it get there
+        cables.advance(hose(elements, [&](double) { return HoseNode{.curvature2 = bend, .elongation = elongation}; }), 10);
+      const CableState& state = cables.state(0);
+      REQUIRE(state.tension.front() > 0);
+      const double decay = std::sqrt(cable.bending_stiffness / state.tension.front()), spacing = length / double(elements);
+      const double exact = bend * length / (2 * decay * std::tanh(length / (2 * decay)));
+      INFO("T " << state.tension.front() << " N, " << elements << " pieces of " << spacing / decay << " decay lengths");
+      const double raw = state.curvature[1], left = state.clamped[1];
+      // What is straight between the clamps has no curvature that changes slowly, so nothing but rest is left out.
+      CHECK(left == Approx(exact).epsilon(0.001));
+      CHECK(state.clamped[3] == Approx(exact).epsilon(0.001));
+      CHECK(raw == Approx(exact / std::sqrt(1 + std::pow(spacing / decay, 2) / 4)).epsilon(0.001));
+    }
+}
