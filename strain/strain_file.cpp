@@ -111,8 +111,8 @@ class MotionReader {
         for (std::size_t k = 0; k < spans_.size(); ++k) {
           const auto& [dresspack, begin, size, base, tool] = spans_[k];
           const std::size_t held = tool - base + 1;  // the first and the last count
-          const auto own = [&](std::vector<Deformation>& of) {
-            return std::span(of).subspan(t * segments + begin, size);
+          const auto own = [&, first = t * segments + begin, count = size](std::vector<Deformation>& of) {
+            return std::span(of).subspan(first, count);
           };
           gauges_[k].measure({row(position, 3 * segments).subspan(3 * begin, 3 * size),
                               row(orientation, 4 * segments).subspan(4 * begin, 4 * size),

@@ -291,4 +291,9 @@ void remove_notes(const fs::path& folder) {
   for (auto at = folders.rbegin(); at != folders.rend(); ++at) remove_empty(*at);
 }
 
+void remove_temporary(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+}
+
 }  // namespace dresslife::pipeline

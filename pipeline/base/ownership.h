@@ -58,4 +58,7 @@ void make_notes(const std::filesystem::path& folder);
 /// Removes what our programs have put into such a folder, and the folder when nothing else is in it; leaves any other.
 void remove_notes(const std::filesystem::path& folder);
 
+/// Removes a temporary folder of our own with all that it holds. What fails to go stays.
+void remove_temporary(const std::filesystem::path& folder);
+
 }  // namespace dresslife::pipeline

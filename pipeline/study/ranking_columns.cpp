@@ -96,7 +96,7 @@ class Table {
     for (const auto& [end, share, i] : {std::tuple{"p10", "10", 0u}, std::tuple{"p50", "50", 1u}, std::tuple{"p90", "90", 2u}})
       add(of_mode(fmt::format("abrasion_life_hours_{}", end), "h",
                   fmt::format("by then {} % of such dresspacks are worn through by abrasion; not validated", share), abrasion,
-                  [i](const UnvalidatedMode& mode) { return mode.hours[i]; }));
+                  [i = i](const UnvalidatedMode& mode) { return mode.hours[i]; }));
     add(of_mode("abrasion_first_share", "1", "share of the samples in which abrasion comes before the wires", abrasion,
                 [](const UnvalidatedMode& mode) { return mode.first_share; }));
     add(of_mode("abrasion_together_hours_p10", "h", "life_hours_p10 if abrasion counted", abrasion,

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "pipeline/base/ownership.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
@@ -61,9 +62,6 @@ PassingFile::PassingFile(const std::string& name) {
   file_at_the_end_.emplace(file_);
 }
 
-PassingFile::~PassingFile() {
-  std::error_code ignored;  // what was asked for is made
-  std::filesystem::remove_all(file_.parent_path(), ignored);
-}
+PassingFile::~PassingFile() { remove_temporary(file_.parent_path()); }
 
 }  // namespace dresslife::pipeline

@@ -315,11 +315,12 @@ Krl::Frames Krl::current_frames(Interpreter& run) {
   if (mode && mode->kind == Value::Kind::unknown && !is_unset(*mode) && frames.unknown.known())
     frames.unknown = *mode;
   // $BASE is given in $WORLD, in which the robot may stand elsewhere.
-  if (const Value* root = run.variable("$robroot"))
+  if (const Value* root = run.variable("$robroot")) {
     if (const Coordinates place = coordinates(*root, frame_names); place.all())
       frames.base = inverse(frame_from(place.numbers)) * frames.base;
     else if (!place.unknown.known() && frames.unknown.known())
       frames.unknown = place.unknown;
+  }
   return frames;
 }
 
