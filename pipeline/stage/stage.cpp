@@ -8,6 +8,7 @@
 #include <cstring>
 #include <iostream>
 #include <sstream>
+#include <unistd.h>
 #include <system_error>
 
 #include "pipeline/base/installation.h"
@@ -254,6 +255,8 @@ int finish_output(int status) {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good()) return status;
   if (errno != 0) note_failed_output(errno);
+  // Libraries print without a note of the reason: one more byte fails for the same one.
+  if (output_error == 0 && ::write(STDOUT_FILENO, "\n", 1) < 0) note_failed_output(errno);
   tell(fmt::format("standard output: error: cannot be written{}; free space or name another place\n",
                    output_error == 0 ? "" : fmt::format(" ({})", std::strerror(output_error))));
   return std::max(status, 1);
