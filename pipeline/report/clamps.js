@@ -142,7 +142,14 @@ class Clamps {
     const group = this.viewer.links[hit.object.link], inverse = new THREE.Matrix4().getInverse(group.matrixWorld);
     const normal = hit.face.normal.clone().transformDirection(hit.object.matrixWorld);
     if (normal.dot(this.viewer.camera.position.clone().sub(hit.point)) < 0) normal.negate();
-    return {link: hit.object.link, position: hit.point.clone().applyMatrix4(inverse), normal: normal.transformDirection(inverse)};
+    const position = hit.point.clone().applyMatrix4(inverse), shape = hit.object.userData.shape;
+    normal.transformDirection(inverse);
+    if (shape.kind === 'capsule') {  // Its drawn faces are plane and lie up to 2 % of the radius inside it.
+      const solid = new Solid(shape), axis = distanceToLine(position, solid.begin, solid.end).nearest;
+      normal.subVectors(position, axis).normalize();
+      position.copy(axis).addScaledVector(normal, shape.radius);
+    }
+    return {link: hit.object.link, position, normal};
   }
   clampAt(x, y) {
     const rings = this.clamps.flatMap((clamp, k) => clamp.group.children.filter(part => part.isMesh).map(part => Object.assign(part, {clamp: k})));

@@ -30,14 +30,14 @@ function addShapes(group, shapes, material) {
   for (const shape of shapes) {
     if (shape.kind === 'capsule') {
       for (const part of capsuleGeometries(shape.from, shape.to, shape.radius))
-        group.add(Object.assign(new THREE.Mesh(part, material), {userData: {shape: true}}));
+        group.add(Object.assign(new THREE.Mesh(part, material), {userData: {shape}}));
       continue;
     }
     const mesh =
         new THREE.Mesh(shape.kind === 'box' ? new THREE.BoxBufferGeometry(...shape.sides) : meshGeometry(shape), material);
     mesh.position.set(...shape.position);
     mesh.quaternion.set(...shape.quaternion);
-    mesh.userData.shape = true;
+    mesh.userData.shape = shape;
     group.add(mesh);
   }
 }
