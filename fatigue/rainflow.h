@@ -4,12 +4,10 @@
 // (5.4.5; the history happens again and again, so every reversal belongs to a closed cycle).
 //
 // Conventions, fatigue/README.md (F1):
-//   - Reversals are the first sample, the last sample and every turn between. A plateau counts at its first
-//     sample.
+//   - Reversals are the first sample, the last sample, every turn between, and the first sample of a plateau.
 //   - A range closes a cycle when it is at least as large as the one before it: ties close.
-//   - Only strains are compared, never differences or products of differences, so that no rounding or
-//     underflow decides. With below < top > next, the range from top to next closes the range from below to
-//     top if next <= below.
+//   - Only strains are compared, never differences or products of differences: no rounding and no underflow
+//     decides. With below < top > next, the range (top, next) closes the range (below, top) if next <= below.
 //   - A number that is not finite is refused, not skipped.
 // Any quantity may be counted; the stage counts strain [1].
 #pragma once

@@ -1,5 +1,7 @@
 #include "pipeline/stage/stage.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -8,14 +10,13 @@
 #include <cstring>
 #include <iostream>
 #include <sstream>
-#include <unistd.h>
 #include <system_error>
 
+#include "pipeline/base/digest.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/files/checksum.h"
-#include "pipeline/base/digest.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"

@@ -147,7 +147,7 @@ class Edge {
 void find_ring_contacts(const Rod& rod, const RodState& state, const RingShape& ring, const Frame& frame,
                         int number, double margin, double& place, std::vector<Contact>& contacts) {
   const Span& span = rod.spans()[ring.span];
-  const SpanAxis axis(rod, state, span);
+  const SpanAxis axis(state, span);
   Contact contact;
   contact.obstacle = first_ring - number;
   contact.friction = ring.friction;

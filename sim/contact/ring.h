@@ -30,7 +30,7 @@ struct RingShape {
 /// A point of a span's axis: i + u, counted in segments from the span's first centre.
 class SpanAxis {
  public:
-  SpanAxis(const Rod& rod, const RodState& state, const Span& span) : rod_(rod), state_(state), span_(span) {}
+  SpanAxis(const RodState& state, const Span& span) : state_(state), span_(span) {}
 
   struct Point {
     Vector3 position, slope, bend;  ///< of the axis and its first two derivatives by the place
@@ -48,7 +48,6 @@ class SpanAxis {
   void attach(double place, const Vector3& offset, Contact& contact) const;
 
  private:
-  const Rod& rod_;
   const RodState& state_;
   const Span& span_;
 };

@@ -1,6 +1,6 @@
 // The search for all that a program asks, so that one round of answers is enough.
 //
-// Where nobody knows which way a program takes, a reading asks, and goes on along one of the ways as if that were
+// Where the way that a program takes is unknown, a reading asks, and goes on along one of the ways as if that were
 // the answer. The next reading takes a way that was not taken yet. Where all were, it takes every other time the one
 // that led to something new last, else one by lot: in turns, two places that follow each other would always take the
 // same of their ways together. When several readings in a row meet nothing new, a place that is met again goes the

@@ -156,7 +156,7 @@ class FanucRun {
     std::optional<Frame> frame;  // absent: not known
     FanucCauses why;             // it is not
   };
-  static constexpr int any_frame = -1;                    // number of one that nobody knows
+  static constexpr int any_frame = -1;                    // number of an unknown frame
   std::map<std::pair<bool, int>, AssignedFrame> frames_;  // (tool?, number) that the program assigned
   std::optional<FanucPosition> last_;                     // where the robot is: JPOS and LPOS
   std::string offset_condition_, tool_offset_condition_;  // PR[n] of OFFSET CONDITION

@@ -561,8 +561,8 @@ class Inform final : public Dialect {
     if (!argument_of(statement, "") && station)
       return run.note(statement.place, statement.text + ": moves a station alone, not the robot", true);
     std::optional<Position> taught;
-    bool whole =
-        read_zone(statement, move) & read_speed(statement, move) & read_target(statement, move, taught);
+    const bool zone = read_zone(statement, move), speed = read_speed(statement, move);
+    bool whole = read_target(statement, move, taught) && zone && speed;
     if (taught) whole &= read_tool(statement, *taught, move);
     if (!whole) return;
     externals(statement, run);

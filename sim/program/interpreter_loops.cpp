@@ -82,7 +82,7 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
       if (!round) round.emplace(*this, jump_->place);
       const long count = round->again();
       if (jumps_for_ever(body, target, i) && count >= std::max(1, options_.passes)) {
-        note(jump_->place, "an endless loop, of which the motion is " + passes_text(count));
+        note(jump_->place, "an endless loop; the motion is " + passes_text(count));
         throw Stop{};
       }
       end_where_it_repeats(passes.try_emplace(target, program_.instructions).first->second, jump_->place);
@@ -101,7 +101,7 @@ void Interpreter::end_where_it_repeats(Passes& passes, const Place& place) {
   if (!passes.repeats() || passes.count() < wanted) return;
   const std::size_t kept = passes.kept(wanted);
   program_.instructions.resize(passes.end(kept));
-  note(place, "an endless loop, of which the motion is " + passes_text(static_cast<long>(kept)));
+  note(place, "an endless loop; the motion is " + passes_text(static_cast<long>(kept)));
   throw Stop{};
 }
 
@@ -312,7 +312,7 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
   program_.instructions.resize(passes.end(kept));
   note(statement.place,
        fmt::format(
-           "an endless loop, of which the motion is {}{}", passes_text(static_cast<long>(kept)),
+           "an endless loop; the motion is {}{}", passes_text(static_cast<long>(kept)),
            cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
        cut);
   throw Stop{};

@@ -13,7 +13,7 @@ constexpr int lanes = 16, chains = 12;
 typedef float Lanes __attribute__((vector_size(lanes * sizeof(float))));
 
 #if defined(__x86_64__)
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"), noinline))
+__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #endif
 void multiply_add(Lanes* x, long times) {
   Lanes a[chains];

@@ -128,7 +128,7 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
         for (const auto* before : {&half, &inputs}) {
           // From nothing each takes seconds.
           if (!is_long && (before == &inputs || random() % 4 != 0)) continue;
-          const auto fail_at = [&](int at) {
+          const auto fail_at = [&, &kind = kind, &more = more](int at) {
             restore(scratch, *before);
             return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path, more}, "dresslife",
                                command.arguments);

@@ -211,22 +211,22 @@ TEST_CASE("a bend that changes along the cable: the closed form where a wave is 
   constexpr double bend = 1, limit = 1e-3;
   const auto over_slider = [&](double wave, double size) {
     const double cell = std::min(wave, bend) / 32, cap = limit * std::min(wave, bend) / 4;
-    const auto cells = static_cast<std::size_t>(4 * std::max(bend, std::min(wave, 2 * bend)) / cell);
-    SlidingWire wire(cells, cell, limit);
-    std::vector<double> low(cells, 1e9), high(cells, -1e9), glued(cells);
+    const auto many = static_cast<std::size_t>(4 * std::max(bend, std::min(wave, 2 * bend)) / cell);
+    SlidingWire wire(many, cell, limit);
+    std::vector<double> low(many, 1e9), high(many, -1e9), glued(many);
     for (int t = 0; t <= 30; ++t) {
       const double reach = t <= 6 ? t / 6.0 : t <= 18 ? 1 - (t - 6) / 6.0 : -1 + (t - 18) / 6.0;
-      for (std::size_t i = 0; i < cells; ++i) {
+      for (std::size_t i = 0; i < many; ++i) {
         const double at = (static_cast<double>(i) + 0.5) * cell;
         glued[i] =
             size * cap * reach * std::cos(2 * pi * at / bend + 0.2) * std::cos(2 * pi * at / wave + 0.3);
       }
       wire.move(glued);
-      for (std::size_t i = cells / 4; t >= 6 && i < 3 * cells / 4; ++i)
+      for (std::size_t i = many / 4; t >= 6 && i < 3 * many / 4; ++i)
         low[i] = std::min(low[i], wire.strain()[i]), high[i] = std::max(high[i], wire.strain()[i]);
     }
     double worst = 0;
-    for (std::size_t i = cells / 4; i < 3 * cells / 4; ++i) worst = std::max(worst, high[i] - low[i]);
+    for (std::size_t i = many / 4; i < 3 * many / 4; ++i) worst = std::max(worst, high[i] - low[i]);
     return worst / (2 * cap * std::min(size, 1.0));
   };
   for (const double size : {0.5, 1.0, 2.0, 4.0}) {

@@ -30,7 +30,7 @@ std::string refusal(const std::vector<std::string>& sets) {
 
 const std::string part = "dresspack.components.1.";
 const std::string free_cables = "strain.slip=free", hose = "dresspack.inner_diameter_mm=50";
-std::string with(const std::string& part) { return "dresspack.components=[" + part + "]"; }
+std::string with(const std::string& component) { return "dresspack.components=[" + component + "]"; }
 
 }  // namespace
 

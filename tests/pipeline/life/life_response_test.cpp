@@ -173,7 +173,7 @@ TEST_CASE(
   for (int k = 0; k < 40; ++k)
     for (const auto& [parameter, values] : table.nodes) {
       const ParameterPoint z = table.random_node();
-      const auto life = [&](double at) {
+      const auto life = [&, &parameter = parameter](double at) {
         ParameterPoint moved = z;
         moved[parameter] = at;
         return of.log10_life(moved, 0);

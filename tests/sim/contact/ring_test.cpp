@@ -125,7 +125,7 @@ TEST_CASE("the axis through the segments is smooth and knows its nearest places"
     state.position[i] = joint + 0.05 * t;
     joint += 0.1 * t;
   }
-  const SpanAxis axis(rod, state, rod.spans()[0]);
+  const SpanAxis axis(state, rod.spans()[0]);
   for (int i = 0; i < 12; ++i) {
     CHECK((axis.at(i).position - state.position[i]).norm() < 1e-14);
     CHECK((axis.at(i).slope.normalized() - tangent(state.orientation[i])).norm() < 1e-12);

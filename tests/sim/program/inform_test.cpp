@@ -192,7 +192,7 @@ TEST_CASE("inform: an endless main loop is one cycle, also where it is left and 
           "DEC I000\nJUMP *LOOP\n*RESET\nMOVJ C00002 VJ=9\nJUMP *LOOP\n");
   REQUIRE(parts.problem() == "no such problem");
   CHECK(lines_of(parts) == std::vector<int>{23, 23, 27});
-  CHECK(skips(parts, "an endless loop, of which the motion is", false));
+  CHECK(skips(parts, "an endless loop; the motion is", false));
   const Reading counted =
       run(three,
           "FOR I000 START= 1 TO 3\nMOVJ C00000 VJ=9\nNEXT I000\nWHILE I000>2\nMOVL C00001 V=9\n"

@@ -184,7 +184,7 @@ TEST_CASE("krl: jumps over moves and back to a label, and an endless one is one 
   REQUIRE(endless.problem() == "no such problem");
   CHECK(endless.program.instructions.size() == 3);
   REQUIRE(endless.program.skipped.size() == 1);
-  CHECK(endless.program.skipped[0].what == "an endless loop, of which the motion is one pass");
+  CHECK(endless.program.skipped[0].what == "an endless loop; the motion is one pass");
   CHECK(run(start + "GOTO nowhere").problem() ==
         "cell.src:6:6: error: jumps to 'nowhere', which is no label in a block around it; mend the label, or "
         "write a loop");

@@ -165,7 +165,7 @@ TEST_CASE("rapid: an endless main loop is one pass, a known condition ends a loo
   CHECK(r.problems.empty());
   CHECK(r.program.instructions.size() == 4);
   REQUIRE(r.program.skipped.size() == 1);
-  CHECK(r.program.skipped[0].what == "an endless loop, of which the motion is one pass");
+  CHECK(r.program.skipped[0].what == "an endless loop; the motion is one pass");
 }
 
 TEST_CASE("rapid: problems are collected, with place, reason and remedy") {

@@ -297,7 +297,7 @@ TEST_CASE("a retraction unit and a ring belong to their dresspack") {
       REQUIRE(sample.travel.size() == 2);
       CHECK(sample.travel[0] == 0);
       drawn = std::max(drawn, sample.travel[1]);
-      const SpanAxis axis(simulation.rod(), sample.state, simulation.rod().spans()[1]);
+      const SpanAxis axis(sample.state, simulation.rod().spans()[1]);
       const Vector3 centre(0.7, 0.6, 1.02);
       CHECK((axis.at(axis.nearest(centre, 12)).position - centre).norm() < 0.016);  // 14 mm clear
     }});

@@ -245,7 +245,7 @@ TEST_CASE("routing: a dresspack is led by a ring that the job describes") {
   const Rod& rod = led.simulation->rod();
   CHECK(rod.spans().size() == 1);
   for (const Row& row : led.rows) {
-    const SpanAxis axis(rod, row.state, rod.spans()[0]);
+    const SpanAxis axis(row.state, rod.spans()[0]);
     const Vector3 near = axis.at(axis.nearest({0.5, 0, 1.1}, 18)).position;
     CHECK((near - Vector3(0.5, 0, 1.1)).norm() < 0.005);  // 4 mm clear, and a millimetre of overlap
   }

@@ -92,7 +92,7 @@ TEST_CASE("by risk a dresspack is replaced where a Weibull life fails in the int
 }
 
 TEST_CASE("dresspacks that fail young or never are not replaced: a new one would be worse") {
-  // Shape 0.6: the longer one has lived, the longer it will. In each world alone, and in two worlds of which nobody knows which.
+  // Shape 0.6: the longer one has lived, the longer it will. In each world alone, and when the world is one of two.
   for (const auto& [shape, scales] : {std::pair(0.6, std::vector<double>{4000}), std::pair(1.0, std::vector<double>{500, 100000})}) {
     const auto tables = std::map<std::string, LifeTable>{{"d", weibull(shape, scales, 4000)}};
     const Plan plan = plan_of(fleet_of(many(20, 4), 1, 6), tables, windows_in({2, 10, 30, 60}), start, {0.1, true});
@@ -108,7 +108,7 @@ TEST_CASE("the failures of the weeks add up to those until the windows, and to t
   const Plan plan = plan_of(fleet_of({5, 40, 60}), {{"d", weibull(2.5, {4000, 9000})}}, windows_in({4, 14}), start, {0.2, false});
   REQUIRE(plan.failures_in_week.size() == 24);
   for (const RowPlan& row : plan.rows) {
-    const auto until = [&](std::size_t week) { return std::accumulate(row.fails_in_week.begin(), row.fails_in_week.begin() + std::ptrdiff_t(week), 0.0); };
+    const auto until = [&](std::size_t end) { return std::accumulate(row.fails_in_week.begin(), row.fails_in_week.begin() + std::ptrdiff_t(end), 0.0); };
     CHECK(until(4) == Approx(row.fails_before_first).margin(2e-4));  // 20,000 draws, a life on the edge of a week
     CHECK(until(14) == Approx(1 - (1 - row.fails_before_first) * (1 - row.fails_until_next[0])).margin(4e-4));
   }
