@@ -26,7 +26,7 @@ int duty(const RunOptions& options) {
   write_text_if_changed(table, csv);
   print(options.json ? json_of_csv(csv).text + "\n"
                      : shown(fmt::format("{}\nTable: {}\n", duty_words(results), table.string())));
-  if (!options.quiet) tell(warning_lines(rows_of(file, made.rows)));
+  tell(warning_lines(rows_of(file, made.rows)));
   return 0;
 }
 

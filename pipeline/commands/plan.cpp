@@ -78,7 +78,7 @@ int plan(const Options& options) {
   print(options.json ? json_of_csv(csv).text + "\n"
                      : shown(fmt::format("{}{}\n{}Table: {}\nCalendar: {}\n", doubts(duties), plan_words(fleet, found),
                                          cautions(duties), table.string(), calendar.string())));
-  if (!options.quiet) tell(warning_lines(rows_of(file, made.rows)));
+  tell(warning_lines(rows_of(file, made.rows)));
   return 0;
 }
 
