@@ -95,10 +95,11 @@ std::string cable_key(const CableFacts& facts, const char* key) {
   return fmt::format("{}.components.{}.{}", facts.key, facts.number, key);
 }
 
-/// A slack in the middle of those that fit, as a line of the job.
+/// Of the slacks that fit that nearest to the present one, as a line of the job.
 std::string slack_line(const CableFacts& facts, double least, double most) {
-  return fmt::format("{}: {:.2g} ({} .. {} fit; now {:.3g})", cable_key(facts, "slack_percent"), 50 * (least + most),
-                     pipeline::percent_above(least), pipeline::percent_below(most), facts.component->laying.slack);
+  const std::string low = pipeline::percent_above(least), high = pipeline::percent_below(most);
+  return fmt::format("{}: {} ({} .. {} fit; now {:.3g})", cable_key(facts, "slack_percent"),
+                     facts.component->laying.slack < 100 * least ? low : high, low, high, facts.component->laying.slack);
 }
 
 /// Why a cable that keeps its place at both clamps is pulled, and what would let it move.
@@ -136,14 +137,17 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
   const std::string room = fmt::format("it has {:.2g} mm of room and {:.3g} % of slack", 1e3 * facts.room, 100 * slack);
   const std::string cause =
       compressed ? fmt::format("{}, where its path and its room take {} % at most", room, pipeline::percent_below(most))
-                 : fmt::format("{}, where its path asks for {} % or more", room, pipeline::percent_above(least));
+                 : fmt::format("{}, and its path gets {} % longer if no cable beside it gives way", room, pipeline::percent_above(least));
   if (least <= slack && slack <= most)
     return {room + ", which fit its path; friction, its weight and the hose's motion pull it",
             fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}), or {} as measured", std::max(1.0, acceleration / 2),
                         acceleration, cable_key(facts, "friction_coefficient"))};
-  const double proposed = std::min(most, facts.least_gain + facts.room / room_per_excess(facts));
+  const double proposed = std::min({most, facts.least_gain + facts.room / room_per_excess(facts), pipeline::largest_slack});
   if (least <= proposed)
     return {cause, slack_line(facts, least, proposed)};
+  if (least > pipeline::largest_slack)
+    return {cause, fmt::format("no slack up to {:g} % cures it: a hose that bends less, or a place nearer to its axis ({})",
+                               100 * pipeline::largest_slack, cable_key(facts, "helix_radius_mm"))};
   const double excess = least - facts.least_gain;
   const double needed =
       std::max(pipeline::room_of_excess(cable, excess, limit), excess * room_per_excess(facts));

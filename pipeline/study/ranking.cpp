@@ -397,7 +397,8 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     const std::array<std::string, 7> cells =
         row.has_result() ? std::array<std::string, 7>{row.rank ? std::to_string(row.rank) : "-",
                                                       one_line(row.job),
-                                                      (row.stale ? "stale " : "") + shown_life(row, row.headline_hours()),
+                                                      std::string(row.stale ? "stale " : "") + (earlier_unvalidated(row) ? "*" : "") +
+                                                          shown_life(row, row.headline_hours()),
                                                       shown_calendar(row),
                                                       planned_text(row, 1),
                                                       planned_text(row, 2),
@@ -434,6 +435,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     for (const std::string& paragraph : paragraphs(row)) words += below(paragraph);
     if (!words.empty()) details += '\n' + (rows.size() > 1 ? one_line(row.job) + '\n' : "") + words;
   }
+  if (const std::string note = unvalidated_note(rows); !note.empty()) text += wrapped(one_line(note), width, indent);
   text += details;
   std::string estimates;
   for (const std::string& one : estimate_words(rows)) estimates += wrapped(one_line(one), width, "");
