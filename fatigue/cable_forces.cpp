@@ -88,6 +88,7 @@ struct CableFacts {
   const pipeline::Dresspack* dresspack = nullptr;
   double room = 0, least_gain = 0, most_gain = 0;  ///< /cable/room, /cable/path_gain
   bool has_room = false;                           ///< the file has these
+  double winding_slack = 0;                        ///< see pipeline/cable/excess.h; 0: not known, or not needed
 };
 
 /// Of the component, which all cables of its `count` share, as a line of the job: "dresspack.components.2.slack_percent".
@@ -135,6 +136,13 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
   if (!pipeline::lies_loose(*facts.dresspack, *facts.component))
     return held_cure(facts, pipeline::inner_radius(*facts.dresspack).has_value(), least, most);
   const std::string room = fmt::format("it has {:.2g} mm of room and {:.3g} % of slack", 1e3 * facts.room, 100 * slack);
+  const double highest = std::min(most, pipeline::largest_slack);
+  if (const double laid = pipeline::slack_to_lay(facts.winding_slack);
+      !compressed && facts.winding_slack > 0 && slack < laid && slack < least && laid <= highest)
+    return {fmt::format("it has {:.3g} % of slack, too little to wind around the hose's axis, so that it stays on one side of the "
+                        "hose and a bend of the hose pulls it",
+                        100 * slack),
+            slack_line(facts, laid, highest)};
   const std::string cause =
       compressed ? fmt::format("{}, where its path and its room take {} % at most", room, pipeline::percent_below(most))
                  : fmt::format("{}, and its path gets {} % longer if no cable beside it gives way", room, pipeline::percent_above(least));
@@ -142,7 +150,7 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
     return {room + ", which fit its path; friction, its weight and the hose's motion pull it",
             fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}), or {} as measured", std::max(1.0, acceleration / 2),
                         acceleration, cable_key(facts, "friction_coefficient"))};
-  const double proposed = std::min({most, facts.least_gain + facts.room / room_per_excess(facts), pipeline::largest_slack});
+  const double proposed = std::min(highest, facts.least_gain + facts.room / room_per_excess(facts));
   if (least <= proposed)
     return {cause, slack_line(facts, least, proposed)};
   if (least > pipeline::largest_slack)
@@ -183,6 +191,7 @@ std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipel
     CableFacts facts{names[k], line_key(job, in, "dresspack"), which + 1, &component_of(strain, job, in, which),
                      &job.dresspacks[in].dresspack};
     facts.has_room = has_room;
+    facts.winding_slack = pipeline::winding_slack(job.dresspacks[in], *facts.component);
     if (has_room) facts.room = room[k], facts.least_gain = gain[2 * k], facts.most_gain = gain[2 * k + 1];
     all.push_back(facts);
   }

@@ -11,6 +11,6 @@ constexpr double believable_share = 0.2;
 
 /// Of the slack of a loose cable, as a share of its path: dresspacks are laid with 1 to 2 %. More causes a warning, and no
 /// remedy proposes it.
-constexpr double largest_slack = 0.05;
+constexpr double usual_slack = 0.01, largest_slack = 0.05;
 
 }  // namespace dresslife::pipeline

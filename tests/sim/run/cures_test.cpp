@@ -103,7 +103,7 @@ TEST_CASE("cures: a bend that is there at rest is cured by a length or by direct
   const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
   INFO(words);
   CHECK_THAT(words, Catch::Contains("smallest bend radius: ") && Catch::Contains("already at rest") &&
-                        Catch::Contains("m from the base clamp") && Catch::Contains("(at rest "));
+                        Catch::Contains("m from the base clamp") && Catch::Contains("(bend radius at rest "));
   job.dresspacks[0].routing.free_length = value_of(words, "routing.free_length_m");
   for (const char* clamp : {"base_clamp", "tool_clamp"}) {
     const std::string key = std::string("routing.") + clamp + ".direction: [";
