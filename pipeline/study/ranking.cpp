@@ -265,9 +265,7 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
   all.push_back(repeat_words(row));
   all.push_back(uncertainty_words(row));
   all.push_back(failure_words(row));
-  if (row.planned() && std::isfinite(row.first_wire_hours[0]))
-    all.push_back(fmt::format("With the uncertain parameters at their medians a first wire breaks after {} (10 .. 90 %).",
-                              range_text(row.first_wire_hours[0], row.first_wire_hours[2])));
+  all.push_back(own_values_words(row));
   for (const UnvalidatedMode& mode : row.unvalidated) all.push_back(unvalidated_words(mode));
   if (!row.not_evaluated.empty() && action_words(row).find(row.not_evaluated) == std::string::npos)
     all.push_back(fmt::format("Not evaluated: {}.", row.not_evaluated));

@@ -40,6 +40,10 @@ std::string uncertainty_words(const RankingRow& row);
 /// damaging cycle ends at 144.3 s, during .."
 std::string failure_words(const RankingRow& row);
 
+/// When a first wire breaks with the job's own values, by the scatter of wires alone; and how much longer or shorter half of the
+/// samples live than with these values, where that is more than a decade. Empty: not known, or no wire breaks.
+std::string own_values_words(const RankingRow& row);
+
 /// "The strain of this wire follows joint_6 most.", that this is no cause, and the command that tries it. Empty: not known.
 std::string joint_words(const RankingRow& row);
 

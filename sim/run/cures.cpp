@@ -328,11 +328,12 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   if (std::isinf(k_rest)) {
     cause = "its length and its clamps do not suit the motion; no shape at rest was found for the clamps as they are";
   } else if (at_rest) {
-    cause = fmt::format("{} (already at rest {} over the program)",
-                        remedy.empty()                                         ? "distance and direction of the clamps"
-                        : remedy.find(".direction: ") != std::string::npos ? "directions of the clamps"
-                                                                               : "the free length",
-                        radius_words(k_rest));
+    cause = remedy.empty()                                         ? "distance and direction of the clamps"
+            : remedy.find(".direction: ") != std::string::npos ? "directions of the clamps"
+                                                                   : "the free length";
+    // A check at rest has said its own radius, with more segments and with twist.
+    if (broken.name == check_name::bend_radius)
+      cause += fmt::format(" (already at rest and without the robot its bend radius is {} over the program)", radius_words(k_rest));
   } else if (swings) {
     const Check* touch = find(checks, check_name::contact_force, broken.dresspack);
     const bool pressed = touch && touch->value > 0 && std::abs(touch->time - broken.time) < 0.2;

@@ -481,7 +481,7 @@ TEST_CASE(
   CHECK(cell("old", "life_months_p10").empty());
   const std::string text = ranking_table(rows);
   CHECK(text.find("replace after [h]") != std::string::npos);
-  CHECK(text.find("With the uncertain parameters at their medians a first wire breaks after 15.0 .. 37.5 h (10 .. 90 %).") != std::string::npos);
+  CHECK(text.find("With the job's own values, by the scatter of wires alone, a first wire breaks after 15.0 .. 37.5 h (10 .. 90 %).") != std::string::npos);
   CHECK(text.find("Fails first: wires of signal cable, in 75 % of the samples.") != std::string::npos);
   CHECK(cell("strong", "life_hours_p90_all_glued") == "15");
   CHECK(cell("strong", "life_hours_p10_all_free") == "600");
@@ -591,6 +591,21 @@ TEST_CASE("ranking: a life beyond the robot's own is shown as such, with its hou
   CHECK_THAT(ranking_table(short_lived, 200), !Catch::Contains("over 40,000") && !Catch::Contains("By the model"));
   life.robot_life_hours = 0;
   CHECK_THAT(ranking_table(shown(50000), 200), Catch::StartsWith("Plan a replacement after 50,000 h"));
+}
+
+TEST_CASE("ranking: samples that live a decade longer or shorter than with the job's own values are named") {
+  RankingRow row;
+  CHECK(own_values_words(row) == "");
+  row.first_wire_hours = {10, 20, 40}, row.scatter_hours = {30, 50, 80};
+  const std::string first = "With the job's own values, by the scatter of wires alone, a first wire breaks after 10.0 .. 40.0 h (10 .. 90 %).";
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const auto& [half, more] : {std::pair{400.0, std::string()}, {6.0, ""},
+                                   {7500.0, " Half of the samples live 150 times longer than with these values: most other values damage the wires less."},
+                                   {infinite, " Half of the samples are not damaged: most other values damage the wires less."},
+                                   {2.5, " Half of the samples fail 20 times sooner than with these values: most other values damage the wires more."}}) {
+    row.planned_hours = {1, half, infinite};
+    CHECK(own_values_words(row) == first + more);
+  }
 }
 
 TEST_CASE("ranking: the joint that a strain follows is no cause, and the words name the run that tries it") {
