@@ -208,10 +208,11 @@ class RemedySearch {
     return "";
   }
   /// " (best of those tried: 1.250 m, 187.2 mm in a short run; asked are 210.0 mm, the limit and 5 %)": least bent of those that
-  /// ran; where none did, at rest. Empty: none has a shape at rest.
-  std::string best_words() const {
+  /// ran; where none did, at rest. now: smallest bend radius of the job [m]. Empty: none has a shape at rest.
+  std::string best_words(double now) const {
     const Trial& trial = best_.trial;
     if (trial.radius == 0 && std::isinf(best_.curvature)) return "";
+    if (trial.radius > 0 && trial.radius <= now) return " (none of those tried bends less than it does now)";
     return fmt::format(" (best of those tried: {} m{}, {}; asked are {}, the limit and {:.0f} %{})", at_least_metres(best_.length),
                        best_.turned[0] || best_.turned[1] ? " with another direction of a clamp" : "",
                        trial.radius > 0 ? in_words(trial.radius, "m") + " in a short run" : radius_words(best_.curvature) + " at rest",
@@ -353,7 +354,7 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
       if (check.kind == WarningKind::bend_radius && check.dresspack == broken.dresspack) least = std::min(least, check.value);
     remedy = fmt::format("{}: {:.0f} if the maker allows it; {}",
                          key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), std::floor(1e3 * least),
-                         no_other_words(motion, search.best_words()));
+                         no_other_words(motion, search.best_words(least)));
   }
   return {cause, remedy + remark};
 }
