@@ -132,7 +132,8 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
   if (!facts.has_room)
     return {"slack, play, grips or position of the cable", cable_key(facts, "slack_percent") + " (run dresslife-strain again for its value)"};
   const double least = std::max(0.0, facts.most_gain - cable.strain_at(limit));
-  const double most = facts.least_gain + pipeline::excess_at_force(cable, limit, facts.room);
+  // Also in the straight hose, of which pipeline::slack_warnings() warns.
+  const double most = std::min(0.0, facts.least_gain) + pipeline::excess_at_force(cable, limit, facts.room);
   if (!pipeline::lies_loose(*facts.dresspack, *facts.component))
     return held_cure(facts, pipeline::inner_radius(*facts.dresspack).has_value(), least, most);
   const std::string room = fmt::format("it has {:.2g} mm of room and {:.3g} % of slack", 1e3 * facts.room, 100 * slack);
