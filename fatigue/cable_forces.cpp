@@ -88,6 +88,7 @@ struct CableFacts {
   const pipeline::Dresspack* dresspack = nullptr;
   double room = 0, least_gain = 0, most_gain = 0;  ///< /cable/room, /cable/path_gain
   bool has_room = false;                           ///< the file has these
+  double winding_slack = 0;                        ///< see pipeline/cable/excess.h; 0: not known, or not needed
 };
 
 /// Of the component, which all cables of its `count` share, as a line of the job: "dresspack.components.2.slack_percent".
@@ -95,10 +96,11 @@ std::string cable_key(const CableFacts& facts, const char* key) {
   return fmt::format("{}.components.{}.{}", facts.key, facts.number, key);
 }
 
-/// A slack in the middle of those that fit, as a line of the job.
+/// Of the slacks that fit that nearest to the present one, as a line of the job.
 std::string slack_line(const CableFacts& facts, double least, double most) {
-  return fmt::format("{}: {:.2g} ({} .. {} fit; now {:.3g})", cable_key(facts, "slack_percent"), 50 * (least + most),
-                     pipeline::percent_above(least), pipeline::percent_below(most), facts.component->laying.slack);
+  const std::string low = pipeline::percent_above(least), high = pipeline::percent_below(most);
+  return fmt::format("{}: {} ({} .. {} fit; now {:.3g})", cable_key(facts, "slack_percent"),
+                     facts.component->laying.slack < 100 * least ? low : high, low, high, facts.component->laying.slack);
 }
 
 /// Why a cable that keeps its place at both clamps is pulled, and what would let it move.
@@ -130,20 +132,31 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
   if (!facts.has_room)
     return {"slack, play, grips or position of the cable", cable_key(facts, "slack_percent") + " (run dresslife-strain again for its value)"};
   const double least = std::max(0.0, facts.most_gain - cable.strain_at(limit));
-  const double most = facts.least_gain + pipeline::excess_at_force(cable, limit, facts.room);
+  // Also in the straight hose, of which pipeline::slack_warnings() warns.
+  const double most = std::min(0.0, facts.least_gain) + pipeline::excess_at_force(cable, limit, facts.room);
   if (!pipeline::lies_loose(*facts.dresspack, *facts.component))
     return held_cure(facts, pipeline::inner_radius(*facts.dresspack).has_value(), least, most);
   const std::string room = fmt::format("it has {:.2g} mm of room and {:.3g} % of slack", 1e3 * facts.room, 100 * slack);
+  const double highest = std::min(most, pipeline::largest_slack);
+  if (const double laid = pipeline::slack_to_lay(facts.winding_slack);
+      !compressed && facts.winding_slack > 0 && slack < laid && slack < least && laid <= highest)
+    return {fmt::format("it has {:.3g} % of slack, too little to wind around the hose's axis, so that it stays on one side of the "
+                        "hose and a bend of the hose pulls it",
+                        100 * slack),
+            slack_line(facts, laid, highest)};
   const std::string cause =
       compressed ? fmt::format("{}, where its path and its room take {} % at most", room, pipeline::percent_below(most))
-                 : fmt::format("{}, where its path asks for {} % or more", room, pipeline::percent_above(least));
+                 : fmt::format("{}, and its path gets {} % longer if no cable beside it gives way", room, pipeline::percent_above(least));
   if (least <= slack && slack <= most)
     return {room + ", which fit its path; friction, its weight and the hose's motion pull it",
             fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}), or {} as measured", std::max(1.0, acceleration / 2),
                         acceleration, cable_key(facts, "friction_coefficient"))};
-  const double proposed = std::min(most, facts.least_gain + facts.room / room_per_excess(facts));
+  const double proposed = std::min(highest, facts.least_gain + facts.room / room_per_excess(facts));
   if (least <= proposed)
     return {cause, slack_line(facts, least, proposed)};
+  if (least > pipeline::largest_slack)
+    return {cause, fmt::format("no slack up to {:g} % cures it: a hose that bends less, or a place nearer to its axis ({})",
+                               100 * pipeline::largest_slack, cable_key(facts, "helix_radius_mm"))};
   const double excess = least - facts.least_gain;
   const double needed =
       std::max(pipeline::room_of_excess(cable, excess, limit), excess * room_per_excess(facts));
@@ -179,6 +192,7 @@ std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipel
     CableFacts facts{names[k], line_key(job, in, "dresspack"), which + 1, &component_of(strain, job, in, which),
                      &job.dresspacks[in].dresspack};
     facts.has_room = has_room;
+    facts.winding_slack = pipeline::winding_slack(job.dresspacks[in], *facts.component);
     if (has_room) facts.room = room[k], facts.least_gain = gain[2 * k], facts.most_gain = gain[2 * k + 1];
     all.push_back(facts);
   }

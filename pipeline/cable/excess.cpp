@@ -58,10 +58,11 @@ std::vector<LooseRoom> loose_rooms(const Dresspack& dresspack) {
   std::vector<LooseRoom> loose;
   for (std::size_t k = 0; k < spots.size(); ++k) {
     const double room = of[k]->laying.play.value_or(winding_radius(spots[k], rooms[k]));
+    const bool in_ring = rooms[k].ring != no_ring;
     if (loose.empty() || loose.back().component != of[k])
-      loose.push_back({of[k], room});
+      loose.push_back({of[k], room, in_ring});
     else
-      loose.back().room = std::min(loose.back().room, room);
+      loose.back().room = std::min(loose.back().room, room), loose.back().in_ring &= in_ring;
   }
   return loose;
 }
@@ -87,6 +88,37 @@ std::vector<Warning> slack_warnings(const Dresspack& dresspack) {
         fmt::format("slack_percent: {} or less; or {} mm of room around it",
                     percent_below(excess_at_force(cable, limit, loose.room)),
                     millimetres_above(room_of_excess(cable, slack, limit)))));
+  }
+  return warnings;
+}
+
+double winding_slack(const MountedDresspack& mounted, const Component& component) {
+  const Routing& routing = mounted.routing;
+  if (!routing.base_clamp || !routing.tool_clamp || !routing.clamps.empty()) return 0;
+  const std::vector<LooseRoom> rooms = loose_rooms(mounted.dresspack);
+  const bool in_ring = std::any_of(rooms.begin(), rooms.end(), [&](const LooseRoom& room) {
+    return room.component == &component && room.in_ring;
+  });
+  const double turn = 2 * std::numbers::pi * component.helix_radius / routing.free_length;
+  return in_ring && std::abs(std::tan(component.lay_angle)) < turn ? turn * turn / 2 : 0;
+}
+
+double slack_to_lay(double winding_slack) { return std::max(usual_slack, winding_slack); }
+
+std::vector<Warning> tight_warnings(const std::string& key, const MountedDresspack& mounted) {
+  std::vector<Warning> warnings;
+  int number = 0;
+  for (const Component& component : mounted.dresspack.components) {
+    ++number;
+    const double slack = component.laying.slack / 100, needed = winding_slack(mounted, component);
+    if (slack >= needed / 2 || CableForce(mounted.dresspack, component).strength() <= 0) continue;
+    warnings.push_back(warning_of(
+        WarningKind::force, "",
+        fmt::format("'{}' has {:.3g} % of slack (limit {} %: half of what it needs to wind once around the hose's axis)",
+                    component.name, 100 * slack, percent_above(needed / 2)),
+        "it stays on one side of the hose, so that a bend of the hose pulls it",
+        fmt::format("{}.components.{}.slack_percent: {} (now {:.3g}); dresspacks are laid with 1 to 2 %", key, number,
+                    percent_above(slack_to_lay(needed)), component.laying.slack)));
   }
   return warnings;
 }

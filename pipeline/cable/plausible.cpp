@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/cable/believable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/parts_room.h"
 
@@ -31,7 +32,6 @@ constexpr double thinnest_wall = 0.1e-3;   // [m]: corrugated hoses have 0.3 mm 
 constexpr double largest_bend_radius = 40;  // diameters: makers' limits are 3 to 15
 constexpr double least_torsion = 0.01, most_torsion = 100;  // G J over E I: a solid bar has 0.77, corrugated hoses to 10
 constexpr double largest_friction = 1.5;   // rubber on steel has 1
-constexpr double largest_slack = 0.05;     // dresspacks are laid with 1 to 2 %
 constexpr double largest_grip = 1e5;       // [N]: ten times what tears a power cable
 
 /// Of all wires in a metre of the part, lays along: as if of aluminium [kg/m].

@@ -52,6 +52,8 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
                             is_shipped(dresspack.where)
                                 ? construction_warnings_at(line_key(job, d, "dresspack"), dresspack, may_slide)
                                 : construction_warnings(dresspack, may_slide));
+    if (may_slide && job.motion.needs_robot())
+      check.warnings = joined(std::move(check.warnings), tight_warnings(line_key(job, d, "dresspack"), job.dresspacks[d]));
   }
   add_slip(job, check.warnings);
   check.limits = "Not checked: limits of the deformation, strains and forces of the cables. A run may also warn of them.";

@@ -29,7 +29,7 @@ int duty(const RunOptions& options) {
   write_text_if_changed(page, with_mark(duty_page(name.stem().string(), results, table.filename().string()), Mark::page));
   print(options.json ? json_of_csv(csv).text + "\n"
                      : shown(fmt::format("{}\nTable: {}\nPage: {}\n", duty_words(results), table.string(), page.string())));
-  if (!options.quiet) tell(warning_lines(rows_of(file, made.rows)));
+  tell(warning_lines(rows_of(file, made.rows)));
   return 0;
 }
 

@@ -91,7 +91,7 @@ int plan(const Options& options) {
                      : shown(fmt::format("{}{}\n{}Table: {}\nWeeks: {}\nCalendar: {}\nPage: {}\n", block(doubts(duties)),
                                          plan_words(fleet, found), block(cautions(duties)), table.string(), weeks.string(),
                                          calendar.string(), page.string())));
-  if (!options.quiet) tell(warning_lines(rows_of(file, made.rows)));
+  tell(warning_lines(rows_of(file, made.rows)));
   return 0;
 }
 

@@ -100,7 +100,7 @@ int run(const Options& options) {
   print(options.json
             ? json_of_csv(ranking_csv(rows)).text + "\n"
             : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows), (places.folder / "report.html").string())));
-  if (!options.quiet) tell(warning_lines(rows));
+  tell(warning_lines(rows));
   const int failed = count_failed(rows);
   if (failed == 0) return not_shown.empty() ? 0 : 1;
   tell(shown(problem_words(study)));

@@ -1,5 +1,7 @@
 #include "pipeline/job/motion.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -107,6 +109,9 @@ void describe(Fields& f, Motion& motion) {
            "controllers do not publish it.");
   f.number("zone_deg", motion.zone, Need::optional, at_least(0),
            "The zone of moves without a zone of their own. 0: the robot stops at each target.");
+  f.text("hold_joint", motion.hold_joint, Need::optional,
+         "The name of a joint that stands still at the middle of its way while the others move as the program says. The life "
+         "without its motion, divided by the life with it, is what the joint costs.");
   f.list("steps", motion.steps, Need::optional,
          "The steps of the program. The robot starts at rest at the target of the first step.");
   f.list("tools", motion.tools, Need::optional,
@@ -207,6 +212,17 @@ void check_frames(const Motion& motion) {
     for (const MotionFrame& frame : *frames) check_pose({0, 0, 0}, frame.quaternion, motion.where);
 }
 
+void check_held_joint(const Motion& motion, const Robot& robot) {
+  if (motion.hold_joint.empty()) return;
+  if (!motion.needs_robot())
+    throw InputError(motion.where, "hold_joint is given, and no robot moves", "leave hold_joint out");
+  std::vector<std::string> names;
+  for (const Joint& joint : robot.joints) names.push_back(joint.name);
+  if (std::find(names.begin(), names.end(), motion.hold_joint) == names.end())
+    throw InputError(motion.where, fmt::format("hold_joint: the robot has no joint '{}'", motion.hold_joint),
+                     fmt::format("name one of {}", fmt::join(names, ", ")));
+}
+
 }  // namespace
 
 void check_motion(const Motion& motion, const Robot& robot) {
@@ -226,6 +242,7 @@ void check_motion(const Motion& motion, const Robot& robot) {
                      has.empty() ? "give one of the five" : "keep one of them");
   Problems problems;
   problems.attempt("", motion.where, [&] { check_frames(motion); });
+  problems.attempt("", motion.where, [&] { check_held_joint(motion, robot); });
   check_steps(motion.steps, robot, problems);
   if (!motion.steps.empty() && !motion.steps.front().is_move())
     problems.add(motion.steps.front().where, "the program must begin with a move (where the robot starts)",

@@ -90,6 +90,7 @@ struct Motion {
   double ramp_percent = 25;      ///< of a joint move's change of speed: the acceleration builds up [%]
   double path_smoothing = 0.015; ///< of tool paths: the acceleration builds up within twice this time [s]
   double zone = 0;               ///< default of the moves [rad]
+  std::string hold_joint;        ///< name of a joint of the robot that stands still; empty: none
   std::vector<MotionFrame> tools, work_objects;
   std::vector<MotionStep> steps;  ///< the first is a move: the robot starts there, at rest
   /// A robot program instead of steps (sim/program), or the folder of one; empty: none.

@@ -64,10 +64,10 @@ std::string cause_table(const LifeSummary& life) {
                    : meter(damage / total, largest / total));
   }
   return fmt::format(
-      "<h3>What moved when the damage was done</h3>\n<p class=\"soft\">Damage of the worst wire by the "
+      "<h3>What moved while the damage was done: a correlation</h3>\n<p class=\"soft\">Damage of the worst wire by the "
       "joints "
       "that move the two clamps against each other, by how much each changed the wire's strain while a cycle "
-      "ran. {} % of the strain's variance follows from these joints{}.</p>\n<div "
+      "ran. This is no cause: motion.hold_joint tries what a joint costs. {} % of the strain's variance follows from these joints{}.</p>\n<div "
       "class=\"wide\"><table>\n<thead><tr><th>moved</th><th>share of the "
       "damage</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
       printed(100 * life.explained), life.explained < 0.8 ? ": the shares are rough" : "", rows);

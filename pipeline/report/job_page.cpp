@@ -77,9 +77,7 @@ std::string headline(const RankingRow& row) {
     lives += fmt::format("10 % would have failed after {} if everything inside the cables were glued, after {} if it slipped "
                          "without friction. ",
                          printed_hours(row.glued_hours[0]), printed_hours(row.free_hours[0]));
-  if (!std::isnan(row.first_wire_hours[0]) && std::isfinite(row.first_wire_hours[0]))
-    lives += fmt::format("With the uncertain parameters at their medians a first wire breaks after {} .. {} h in 10 .. 90 %. ",
-                         printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
+  if (const std::string own = own_values_words(row); !own.empty()) lives += own + " ";
   lives += fmt::format("The median of the worst wire is {}.", printed_hours(row.life_hours));
   text += fmt::format("<p>{}</p>\n", lives);
   for (const UnvalidatedMode& mode : row.unvalidated) text += paragraph(unvalidated_words(mode));

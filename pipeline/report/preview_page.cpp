@@ -97,7 +97,8 @@ std::string bend_words(const SpanPreview& span, bool bends) {
         "(turn the clamps toward each other, or move them apart)",
         allowed, best->length, 1e3 * best->bend_radius);
   return fmt::format(
-      "; at rest {:.2f} .. {:.2f} m keep the bend radius of {:.0f} mm that is allowed (motion bends more)",
+      "; at rest and without the robot {:.2f} .. {:.2f} m keep the bend radius of {:.0f} mm that is allowed (motion and contact bend "
+      "it more)",
       first->length, last->length, allowed);
 }
 
@@ -110,7 +111,7 @@ std::string words(const SpanPreview& span, bool bends) {
       "{:.2f} .. {:.2f} m over this program (with a slack of 2 % to a third where the clamps are farthest "
       "apart){}",
       span.subject, span.length, span.least_way, span.most_way,
-      span.works()                    ? "neither too short nor too long"
+      span.works()                    ? "neither too short nor too long for this distance"
       : span.length < span.most_way   ? "too short"
       : span.length < span.program[0] ? "hardly any slack"
                                       : "long",

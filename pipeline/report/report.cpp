@@ -145,7 +145,7 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
         number_cell(static_cast<double>(i + 1), row.rank ? std::to_string(row.rank) : "-"),
         name + stale_note(row),
         number_cell(row.headline_hours(),
-                    "<b>" + shown_life(row, row.headline_hours()) + "</b>" + certainty_cell(row)),
+                    "<b>" + std::string(earlier_unvalidated(row) ? "*" : "") + shown_life(row, row.headline_hours()) + "</b>" + certainty_cell(row)),
         number_cell(bounds.first, shown_range(row, bounds.first, bounds.second)),
         number_cell(row.first_wire_hours[0], first_break_cell(row)),
         number_cell(row.headline_months(), shown_calendar(row)), fails_first + where + unvalidated, moved,
@@ -226,7 +226,8 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "cannot be separated share a rank: one lives longer in fewer than 90 of 100 samples. "
       "Parts inside a cable rub on each other. Glued .. free: the same p10 if they could not slip, and if they slipped "
       "without friction. First wire: by then a first single wire has broken, by the scatter of wires alone, in 10 .. 90 % "
-      "of such dresspacks. Abrasion and the hose's wall are not in these hours: their laws have not been compared with a test.</p>\n",
+      "of such dresspacks. Abrasion and the hose's wall are not in these hours: their laws have not been compared with a test. "
+      "A * marks a job in which one of them may come first.</p>\n",
       sorted_table(heads, ranking_rows(rows, detailed), "jobs", "ranking.csv"), matrix,
       chart.empty()
           ? ""

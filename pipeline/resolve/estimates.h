@@ -4,6 +4,7 @@
 // so that every output can mark it. The values and their sources stand in config/defaults.md.
 #pragma once
 
+#include "pipeline/cable/believable.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
@@ -19,7 +20,7 @@ inline constexpr double estimated_jacket_pressure = 0.17e6;
 
 /// Excess length of a loose cable [%]. ESTIMATE: 2 cm in 2 m, as much as a turn of the hose by 0.5 rad takes
 /// from a cable on its ring. Makers of dresspacks ask for cables that feel no pull.
-inline constexpr double estimated_slack = 1;
+inline constexpr double estimated_slack = 100 * usual_slack;
 
 /// Kelvin-Voigt time of twist [ms]. ESTIMATE: a damping ratio of 0.1 at 1.8 Hz.
 inline constexpr double estimated_damping_time = 20;

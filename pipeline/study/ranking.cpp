@@ -265,9 +265,7 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
   all.push_back(repeat_words(row));
   all.push_back(uncertainty_words(row));
   all.push_back(failure_words(row));
-  if (row.planned() && std::isfinite(row.first_wire_hours[0]))
-    all.push_back(fmt::format("With the uncertain parameters at their medians a first wire breaks after {} (10 .. 90 %).",
-                              range_text(row.first_wire_hours[0], row.first_wire_hours[2])));
+  all.push_back(own_values_words(row));
   for (const UnvalidatedMode& mode : row.unvalidated) all.push_back(unvalidated_words(mode));
   if (!row.not_evaluated.empty() && action_words(row).find(row.not_evaluated) == std::string::npos)
     all.push_back(fmt::format("Not evaluated: {}.", row.not_evaluated));
@@ -397,7 +395,8 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     const std::array<std::string, 7> cells =
         row.has_result() ? std::array<std::string, 7>{row.rank ? std::to_string(row.rank) : "-",
                                                       one_line(row.job),
-                                                      (row.stale ? "stale " : "") + shown_life(row, row.headline_hours()),
+                                                      std::string(row.stale ? "stale " : "") + (earlier_unvalidated(row) ? "*" : "") +
+                                                          shown_life(row, row.headline_hours()),
                                                       shown_calendar(row),
                                                       planned_text(row, 1),
                                                       planned_text(row, 2),
@@ -434,6 +433,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     for (const std::string& paragraph : paragraphs(row)) words += below(paragraph);
     if (!words.empty()) details += '\n' + (rows.size() > 1 ? one_line(row.job) + '\n' : "") + words;
   }
+  if (const std::string note = unvalidated_note(rows); !note.empty()) text += wrapped(one_line(note), width, indent);
   text += details;
   std::string estimates;
   for (const std::string& one : estimate_words(rows)) estimates += wrapped(one_line(one), width, "");

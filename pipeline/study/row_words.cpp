@@ -64,15 +64,41 @@ std::string too_short_wall(const UnvalidatedMode& mode) {
                      readable(mode.bends_at_limit), readable(published_bends));
 }
 
-/// Where abrasion may come before these hours.
-std::string abrasion_action(const RankingRow& row, double hours) {
-  const UnvalidatedMode* const mode = row.unvalidated_mode(UnvalidatedMode::abrasion);
-  if (!mode || !(mode->hours[0] < hours)) return "";
-  return fmt::format("Abrasion on {}, {:.2f} m from the tool, may wear the dresspack through after {} (not validated).", mode->place,
-                     mode->position_from_tool, range_text(mode->hours[0], mode->hours[2]));
+/// Hours by which 1 of 10 has failed by a mode; of the wall, whose scatter is not known, half.
+double early_hours(const UnvalidatedMode& mode) { return std::isnan(mode.hours[0]) ? mode.hours[1] : mode.hours[0]; }
+
+/// What an unvalidated mode may do before the row's headline, and what to do. Empty: none may.
+std::string inspection_words(const RankingRow& row) {
+  const UnvalidatedMode* const mode = earlier_unvalidated(row);
+  if (!mode) return "";
+  const std::string of = mode->dresspack.empty() ? "The hose" : "The hose of " + mode->dresspack;
+  const std::string place = fmt::format("{:.2f} m from the tool", mode->position_from_tool);
+  if (mode->mode == UnvalidatedMode::wall)
+    return fmt::format("{} may crack {} after {} (not validated): inspect it there.", of, place, hours_text(mode->hours[1]));
+  if (mode->mode == UnvalidatedMode::abrasion)
+    return fmt::format("{} may wear through on {}, {}, after {} (not validated): inspect it there.", of, mode->place, place,
+                       range_text(mode->hours[0], mode->hours[2]));
+  return fmt::format("{} may come before, {}, after {} (not validated): inspect it there.", mode->mode, place,
+                     hours_text(early_hours(*mode)));
 }
 
 }  // namespace
+
+const UnvalidatedMode* earlier_unvalidated(const RankingRow& row) {
+  const UnvalidatedMode* first = nullptr;
+  double before = std::min(row.headline_hours(), row.robot_life_hours);
+  for (const UnvalidatedMode& mode : row.unvalidated)
+    if (early_hours(mode) < before && too_short_wall(mode).empty()) before = early_hours(mode), first = &mode;
+  return first;
+}
+
+std::string unvalidated_note(const std::vector<RankingRow>& rows) {
+  std::vector<std::string> jobs;
+  for (const RankingRow& row : rows)
+    if (const UnvalidatedMode* const mode = row.has_result() ? earlier_unvalidated(row) : nullptr)
+      jobs.push_back(fmt::format("{}{}: after {}", rows.size() > 1 ? row.job + ", " : "", mode->mode, hours_text(early_hours(*mode))));
+  return jobs.empty() ? "" : fmt::format("* A mode that is not validated may come before. {}.", fmt::join(jobs, "; "));
+}
 
 bool is_believable(const RankingRow& row) {
   const std::vector<Warning> warnings = warnings_of(row);
@@ -120,15 +146,16 @@ std::string action_words(const RankingRow& row) {
     return fmt::format("Do not plan with {}: {} (see the warnings).", std::isinf(hours) ? "this result" : hours_text(hours),
                        warning_kinds(row));
   if (row.worst_segment_from_tool == 0) return "No wire was evaluated.";
+  const std::string inspection = inspection_words(row);
   if (std::isinf(hours))
-    return row.planned() ? "No replacement is foreseen: in more than 90 % of the samples no mode fails."
-                         : "No replacement is foreseen: no wire is damaged.";
+    return joined_words({inspection.empty() ? "No replacement is foreseen:" : "For the wires no replacement is foreseen:",
+                         row.planned() ? "in more than 90 % of the samples no mode fails." : "no wire is damaged.", inspection});
   if (outlives_robot(row, hours))
-    return joined_words({fmt::format("The evaluated parts last longer than the robot ({} h).", readable(row.robot_life_hours)),
-                         abrasion_action(row, row.robot_life_hours),
-                         row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
+    return joined_words({fmt::format("The {} last longer than the robot ({} h).", inspection.empty() ? "evaluated parts" : "wires",
+                                     readable(row.robot_life_hours)),
+                         inspection, row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
   return joined_words({fmt::format("Plan a replacement after {} ({}).", hours_text(hours), calendar_text(row.headline_months())),
-                       abrasion_action(row, hours)});
+                       inspection});
 }
 
 std::string uncertainty_words(const RankingRow& row) { return joined_words({cause_words(row), test_words(row)}); }
@@ -148,12 +175,12 @@ std::string failure_words(const RankingRow& row) {
 
 std::string joint_words(const RankingRow& row) {
   if (!is_damaged(row) || row.worst_joint.empty()) return "";
-  const bool carried = row.worst_joint == "carrying";
-  if (row.worst_joint_share > 1)
-    return carried ? "The damage comes from the hose sagging and swinging; the axes work against it."
-                   : fmt::format("{} causes the damage; the other axes work against it.", row.worst_joint);
-  return fmt::format("{:.0f} % of the damage comes from {}.", 100 * row.worst_joint_share,
-                     carried ? "the hose sagging and swinging, not from one axis" : row.worst_joint);
+  const std::string moved =
+      row.worst_joint == "carrying"
+          ? "The damage follows the swing of the hose more than the position of any axis."
+          : fmt::format("The strain of this wire follows {} most.", row.worst_joint);
+  return moved + " That is a correlation, no cause. Try what an axis costs: dresslife run JOB -o held --set motion.hold_joint=" +
+         (row.worst_joint == "carrying" ? "AXIS" : row.worst_joint);
 }
 
 std::string unvalidated_words(const UnvalidatedMode& mode) {
@@ -198,6 +225,22 @@ std::string different_repeats_words(const std::vector<RankingRow>& rows) {
   if (!(longest > alike * shortest)) return "";
   return fmt::format("Repeats take {} .. {} s. Compare jobs that do the same work by repeats, not by hours.", readable(shortest),
                      readable(longest));
+}
+
+std::string own_values_words(const RankingRow& row) {
+  if (!row.planned() || !std::isfinite(row.first_wire_hours[0])) return "";
+  const std::string words = fmt::format("With the job's own values, by the scatter of wires alone, a first wire breaks after {} (10 .. 90 %).",
+                                        range_text(row.first_wire_hours[0], row.first_wire_hours[2]));
+  constexpr double decade = 10;
+  const double times = row.planned_hours[1] / row.scatter_hours[1];
+  if (std::isinf(times)) return words + " Half of the samples are not damaged: most other values damage the wires less.";
+  if (times > decade)
+    return fmt::format("{} Half of the samples live {} times longer than with these values: most other values damage the wires less.",
+                       words, readable(times, 2));
+  if (times < 1 / decade)
+    return fmt::format("{} Half of the samples fail {} times sooner than with these values: most other values damage the wires more.",
+                       words, readable(1 / times, 2));
+  return words;
 }
 
 std::string order_words(const RankingRow& row) {

@@ -232,6 +232,19 @@ JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& 
   step_texts_ = std::move(program.texts);
 }
 
+void JointMotion::hold(std::size_t axis) {
+  const auto of = static_cast<Eigen::Index>(axis);
+  const auto [low, high] = std::minmax_element(pieces_.begin(), pieces_.end(), [&](const auto& a, const auto& b) {
+    return a.position[of] < b.position[of];
+  });
+  const double middle = (low->position[of] + high->position[of]) / 2;
+  for (MotionPiece& piece : pieces_) {
+    piece.position[of] = middle;
+    piece.velocity_before[of] = piece.velocity_change[of] = 0;
+    if (piece.jerk.size() > 0) piece.acceleration[of] = piece.jerk[of] = 0;
+  }
+}
+
 const MotionPiece& JointMotion::piece_at(double time) const {
   const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), time,
                                       [](double t, const MotionPiece& piece) { return t < piece.start; });

@@ -56,6 +56,10 @@ class JointMotion {
   /// wrong number of angles, a first step that is no move.
   JointMotion(const pipeline::Motion& motion, const pipeline::Robot& robot);
 
+  /// Lets an axis stand still at the middle of its way. The others move as before, at the same times.
+  /// Precondition: axis < axes of the robot.
+  void hold(std::size_t axis);
+
   double duration() const { return duration_; }     ///< [s]
   Eigen::VectorXd position(double time) const;      ///< (joint) [rad]
   Eigen::VectorXd velocity(double time) const;      ///< (joint) [rad/s]

@@ -162,8 +162,9 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
               pipeline::joined(other_maker(setup.motion, setup.robot), too_fast(run.motion, setup.robot))),
           setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
                                        : pipeline::plausibility_of_steps(run.motion))),
-      note_(run.note),
-      mounting_pose_(motion_.position(0)) {
+      note_(run.note) {
+  hold_joint(setup);
+  mounting_pose_ = motion_.position(0);
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const pipeline::Routing& routing = mounted.routing;
     add_dresspack(setup, routing);
@@ -173,6 +174,12 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
     mounting_pose_.head(axes) =  // external axes: as at the start
         Eigen::Map<const Eigen::VectorXd>(routing.mounting_pose.data(), axes);
   }
+}
+
+void RobotPath::hold_joint(const pipeline::Setup& setup) {
+  const std::vector<pipeline::Joint>& joints = setup.robot.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].name == setup.motion.hold_joint) motion_.hold(j);
 }
 
 void RobotPath::add_dresspack(const pipeline::Setup& setup, const pipeline::Routing& routing) {

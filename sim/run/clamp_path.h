@@ -80,6 +80,7 @@ class RobotPath final : public ClampPath {
 
  private:
   RobotPath(const pipeline::Setup& setup, const RunMotion& run);
+  void hold_joint(const pipeline::Setup& setup);
   void add_dresspack(const pipeline::Setup& setup, const pipeline::Routing& routing);
 
   RobotKinematics kinematics_;

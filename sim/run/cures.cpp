@@ -133,15 +133,23 @@ bool is_among(const Kinds& kinds, const Check& check) {
   return check.kind && std::find(kinds.begin(), kinds.end(), *check.kind) != kinds.end();
 }
 
-/// Whether a changed job keeps the limits of these kinds, and passes no other one than the job does now. Most that do not
-/// are found with few segments.
-bool cures(const CheckedMotion& motion, const pipeline::Setup& changed, const Kinds& kinds, int dresspack,
-           const std::vector<Check>& now, int segments = rest_segments) {
-  if (motion.work > most_work) return false;
+/// What the checks say of a changed job.
+struct Trial {
+  bool cured = false;  ///< it keeps the limits of the kinds that were asked, and passes no other one than the job does now
+  double radius = 0;   ///< smallest bend radius in the short run [m]; 0: there was none
+  std::string other;   ///< name of a check whose limit is passed and which is none of the bend radius; empty: none
+};
+
+/// Most that cure nothing are found with few segments.
+Trial trial_of(const CheckedMotion& motion, const pipeline::Setup& changed, const Kinds& kinds, int dresspack,
+               const std::vector<Check>& now, int segments = rest_segments) {
+  if (motion.work > most_work) return {};
   const QuickFindings found = quick_findings(changed, segments);
   motion.work += found.run.work;
-  if (!found.run.refusal.empty()) return false;
-  const bool cured = std::all_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
+  if (!found.run.refusal.empty()) return {};
+  Trial trial;
+  if (const Check* const bend = find(found.run.checks, check_name::bend_radius, dresspack)) trial.radius = bend->value;
+  trial.cured = std::all_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
     if (check.dresspack != dresspack) return true;
     const bool asked = is_among(kinds, check);
     if (asked && check.name == check_name::bend_radius && check.value < margin * check.limit) return false;
@@ -149,8 +157,15 @@ bool cures(const CheckedMotion& motion, const pipeline::Setup& changed, const Ki
       return before.warning && before.kind == check.kind && before.dresspack == dresspack;
     }));
   });
+  for (const Check& check : found.checks)
+    if (check.dresspack == dresspack && check.warning && check.kind != WarningKind::bend_radius) trial.other = check.name;
   const bool coarse = segments < std::min(short_run_segments, changed.simulation.segments);
-  return cured && (!coarse || cures(motion, changed, kinds, dresspack, now, short_run_segments));
+  return trial.cured && coarse ? trial_of(motion, changed, kinds, dresspack, now, short_run_segments) : trial;
+}
+
+bool cures(const CheckedMotion& motion, const pipeline::Setup& changed, const Kinds& kinds, int dresspack,
+           const std::vector<Check>& now) {
+  return trial_of(motion, changed, kinds, dresspack, now).cured;
 }
 
 /// A routing between the same links.
@@ -158,6 +173,7 @@ struct Change {
   double length = 0, pre_twist = 0;  // [m], [rad]
   std::array<bool, 2> turned{};      // (end)
   double curvature = infinite;       // at rest [1/m]
+  Trial trial{};
 };
 
 /// Looks for a routing that keeps the limits of bend and slack.
@@ -173,7 +189,7 @@ class RemedySearch {
     if (net && std::abs(net->centre) > little) {
       Change change{routing().free_length, std::round((routing().pre_twist - net->centre) / degree) * degree};
       change.curvature = trials_.curvature(change.length);
-      if (works(change)) return words_of(change);
+      if (tried_with(change).cured) return words_of(change);
     }
     constexpr std::array<std::array<bool, 2>, 4> turns{{{false, false}, {false, true}, {true, false}, {true, true}}};
     for (std::size_t turn = 0; turn < turns.size(); ++turn) {
@@ -181,16 +197,28 @@ class RemedySearch {
       for (const double length : lengths()) {
         Change change{length, routing().pre_twist, turns[turn]};
         change.curvature = trials_.curvature(length, change.turned);
-        if (change.curvature < best_.curvature) best_ = change;
+        if (best_.trial.radius == 0 && change.curvature < best_.curvature) best_ = change;
         if (change.curvature * limit() * margin > 1 || tried == most_tried[turn]) continue;
         ++tried;
-        if (works(change)) return words_of(change);
+        change.trial = tried_with(change);
+        if (change.trial.cured) return words_of(change);
+        if (change.trial.radius > best_.trial.radius) best_ = change;
       }
     }
     return "";
   }
-  /// Least bent at rest of those that were looked at.
-  const Change& best() const { return best_; }
+  /// " (best of those tried: 1.250 m, 187.2 mm in a short run; asked are 210.0 mm, the limit and 5 %)": least bent of those that
+  /// ran; where none did, at rest. now: smallest bend radius of the job [m]. Empty: none has a shape at rest.
+  std::string best_words(double now) const {
+    const Trial& trial = best_.trial;
+    if (trial.radius == 0 && std::isinf(best_.curvature)) return "";
+    if (trial.radius > 0 && trial.radius <= now) return " (none of those tried bends less than it does now)";
+    return fmt::format(" (best of those tried: {} m{}, {}; asked are {}, the limit and {:.0f} %{})", at_least_metres(best_.length),
+                       best_.turned[0] || best_.turned[1] ? " with another direction of a clamp" : "",
+                       trial.radius > 0 ? in_words(trial.radius, "m") + " in a short run" : radius_words(best_.curvature) + " at rest",
+                       in_words(margin * limit(), "m"), 100 * (margin - 1),
+                       trial.other.empty() ? "" : "; it passes another limit: " + trial.other);
+  }
 
  private:
   const pipeline::MountedDresspack& mounted() const {
@@ -221,16 +249,16 @@ class RemedySearch {
     return (1e2 * of).array().round() / 1e2;
   }
 
-  bool works(const Change& change) const {
+  Trial tried_with(const Change& change) const {
     const bool same = change.length == routing().free_length && change.pre_twist == routing().pre_twist;
-    if (same && !change.turned[0] && !change.turned[1]) return false;
+    if (same && !change.turned[0] && !change.turned[1]) return {};
     pipeline::Setup changed = motion_.setup;
     pipeline::Routing& to = changed.dresspacks[static_cast<std::size_t>(dresspack_)].routing;
     to.free_length = change.length;
     to.pre_twist = change.pre_twist;
     if (change.turned[0]) to.base_clamp->direction = direction(0);
     if (change.turned[1]) to.tool_clamp->direction = direction(1);
-    return cures(motion_, changed, {WarningKind::bend_radius, WarningKind::slack}, dresspack_, checks_);
+    return trial_of(motion_, changed, {WarningKind::bend_radius, WarningKind::slack}, dresspack_, checks_);
   }
 
   std::string words_of(const Change& change) const {
@@ -241,7 +269,8 @@ class RemedySearch {
     for (int end = 0; end < 2; ++end)
       if (change.turned[static_cast<std::size_t>(end)])
         add(fmt::format("{}_clamp.direction: {}", end == 0 ? "base" : "tool", vector_words(direction(end))));
-    return fmt::format("{} (at rest {}; tried in a short run)", fmt::join(keys, " and "), radius_words(change.curvature));
+    return fmt::format("{} (bend radius at rest {}; keeps the limits in a short run)", fmt::join(keys, " and "),
+                       radius_words(change.curvature));
   }
 
   const CheckedMotion& motion_;
@@ -300,11 +329,12 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   if (std::isinf(k_rest)) {
     cause = "its length and its clamps do not suit the motion; no shape at rest was found for the clamps as they are";
   } else if (at_rest) {
-    cause = fmt::format("{} (already at rest {} over the program)",
-                        remedy.empty()                                         ? "distance and direction of the clamps"
-                        : remedy.find(".direction: ") != std::string::npos ? "directions of the clamps"
-                                                                               : "the free length",
-                        radius_words(k_rest));
+    cause = remedy.empty()                                         ? "distance and direction of the clamps"
+            : remedy.find(".direction: ") != std::string::npos ? "directions of the clamps"
+                                                                   : "the free length";
+    // A check at rest has said its own radius, with more segments and with twist.
+    if (broken.name == check_name::bend_radius)
+      cause += fmt::format(" (already at rest and without the robot its bend radius is {} over the program)", radius_words(k_rest));
   } else if (swings) {
     const Check* touch = find(checks, check_name::contact_force, broken.dresspack);
     const bool pressed = touch && touch->value > 0 && std::abs(touch->time - broken.time) < 0.2;
@@ -324,10 +354,7 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
       if (check.kind == WarningKind::bend_radius && check.dresspack == broken.dresspack) least = std::min(least, check.value);
     remedy = fmt::format("{}: {:.0f} if the maker allows it; {}",
                          key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), std::floor(1e3 * least),
-                         no_other_words(motion, std::isinf(search.best().curvature)
-                                            ? ""
-                                            : fmt::format(" (best at rest: {} m, {})", at_least_metres(search.best().length),
-                                                          radius_words(search.best().curvature))));
+                         no_other_words(motion, search.best_words(least)));
   }
   return {cause, remedy + remark};
 }

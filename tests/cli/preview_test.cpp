@@ -18,7 +18,7 @@ TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
   // The clamps begin 0.8 m apart and come as near as hypot(0.7, 0.05).
   CHECK(
       told.out.find(
-          "Dresspack is 0.900 m long between clamps that are 0.702 .. 0.800 m apart: neither too short nor too long. "
+          "Dresspack is 0.900 m long between clamps that are 0.702 .. 0.800 m apart: neither too short nor too long for this distance. "
           "0.82 .. 1.20 m work at the first pose, 0.82 .. 1.20 m over this program") != std::string::npos);
   // The warnings of a check come first.
   const std::string checked = run(scratch, "dresslife", "check job.yaml").out;

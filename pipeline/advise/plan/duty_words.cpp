@@ -17,6 +17,12 @@ namespace {
 /// The robot lived through the history, too.
 double robot_life_left(const DutyResult& duty) { return std::max(0.0, duty.robot_life_hours - duty.past_hours); }
 
+/// What abrasion, which no test validates, may do before these hours.
+std::string inspection(const DutyResult& duty, double hours) {
+  if (!(duty.worn_hours_p10 < hours)) return "";
+  return fmt::format(" The hose may wear through after {} (not validated): inspect it.", hours_text(duty.worn_hours_p10));
+}
+
 }  // namespace
 
 std::string shown_hours(double robot_life, double hours) {
@@ -33,9 +39,10 @@ std::string duty_action(const DutyResult& duty) {
     return fmt::format("Do not plan with {}: {} (see the warnings).",
                        hours > robot_life_left(duty) ? "this result" : hours_text(hours), fmt::join(duty.doubtful, ", "));
   if (hours > robot_life_left(duty))
-    return fmt::format("The wires last longer than the robot ({}).", hours_text(duty.robot_life_hours));
-  return fmt::format("Plan a replacement {} ({} at {:g} h per week).", when, calendar_text(months(hours, duty.hours_per_week)),
-                     duty.hours_per_week);
+    return fmt::format("The wires last longer than the robot ({}).{}", hours_text(duty.robot_life_hours),
+                       inspection(duty, duty.robot_life_hours));
+  return fmt::format("Plan a replacement {} ({} at {:g} h per week).{}", when, calendar_text(months(hours, duty.hours_per_week)),
+                     duty.hours_per_week, inspection(duty, duty.past_hours + hours));
 }
 
 std::string percentile_words(const DutyResult& duty) {

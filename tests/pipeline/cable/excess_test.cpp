@@ -104,6 +104,29 @@ TEST_CASE("excess: a cable that is too long for its room is named with its force
   CHECK(slack_warnings(hose(1.03 * std::stod(room), 1)).empty());
 }
 
+TEST_CASE("excess: a cable that cannot wind around the axis of its hose is named, and the slack that is proposed lets it") {
+  MountedDresspack mounted;
+  mounted.dresspack = hose(0.5, 0);
+  mounted.routing.base_clamp.emplace(), mounted.routing.tool_clamp.emplace();
+  mounted.routing.free_length = 1.2;
+  std::vector<Component>& parts = mounted.dresspack.components;
+  const double excess = std::hypot(1.2, 2 * pi * parts[1].helix_radius) / 1.2 - 1;  // of a helix of one turn
+  CHECK(winding_slack(mounted, parts[1]) == Approx(excess).epsilon(excess));        // half of it is the next term of the series
+  CHECK(winding_slack(mounted, parts[0]) == 0);                                     // in the axis
+  const auto warnings = tight_warnings("dresspacks.1.dresspack", mounted);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0].words, Contains("'signal cable' has 0 % of slack (limit 0.11 %: ") &&
+                                    Contains("Remedy: dresspacks.1.dresspack.components.2.slack_percent: 1 (now 0)"));
+  parts[1].laying.slack = 1;
+  CHECK(tight_warnings("dresspack", mounted).empty());
+  parts[1].laying.slack = 0;
+  parts[1].laying.play = 1e-3;  // it has its own room beside the others
+  CHECK(tight_warnings("dresspack", mounted).empty());
+  parts[1].laying.play.reset();
+  mounted.routing.clamps.emplace_back();  // which holds it between the two
+  CHECK(tight_warnings("dresspack", mounted).empty());
+}
+
 TEST_CASE("excess: percentages are rounded to the safe side") {
   CHECK(percent_below(0.000489) == "0.048");
   CHECK(percent_above(0.000481) == "0.049");

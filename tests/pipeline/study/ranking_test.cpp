@@ -351,8 +351,11 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
                                   job_with(scratch, "broken", broken)});
   CHECK(rows[2].failure.find("attribute 'unvalidated_modes' is no list of modes") != std::string::npos);
   CHECK(action_words(rows[0]) ==
-        "The evaluated parts last longer than the robot (40,000 h). Abrasion on link_4, 0.13 m from the tool, may wear the "
-        "dresspack through after 300 .. 51,000 h (not validated). Not evaluated: water hose, kinks.");
+        "The wires last longer than the robot (40,000 h). The hose may wear through on link_4, 0.13 m from the tool, after 300 .. "
+        "51,000 h (not validated): inspect it there. Not evaluated: water hose, kinks.");
+  const std::string both = ranking_table(rows, 200);
+  CHECK_THAT(both, Catch::Contains("*over 40,000") && Catch::Contains("* A mode that is not validated may come before. rubs, abrasion: after 300 h."));
+  CHECK(std::count(both.begin(), both.end(), '*') == 2);  // of the row that rubs, and of the note
   CHECK(action_words(rows[1]) ==
         "The evaluated parts last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   CHECK(unvalidated_words(rows[0]) ==
@@ -478,7 +481,7 @@ TEST_CASE(
   CHECK(cell("old", "life_months_p10").empty());
   const std::string text = ranking_table(rows);
   CHECK(text.find("replace after [h]") != std::string::npos);
-  CHECK(text.find("With the uncertain parameters at their medians a first wire breaks after 15.0 .. 37.5 h (10 .. 90 %).") != std::string::npos);
+  CHECK(text.find("With the job's own values, by the scatter of wires alone, a first wire breaks after 15.0 .. 37.5 h (10 .. 90 %).") != std::string::npos);
   CHECK(text.find("Fails first: wires of signal cable, in 75 % of the samples.") != std::string::npos);
   CHECK(cell("strong", "life_hours_p90_all_glued") == "15");
   CHECK(cell("strong", "life_hours_p10_all_free") == "600");
@@ -590,18 +593,35 @@ TEST_CASE("ranking: a life beyond the robot's own is shown as such, with its hou
   CHECK_THAT(ranking_table(shown(50000), 200), Catch::StartsWith("Plan a replacement after 50,000 h"));
 }
 
-TEST_CASE("ranking: a joint that costs more than the whole is told in words") {
+TEST_CASE("ranking: samples that live a decade longer or shorter than with the job's own values are named") {
+  RankingRow row;
+  CHECK(own_values_words(row) == "");
+  row.first_wire_hours = {10, 20, 40}, row.scatter_hours = {30, 50, 80};
+  const std::string first = "With the job's own values, by the scatter of wires alone, a first wire breaks after 10.0 .. 40.0 h (10 .. 90 %).";
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const auto& [half, more] : {std::pair{400.0, std::string()}, {6.0, ""},
+                                   {7500.0, " Half of the samples live 150 times longer than with these values: most other values damage the wires less."},
+                                   {infinite, " Half of the samples are not damaged: most other values damage the wires less."},
+                                   {2.5, " Half of the samples fail 20 times sooner than with these values: most other values damage the wires more."}}) {
+    row.planned_hours = {1, half, infinite};
+    CHECK(own_values_words(row) == first + more);
+  }
+}
+
+TEST_CASE("ranking: the joint that a strain follows is no cause, and the words name the run that tries it") {
   RankingRow row;
   row.worst_component = "cable 1/wire 1", row.damage_per_repeat = 1;
   row.worst_joint = "joint_4";
-  row.worst_joint_share = 0.413;
-  CHECK(joint_words(row) == "41 % of the damage comes from joint_4.");
-  row.worst_joint_share = 1.29;
-  CHECK(joint_words(row) == "joint_4 causes the damage; the other axes work against it.");
+  for (const double share : {0.413, 1.29}) {
+    row.worst_joint_share = share;
+    CHECK(joint_words(row) ==
+          "The strain of this wire follows joint_4 most. That is a correlation, no cause. Try what an axis costs: dresslife run JOB "
+          "-o held --set motion.hold_joint=joint_4");
+  }
   row.worst_joint = "carrying";
-  CHECK(joint_words(row) == "The damage comes from the hose sagging and swinging; the axes work against it.");
-  row.worst_joint_share = 0.96;
-  CHECK(joint_words(row) == "96 % of the damage comes from the hose sagging and swinging, not from one axis.");
+  CHECK(joint_words(row) ==
+        "The damage follows the swing of the hose more than the position of any axis. That is a correlation, no cause. Try what an "
+        "axis costs: dresslife run JOB -o held --set motion.hold_joint=AXIS");
 }
 
 }  // namespace

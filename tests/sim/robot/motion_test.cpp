@@ -357,5 +357,22 @@ TEST_CASE("motion: a program has to begin with a move") {
                     "joints_deg at which the robot starts");
 }
 
+TEST_CASE("motion: an axis that is held stands at the middle of its way, and the others move as before") {
+  const pipeline::Robot robot = robot_with({1, 2, 3}, {2, 3, 4});
+  const pipeline::Motion program = motion_of({move_to({0, 1, 0}), move_to({1, -3, 2}), dwell(0.5), move_to({0, 1, 0})});
+  const JointMotion whole(program, robot);
+  JointMotion held(program, robot);
+  held.hold(1);
+  CHECK(held.duration() == whole.duration());
+  for (int k = 0; k <= 100; ++k) {
+    const double time = whole.duration() * k / 100;
+    CHECK(held.position(time)[1] == -1);
+    CHECK(held.velocity(time)[1] == 0);
+    CHECK(held.acceleration(time)[1] == 0);
+    for (const int other : {0, 2}) CHECK(held.position(time)[other] == whole.position(time)[other]);
+    CHECK(held.step(time) == whole.step(time));
+  }
+}
+
 }  // namespace
 }  // namespace dresslife::sim
