@@ -52,8 +52,8 @@ void SegmentRows::read(std::size_t segment, std::size_t row, std::size_t first, 
       from_file.resize(here);
       if (!pipeline::read_at(file_->descriptor(), from_file.data(), here * sizeof(float),
                              (block->offset + at) * sizeof(float)))
-        throw pipeline::InputError({file_->final_name().string()}, "cannot be read again (the disk fails)",
-                                   "run dresslife-strain again, on another disk");
+        throw pipeline::MachineFault({file_->final_name().string()}, "cannot be read again (the disk fails)",
+                                     "choose another disk");
       from = from_file.data();
     }
     to = std::copy(from, from + here, to);

@@ -1,12 +1,13 @@
-// What can go wrong, in three kinds. InputError is the user's to mend. DiskError: the system cannot read what is
-// there. Both have exit status 1 and are worded `file:line:column: error: what (why); what to do`. Everything else
-// that is thrown is our fault (exit status 3).
+// What can go wrong. InputError is the user's to mend. MachineFault and DiskError: a disk, memory or a limit of the
+// system failed, and the same command may succeed later. All have exit status 1 and are worded
+// `file:line:column: error: what (why); what to do`. Everything else that is thrown is our fault (exit status 3).
 #pragma once
 
 #include <fmt/format.h>
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace dresslife::pipeline {
 
@@ -26,6 +27,18 @@ class InputError : public std::runtime_error {
   /// The words of another one, with more lines.
   explicit InputError(const std::string& words) : std::runtime_error(words) {}
 };
+
+/// The last words of each error of the machine. A program that reads a stage's log knows such an error by them.
+inline constexpr char then_run_again[] = ", then run again";
+
+/// A file cannot be written, or is damaged. Reads "WHERE: error: WHAT; REMEDY, then run again".
+class MachineFault : public InputError {
+ public:
+  MachineFault(const Where& where, const std::string& what, const std::string& remedy);
+};
+
+/// Whether a line that a program printed refuses its input. Other lines, and none, do not say that the input is wrong.
+bool is_refusal(std::string_view line);
 
 /// A file is there and cannot be read: nothing is known of what it holds. This is no InputError: what is damaged
 /// can be made again, and a failing disk must not be taken for that.

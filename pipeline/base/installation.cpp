@@ -9,6 +9,7 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/instruction_set.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -16,11 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path shared_folder() { return program_folder().parent_path() / "share" / "dresslife"; }
-
-bool is_folder(const fs::path& path) {
-  std::error_code failure;
-  return fs::is_directory(path, failure);
-}
 
 std::string first_line(const fs::path& file) {
   std::ifstream in(file);
@@ -74,12 +70,12 @@ fs::path program_folder() { return program_file().parent_path(); }
 
 fs::path shipped_catalogue() {
   if (const char* wanted = std::getenv("DRESSLIFE_CONFIG"); wanted && *wanted) {
-    if (is_folder(wanted)) return wanted;
+    if (kind_of(wanted) == FileKind::folder) return wanted;
     throw InputError({"DRESSLIFE_CONFIG"}, fmt::format("names {}, which is no folder", wanted),
                      "set it to a folder that holds robots, programs, dresspacks and materials, or unset it");
   }
   const fs::path own = shared_folder() / "config";
-  if (is_folder(own)) return fs::canonical(own);
+  if (kind_of(own) == FileKind::folder) return fs::canonical(own);
   throw InputError({own.string()}, "is not there (the catalogue stands in share/ beside the programs' bin/)",
                    "move both together, or let DRESSLIFE_CONFIG name the catalogue");
 }

@@ -52,8 +52,9 @@ void tidy_at_the_end() noexcept;
 /// ignore them before.
 void end_tidily_at_signals();
 
+/// They end as those of every error of the machine (errors.h).
 inline constexpr char out_of_memory_words[] =
-    "error: out of memory; run fewer jobs at a time, ask for fewer segments or samples, or allow more\n";
+    "error: out of memory; run fewer jobs at a time, ask for fewer segments or samples, or allow more, then run again\n";
 /// Says that memory has run out and ends the program with exit status 1. Allocates nothing.
 [[noreturn]] void end_without_memory() noexcept;
 

@@ -1,7 +1,5 @@
 #include "pipeline/base/ownership.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -117,14 +115,12 @@ bool is_note_of_failure(const fs::path& file) {
 
 /// Marked, or of a version that made no marks: with a note of ours, or without anything.
 bool is_notes(const fs::path& folder) {
-  if (fs::symlink_status(folder).type() != fs::file_type::directory) return false;
+  if (kind_of_name(folder) != FileKind::folder) return false;
   if (begins_as_ours(beginning_of(folder / notes_mark, ownership_bytes))) return true;
-  bool any = false;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    any = true;
-    if (begins_as_ours(beginning_of(entry.path(), ownership_bytes)) || is_note_of_failure(entry.path())) return true;
-  }
-  return !any;
+  const std::vector<fs::path> entries = entries_of(folder);
+  return entries.empty() || std::any_of(entries.begin(), entries.end(), [](const fs::path& entry) {
+           return begins_as_ours(beginning_of(entry, ownership_bytes)) || is_note_of_failure(entry);
+         });
 }
 
 /// Of a job's folder: what 80628f4 and before wrote had no mark, but the notes of its run beside it.
@@ -133,11 +129,9 @@ bool is_old_job(const fs::path& file, std::string_view begin) {
          !fs::is_empty(file.parent_path() / notes_name);
 }
 
-using Inode = std::pair<dev_t, ino_t>;
-
 struct Policy {
   std::mutex mutex;
-  std::multimap<Inode, fs::path> inputs;  ///< with the names under which they were read
+  std::multimap<std::pair<dev_t, ino_t>, fs::path> inputs;  ///< with the names under which they were read
   bool replaces_files_of_others = false;
 };
 /// One for the program: what its user allows it holds wherever it writes.
@@ -146,16 +140,9 @@ Policy& policy() {
   return one;
 }
 
-/// Nothing where no plain file is.
-std::optional<Inode> inode_of(const fs::path& file) {
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
-  return Inode{status.st_dev, status.st_ino};
-}
-
 /// An input's inode may belong to another file once the input is gone: only an input that still has it counts.
 bool is_input(const fs::path& file) {
-  const std::optional<Inode> inode = inode_of(file);
+  const auto inode = inode_of(file);
   if (!inode) return false;
   const std::lock_guard lock(policy().mutex);
   const auto [begin, end] = policy().inputs.equal_range(*inode);
@@ -163,11 +150,10 @@ bool is_input(const fs::path& file) {
 }
 
 void check_kind(const fs::path& file) {
-  std::error_code failure;
-  const fs::file_status status = fs::symlink_status(file, failure);
-  if (!fs::exists(status) || fs::is_regular_file(status)) return;
-  const char* what = fs::is_directory(status) ? "is a folder"
-                     : fs::is_symlink(status) ? "is a link to another file"
+  const FileKind kind = kind_of_name(file);
+  if (kind == FileKind::absent || kind == FileKind::file) return;
+  const char* what = kind == FileKind::folder ? "is a folder"
+                     : kind == FileKind::link ? "is a link to another file"
                                               : "is a device or a pipe";
   throw InputError({file.string()}, fmt::format("{} (a result only replaces a plain file)", what),
                    "name a file of its own");
@@ -235,7 +221,7 @@ void let_replace_files_of_others() { policy().replaces_files_of_others = true; }
 bool replaces_files_of_others() { return policy().replaces_files_of_others; }
 
 void note_input(const fs::path& file) {
-  const std::optional<Inode> inode = inode_of(file);
+  const auto inode = inode_of(file);
   if (!inode) return;
   const std::lock_guard lock(policy().mutex);
   const auto [begin, end] = policy().inputs.equal_range(*inode);
@@ -246,11 +232,11 @@ void note_input(const fs::path& file) {
 
 bool remove_ours(const fs::path& file) {
   const FileState state = state_of(file);
-  std::error_code failure;
-  if (!state.exists()) return !fs::exists(fs::symlink_status(file, failure));
+  if (!state.exists()) return kind_of_name(file) == FileKind::absent;
   if ((state.size == 0 && !lies_in_notes(file)) || !is_ours(file)) return false;
+  std::error_code failure;
   if (fs::remove(file, failure); failure)
-    throw InputError({file.string()}, fmt::format("cannot be removed ({})", failure.message()), "remove it");
+    throw MachineFault({file.string()}, fmt::format("cannot be removed ({})", failure.message()), "remove it");
   return true;
 }
 
@@ -260,21 +246,25 @@ void remove_empty(const fs::path& folder) {
 }
 
 void make_notes(const fs::path& folder) {
-  std::error_code failure;
-  const fs::file_status status = fs::symlink_status(folder, failure);
-  if (fs::exists(status) && !is_notes(folder))
+  const bool is_there = kind_of_name(folder) != FileKind::absent;
+  if (is_there && !is_notes(folder))
     throw InputError({folder.string()}, "is there already and was not made by dresslife",
                      "move it away, or name another place with -o");
-  if (!fs::exists(status)) fs::create_directories(folder);
+  if (!is_there) fs::create_directories(folder);
   const fs::path mark = folder / notes_mark;
   if (!state_of(mark).exists())
     write_text_if_changed(mark, with_mark("What dresslife notes of the results beside this folder.\n", Mark::yaml),
                           Sync::never);
 }
 
+void check_notes(const fs::path& folder) {
+  for (const fs::path& entry : entries_of(folder))
+    if (const FileKind kind = kind_of_name(entry); kind == FileKind::link || kind == FileKind::other)
+      throw InputError({entry.string()}, "is a link, a device or a pipe (dresslife writes plain files there)", "remove it");
+}
+
 void remove_notes(const fs::path& folder) {
-  std::error_code failure;
-  if (fs::symlink_status(folder, failure).type() != fs::file_type::directory || !is_notes(folder)) return;
+  if (!is_notes(folder)) return;
   std::vector<fs::path> files, folders{folder};
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     const fs::path& path = entry.path();
@@ -287,6 +277,7 @@ void remove_notes(const fs::path& folder) {
     else if (is_note)
       files.push_back(path);
   }
+  std::error_code failure;
   for (const fs::path& file : files) fs::remove(file, failure);
   for (auto at = folders.rbegin(); at != folders.rend(); ++at) remove_empty(*at);
 }

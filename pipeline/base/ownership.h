@@ -55,6 +55,9 @@ void remove_empty(const std::filesystem::path& folder);
 /// Makes a folder, of the name .stage, for what our programs note beside results; all in it is ours. Errors:
 /// InputError when it is there already and not ours, or cannot be made.
 void make_notes(const std::filesystem::path& folder);
+/// Shells and Ninja also write into such a folder, and they would wait for a pipe and write through a link. Errors:
+/// InputError when one is in it; DiskError.
+void check_notes(const std::filesystem::path& folder);
 /// Removes what our programs have put into such a folder, and the folder when nothing else is in it; leaves any other.
 void remove_notes(const std::filesystem::path& folder);
 

@@ -48,13 +48,58 @@ FileState state_of(int descriptor, const std::filesystem::path& name) {
   return S_ISREG(status.st_mode) ? state_from(status) : FileState{};
 }
 
-FileKind kind_of(const std::filesystem::path& path) {
+namespace {
+
+/// By stat or lstat; nothing where it is absent.
+std::optional<struct stat> status_of(const std::filesystem::path& path, int (*look)(const char*, struct stat*)) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) {
-    if (is_absence(errno) || errno == EACCES) return FileKind::absent;
-    throw DiskError(path.string(), errno);
+  if (look(path.c_str(), &status) == 0) return status;
+  if (is_absence(errno) || errno == EACCES) return std::nullopt;
+  throw DiskError(path.string(), errno);
+}
+
+FileKind kind_from(const std::optional<struct stat>& status) {
+  if (!status) return FileKind::absent;
+  const mode_t mode = status->st_mode;
+  return S_ISREG(mode)   ? FileKind::file
+         : S_ISDIR(mode) ? FileKind::folder
+         : S_ISLNK(mode) ? FileKind::link
+                         : FileKind::other;
+}
+
+}  // namespace
+
+FileKind kind_of(const std::filesystem::path& path) { return kind_from(status_of(path, ::stat)); }
+FileKind kind_of_name(const std::filesystem::path& path) { return kind_from(status_of(path, ::lstat)); }
+
+std::optional<std::pair<dev_t, ino_t>> inode_of(const std::filesystem::path& path) {
+  const std::optional<struct stat> status = status_of(path, ::stat);
+  return status ? std::optional(std::pair(status->st_dev, status->st_ino)) : std::nullopt;
+}
+
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> entries;
+  std::error_code failure;
+  for (std::filesystem::directory_iterator at(folder, failure), end; !failure && at != end; at.increment(failure))
+    entries.push_back(at->path());
+  if (failure && !is_absence(failure.value()) && failure.value() != EACCES)
+    throw DiskError(folder.string(), failure.value());
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files, folders{folder};
+  while (!folders.empty()) {
+    const std::filesystem::path next = std::move(folders.back());
+    folders.pop_back();
+    for (const std::filesystem::path& entry : entries_of(next)) {
+      if (kind_of_name(entry) == FileKind::folder) folders.push_back(entry);
+      if (kind_of(entry) == FileKind::file) files.push_back(entry);
+    }
   }
-  return S_ISREG(status.st_mode) ? FileKind::file : S_ISDIR(status.st_mode) ? FileKind::folder : FileKind::other;
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 ssize_t read_some(int descriptor, void* bytes, std::size_t count, std::uint64_t offset) {

@@ -9,7 +9,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "pipeline/base/errors.h"
 
@@ -28,9 +31,18 @@ struct FileState {
 FileState state_of(const std::filesystem::path& file);
 FileState state_of(int descriptor, const std::filesystem::path& name);  ///< name: for messages
 
-enum class FileKind { absent, file, folder, other };
-/// Behind links. Errors: DiskError.
+enum class FileKind { absent, file, folder, link, other };
+/// Behind links, so never a link. Absent, too: what may not be looked at. Errors: DiskError.
 FileKind kind_of(const std::filesystem::path& path);
+/// Of the name itself. Errors: DiskError.
+FileKind kind_of_name(const std::filesystem::path& path);
+/// Device and inode behind links; nothing where kind_of() is absent. Errors: DiskError.
+std::optional<std::pair<dev_t, ino_t>> inode_of(const std::filesystem::path& path);
+
+/// What is in a folder, sorted; nothing where it is absent or may not be read. Errors: DiskError.
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
+/// Files in a folder and in the folders below it, sorted; links lead to files, but into no folder. Errors: DiskError.
+std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder);
 
 /// Bytes that were read, fewer than asked for at the end of the file alone; -1: errno says why.
 ssize_t read_some(int descriptor, void* bytes, std::size_t count, std::uint64_t offset);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 
@@ -43,19 +44,20 @@ fs::path krl_robot_of(const fs::path& file) {
   return {};
 }
 
+fs::path folder_of(const fs::path& program) {
+  return program.has_parent_path() ? program.parent_path() : fs::path(".");
+}
+
 /// What the controller sees beside a program: in a backup all of the robot, else its folder.
 std::vector<fs::path> krl_files_beside(const fs::path& program) {
   std::vector<fs::path> files;
-  std::error_code failure;
   const fs::path robot = krl_robot_of(program);
-  const fs::path folder = !robot.empty() ? robot : program.has_parent_path() ? program.parent_path() : ".";
-  for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failure),
-       end;
-       !failure && at != end && files.size() < most_files; at.increment(failure)) {
-    if (robot.empty() && at->is_directory(failure)) at.disable_recursion_pending();
-    if (!at->is_regular_file(failure) || !is_krl(at->path())) continue;
-    const fs::path file = folder == "." ? at->path().filename() : at->path();
-    if (!fs::equivalent(file, program, failure)) files.push_back(file);
+  const fs::path folder = robot.empty() ? folder_of(program) : robot;
+  for (const fs::path& entry : robot.empty() ? entries_of(folder) : files_below(folder)) {
+    if (files.size() == most_files) break;
+    if (!is_krl(entry) || kind_of(entry) != FileKind::file) continue;
+    const fs::path file = folder == "." ? entry.filename() : entry;
+    if (inode_of(file) != inode_of(program)) files.push_back(file);
   }
   return files;
 }
@@ -64,15 +66,12 @@ std::vector<fs::path> krl_files_beside(const fs::path& program) {
 
 std::vector<fs::path> program_files(const fs::path& program) {
   std::vector<fs::path> files;
-  std::error_code failure;
-  const bool listed = lower_extension(program) == ".pgf";
-  if (fs::is_directory(program, failure) || listed) {
-    const fs::path folder = !listed ? program : program.has_parent_path() ? program.parent_path() : ".";
-    for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failure),
-         end;
-         !failure && at != end; at.increment(failure)) {
-      if (!at->is_regular_file(failure) || !ends_like_a_program(at->path())) continue;
-      files.push_back(at->path());
+  const bool listed = lower_extension(program) == ".pgf", is_folder = kind_of(program) == FileKind::folder;
+  const fs::path folder = is_folder && !listed ? program : folder_of(program);
+  if (is_folder || listed) {
+    for (const fs::path& file : files_below(folder)) {
+      if (!ends_like_a_program(file)) continue;
+      files.push_back(file);
       if (files.size() > most_files)
         throw InputError({program.string()}, fmt::format("holds more than {} program files", most_files),
                          "name the folder of one controller");
@@ -81,23 +80,19 @@ std::vector<fs::path> program_files(const fs::path& program) {
     files = krl_files_beside(program);
   }
   if (lower_extension(program) == ".jbi")  // the controller's other jobs, its frames and variables
-    for (const fs::directory_entry& beside :
-         fs::directory_iterator(program.has_parent_path() ? program.parent_path() : ".", failure)) {
-      const fs::path file = program.has_parent_path() ? beside.path() : beside.path().filename();
+    for (const fs::path& beside : entries_of(folder_of(program))) {
+      const fs::path file = program.has_parent_path() ? beside : beside.filename();
       const std::string end = lower_extension(file);
       if ((end == ".jbi" || end == ".cnd" || lower(file.filename()) == "var.dat") && file != program &&
           files.size() < most_files)
         files.push_back(file);
     }
-  if (lower_extension(program) == ".ls" &&
-      !fs::is_directory(program, failure))  // what it calls, and its registers
-    for (const fs::path folder = program.has_parent_path() ? program.parent_path() : ".";
-         const fs::path& place : {folder, folder / ".."})
-      for (const fs::directory_entry& beside : fs::directory_iterator(place, failure)) {
-        const std::string end = lower_extension(beside.path());
-        if ((end == ".va" || (end == ".ls" && place == folder)) && beside.path() != program &&
-            files.size() < most_files)
-          files.push_back(beside.path());
+  if (lower_extension(program) == ".ls" && !is_folder)  // what it calls, and its registers
+    for (const fs::path& place : {folder, folder / ".."})
+      for (const fs::path& beside : entries_of(place)) {
+        const std::string end = lower_extension(beside);
+        if ((end == ".va" || (end == ".ls" && place == folder)) && beside != program && files.size() < most_files)
+          files.push_back(beside);
       }
   std::sort(files.begin(), files.end());
   return files;

@@ -115,8 +115,7 @@ void WholeFile::fail(int error) const {
   const std::string remedy = error == ENOSPC || error == EDQUOT || error == EFBIG
                                  ? "free space on the disk or choose another place"
                                  : "check the folder, its permissions and the disk";
-  throw InputError({final_name_.string()}, fmt::format("cannot be written ({})", std::strerror(error)),
-                   remedy);
+  throw MachineFault({final_name_.string()}, fmt::format("cannot be written ({})", std::strerror(error)), remedy);
 }
 
 void WholeFile::check() const {
@@ -212,8 +211,8 @@ void give_second_name(const fs::path& file, const fs::path& name) {
   const int error = errno;
   ::unlink(part.c_str());  // of two names of one file a rename leaves both
   if (!given)
-    throw InputError({name.string()}, fmt::format("cannot be written ({})", std::strerror(error)),
-                     "check the folder and the disk");
+    throw MachineFault({name.string()}, fmt::format("cannot be written ({})", std::strerror(error)),
+                       "check the folder and the disk");
 }
 
 void remove_leftovers(const fs::path& folder) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/study/folder_lock.h"
@@ -29,14 +30,12 @@ int clean(const StudyOptions& options) {
     jobs.insert(standing.study.jobs[k].name);
     freed += remove_unkept(standing.states[k], standing.places.job(standing.study.jobs[k].name));
   }
-  std::vector<fs::path> others;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (is_job_folder(entry.path()) && !jobs.contains(entry.path().filename().string()))
-      others.push_back(entry.path());
-  for (const fs::path& other : others) freed += remove_job(other);
+  std::size_t others = 0;
+  for (const fs::path& entry : entries_of(folder))
+    if (!jobs.contains(entry.filename().string()) && is_job_folder(entry)) freed += remove_job(entry), ++others;
   constexpr double megabyte = 1e6;
   print(shown(fmt::format("{}: {} MB freed, {} jobs that the study has no more\n", folder.string(),
-                          readable(static_cast<double>(freed) / megabyte), others.size())));
+                          readable(static_cast<double>(freed) / megabyte), others)));
   return 0;
 }
 

@@ -9,6 +9,7 @@
 #include "pipeline/advise/improve/screened.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/checking.h"
 #include "pipeline/commands/command.h"
@@ -33,10 +34,8 @@ constexpr const char* default_dresspack = "spot_welding";
 
 /// YAML files of a folder of the shipped catalogue, sorted.
 std::vector<fs::path> shipped(const char* shelf) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(shipped_catalogue() / shelf))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+  std::vector<fs::path> files = entries_of(shipped_catalogue() / shelf);
+  std::erase_if(files, [](const fs::path& file) { return file.extension() != ".yaml"; });
   return files;
 }
 

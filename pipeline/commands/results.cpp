@@ -59,7 +59,7 @@ std::vector<fs::path> refresh_previews(const Study& study, const StudyPlaces& pl
     const StudyJob& job = study.jobs[k];
     const fs::path page = places.job(job.name) / "preview.html";
     bool shows = false;
-    if (pages.size() < most && job.failure.empty() && states[k].next == 0 && !states[k].failure.empty()) {
+    if (pages.size() < most && job.failure.empty() && states[k].next == 0 && is_refusal(states[k].failure)) {
       try {
         shows = refresh_preview(places.job(job.name) / "job.yaml", page, states[k], job.name);
       } catch (const InputError& problem) {

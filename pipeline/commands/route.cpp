@@ -18,6 +18,7 @@
 #include "pipeline/base/digest.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/stage_failed.h"
 #include "pipeline/base/whole_file.h"
@@ -303,10 +304,8 @@ std::string words_of(const Trial& trial, const Draft& draft, double off) {
 
 /// Removes the runs of a search but that of its winner.
 void remove_others(const fs::path& folder, const std::string& winner) {
-  std::vector<fs::path> others;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (entry.path().filename() != winner && is_job_folder(entry.path())) others.push_back(entry.path());
-  for (const fs::path& other : others) remove_job(other);
+  for (const fs::path& entry : entries_of(folder))
+    if (entry.filename() != winner && is_job_folder(entry)) remove_job(entry);
 }
 
 int route(const Options& options) {

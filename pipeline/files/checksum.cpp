@@ -49,7 +49,7 @@ std::optional<Promise> promise_of(const std::string& block) {
 std::string write_checksum(WholeFile& file) {
   const std::int64_t size = state_of(file.descriptor(), file.final_name()).size;
   const auto refuse = [&](const std::string& what) {
-    throw InputError({file.final_name().string()}, fmt::format("cannot be read back ({})", what), "check the disk");
+    throw MachineFault({file.final_name().string()}, fmt::format("cannot be read back ({})", what), "check the disk");
   };
   const auto digest_read_back = [&](std::int64_t begin) {
     Xxh3 digest;
@@ -82,12 +82,12 @@ std::string InputBytes::read_checksum(const std::string& remedy) const {
   const std::optional<Promise> promise =
       block.size() == checksum_block_bytes ? promise_of(block) : std::nullopt;
   if (!promise)
-    throw InputError(where(), "is damaged (its first 512 bytes are no checksum)", remedy);
+    throw MachineFault(where(), "is damaged (its first 512 bytes are no checksum)", remedy);
   if (promise->bytes + checksum_block_bytes != size())
-    throw InputError(where(),
-                     fmt::format("is cut off or has grown (it has {} bytes and promises {})", size(),
-                                 promise->bytes + checksum_block_bytes),
-                     remedy);
+    throw MachineFault(where(),
+                       fmt::format("is cut off or has grown (it has {} bytes and promises {})", size(),
+                                   promise->bytes + checksum_block_bytes),
+                       remedy);
   return promise->digest;
 }
 
@@ -105,7 +105,7 @@ void InputBytes::check(const std::string& checksum, const std::string& remedy) {
       digests.push_back(xxh3_64(bytes.data() + k, std::min(block_bytes, count - k)));
   }
   if (all.hex() != checksum)
-    throw InputError(where(), "is damaged or was edited (its bytes are not those of its checksum)", remedy);
+    throw MachineFault(where(), "is damaged or was edited (its bytes are not those of its checksum)", remedy);
   digests_ = std::move(digests);
   block_.resize(block_bytes);
 }
@@ -160,8 +160,8 @@ bool InputBytes::read(void* bytes, std::size_t count, std::uint64_t address) noe
 namespace {
 
 [[noreturn]] void refuse_other_bytes(const Where& where) {
-  throw InputError(where, "holds other bytes now than when it was checked (another program writes it, or the disk fails)",
-                   "let nothing write it meanwhile, check the disk, and run again");
+  throw MachineFault(where, "holds other bytes now than when it was checked (another program writes it, or the disk fails)",
+                     "let nothing write it meanwhile, check the disk");
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ constexpr Type type_of<std::uint64_t> = Type::u64;
 
 void FileReader::Impl::fail(const std::string& what) const {
   input.check_reads();
-  throw InputError({name.string()}, what, fmt::format("make the file again with {}", format->made_by));
+  throw MachineFault({name.string()}, what, fmt::format("make the file again with {}", format->made_by));
 }
 
 const FileReader::Impl::Open& FileReader::Impl::dataset(const std::string& path) const {
@@ -90,9 +90,9 @@ void FileReader::Impl::open_dataset(const Dataset& description) {
   // H5Lexists wants every group on the way to exist.
   for (std::size_t slash = description.path.find('/', 1);; slash = description.path.find('/', slash + 1)) {
     const std::string way = description.path.substr(0, slash);
-    if (H5Lexists(file, way.c_str(), H5P_DEFAULT) <= 0) {
-      input.check_reads();
-      if (description.may_be_absent) return;
+    const htri_t there = H5Lexists(file, way.c_str(), H5P_DEFAULT);
+    if (there <= 0) {
+      if (there == 0 && description.may_be_absent) return;
       fail(fmt::format("dataset {} is missing", description.path));
     }
     H5L_info_t link{};
@@ -233,9 +233,9 @@ FileReader::~FileReader() = default;
 
 bool FileReader::has(const std::string& dataset) const { return impl_->open.count(dataset) > 0; }
 bool FileReader::has_attribute(const std::string& name) const {
-  const bool there = H5Aexists(impl_->file, name.c_str()) > 0;
-  impl_->input.check_reads();
-  return there;
+  const htri_t there = H5Aexists(impl_->file, name.c_str());
+  if (there < 0) impl_->fail("cannot be read (the file is damaged)");  // HDF5's checksums of attributes are wrong
+  return there > 0;
 }
 std::size_t FileReader::length(const std::string& axis) const {
   const auto found = impl_->axes.find(axis);

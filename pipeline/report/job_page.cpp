@@ -246,10 +246,15 @@ class Page {
   std::optional<Setup> setup_;
 };
 
+/// Errors: InputError where a file is there and its checksum is damaged.
 std::string made_from(const JobFolder& files) {
   std::string told = shell_digest() + files.name;
-  for (const auto& file : {files.motion(), files.strain(), files.life()})
-    told += told_checksum(file).value_or("-");
+  for (const auto& file : {files.motion(), files.strain(), files.life()}) {
+    const std::optional<std::string> checksum = told_checksum(file);
+    if (!checksum && kind_of(file) != FileKind::absent)
+      throw InputError({file.string()}, "is damaged (it has no checksum)", "make it again with dresslife run");
+    told += checksum.value_or("-");
+  }
   return xxh3(told);
 }
 

@@ -112,9 +112,7 @@ void read_urdf(Node& entry) {
   std::erase_if(over.entries, is_about);
   UrdfRequest request;
   read_fields(about, request);
-  std::error_code failure;
-  if (const fs::path shown = fs::proximate(request.urdf, failure); !failure && !shown.empty())
-    request.urdf = shown;
+  if (const fs::path shown = fs::proximate(request.urdf); !shown.empty()) request.urdf = shown;
   Node robot = robot_from_urdf(request);
   for (const Entry& e : over.entries) {
     Node& known = robot[e.key];
@@ -334,8 +332,8 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
     const fs::path file = place / (name + ".yaml");
     if (is_file(file))
       return file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file);
-    for (const auto& item : fs::directory_iterator(place, failure))
-      if (item.path().extension() == ".yaml") names.push_back(item.path().stem().string());
+    for (const fs::path& entry : entries_of(place))
+      if (entry.extension() == ".yaml") names.push_back(entry.stem().string());
     return fs::path();
   };
   for (const fs::path& place : folders_beside(folder, named_at, job))

@@ -87,8 +87,8 @@ bool is_unchanged(const StageInput& input) {
 void check_inputs_unchanged(const StageCall& call) {
   for (const StageInput& input : call.inputs)
     if (!is_unchanged(input))
-      throw InputError({input.file.string()}, fmt::format("has changed while {} ran", call.info.program),
-                       "run it again");
+      throw MachineFault({input.file.string()}, fmt::format("has changed while {} ran", call.info.program),
+                         "let nothing change it meanwhile");
 }
 
 Command command_of(const StageInfo& info, StageCall& call, StageFlags& flags) {
@@ -126,8 +126,11 @@ struct Settings {
 };
 Settings settings_of(const StageCall& call) {
   const Job job = read_job(call.info.input_is_job ? call.input : call.job_file, call.sets);
-  return {part_text(job, *call.info.part),
-          *call.info.part == JobPart::sim ? files_beside(job) : std::vector<std::filesystem::path>{}};
+  if (*call.info.part != JobPart::sim) return {part_text(job, *call.info.part), {}};
+  const std::vector<std::filesystem::path> files = files_beside(job);
+  for (const std::filesystem::path& file : files)
+    if (kind_of(file) == FileKind::folder && file != job.motion.program) PlainFile{file};  // refuses it
+  return {part_text(job, *call.info.part), files};
 }
 
 void say(const StageCall& call, Progress& progress, const Warning& warning) {
@@ -273,15 +276,16 @@ int guarded(const std::string& program, const std::function<int()>& body) {
     tell(fmt::format("{}\n", problem.what()));
     return 1;
   } catch (const std::filesystem::filesystem_error& problem) {
-    tell(fmt::format("{}: error: {}; check the folder and its permissions\n", problem.path1().string(),
-                     problem.code().message()));
+    tell(fmt::format("{}: error: {}; check the folder and its permissions{}\n",
+                     problem.path1().empty() ? program : problem.path1().string(),
+                     problem.code().message(), then_run_again));
     return 1;
   } catch (const std::bad_alloc&) {
     tell(fmt::format("{}: {}", program, out_of_memory_words));
     return 1;
   } catch (const std::system_error& problem) {
-    tell(fmt::format("{}: error: the system refuses ({}); run fewer jobs at a time or raise its limits\n",
-                     program, problem.what()));
+    tell(fmt::format("{}: error: the system refuses ({}); run fewer jobs at a time or raise its limits{}\n", program,
+                     problem.what(), then_run_again));
     return 1;
   } catch (const std::exception& problem) {
     tell(fmt::format("{}: error: internal fault ({}); please report it with the job\n", program,

@@ -208,7 +208,8 @@ std::string reason_of(const JobState& state, const fs::path& folder, const Build
   for (const fs::path& log : {log_file(stage), launcher_log(stage)}) {
     if (!state_of(folder / log).exists()) continue;
     begun = true;
-    if (const std::string line = error_line(folder / log); !line.empty()) return line;
+    const std::string line = error_line(folder / log);
+    if (!line.empty()) return log == log_file(stage) ? line : line + then_run_again;  // a launcher knows nothing of jobs
   }
   if (!begun)
     return result.words.empty() ? "it was not reached"
@@ -218,8 +219,8 @@ std::string reason_of(const JobState& state, const fs::path& folder, const Build
     return fmt::format("{} was broken off: {}; run again", program_name(stage), result.words);
   const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
   if (receipt && receipt->recipe != state.recipes[state.next])
-    return fmt::format("{}: error: its files or programs changed while the study ran; run again",
-                       stage.output);
+    return fmt::format("{}: error: its files or programs changed while the study ran; let nothing change them{}",
+                       stage.output, then_run_again);
   return fmt::format("{} ended without a word (killed, or out of memory?)", program_name(stage));
 }
 
@@ -396,8 +397,7 @@ std::uintmax_t remove_unkept(const JobState& state, const fs::path& folder) {
     const FileState file = state_of(output);
     if (!may_lack(state.keep, k) || !file.exists()) continue;
     // Under other jobs' names it stays.
-    std::error_code ignored;
-    const bool is_last_name = fs::hard_link_count(output, ignored) == 1;
+    const bool is_last_name = fs::hard_link_count(output) == 1;
     if (remove_ours(output) && is_last_name) freed += static_cast<std::uintmax_t>(file.size);
   }
   return freed;
@@ -424,17 +424,6 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, D
   return states;
 }
 
-void check_places(const Study& study, const StudyPlaces& places) {
-  for (const fs::path& name : {places.graph(), fs::path("ranking.csv"), fs::path("report.html")})
-    check_replaceable(places.folder / name);
-  for (const StudyJob& job : study.jobs) {
-    const fs::path folder = places.job(job.name);
-    if (!job.failure.empty() || kind_of(folder) == FileKind::absent) continue;
-    for (const char* name : {"job.yaml", "log", "page.html", "preview.html"}) check_replaceable(folder / name);
-    for (const Stage& stage : stages) check_replaceable(folder / stage.output);
-  }
-}
-
 void renew_receipts(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states) {
   for (std::size_t k = 0; k < states.size(); ++k)
     for (const std::size_t stage : states[k].compared) {
@@ -448,6 +437,8 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
   const fs::path notes = places.folder / places.notes();
   make_notes(places.folder / ".stage");
   fs::create_directories(notes);
+  check_notes(places.folder / ".stage");
+  check_notes(notes);
   for (const char* memory : {".ninja_log", ".ninja_deps"})  // of times, which decide nothing here
     remove_ours(notes / memory);
   renew_receipts(study, places, states);
@@ -462,6 +453,7 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     make_notes(folder / ".stage");
     write_text_if_changed(folder / "job.yaml", with_mark(stored_job_text(*job.job, folder), Mark::yaml), Sync::never);
     if (states[k].done()) continue;
+    check_notes(folder / ".stage");
     for (std::size_t stage = states[k].next; stage < stage_count && !is_new; ++stage)
       for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])})
         remove_ours(folder / log);

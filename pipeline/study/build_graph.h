@@ -86,9 +86,6 @@ bool may_lack(Keep keep, std::size_t stage);
 /// Removes the files of a finished job that the study does not keep. Returns their bytes.
 std::uintmax_t remove_unkept(const JobState& state, const std::filesystem::path& folder);
 
-/// Called before a run. Errors: InputError if the run would replace a file of the user.
-void check_places(const Study& study, const StudyPlaces& places);
-
 /// Notes the file times of outputs whose bytes were compared, so that the next run need not compare them.
 void renew_receipts(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states);
 

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "pipeline/base/ownership.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -15,18 +16,15 @@ constexpr std::array<const char*, 7> own_files{"job.yaml", "motion.h5", "strain.
 
 std::uintmax_t bytes_in(const fs::path& folder) {
   std::uintmax_t sum = 0;
-  std::error_code ignored;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, ignored))
-    if (entry.is_regular_file(ignored) && !entry.is_symlink(ignored)) sum += entry.file_size(ignored);
+  for (const fs::path& file : files_below(folder))
+    if (const FileState state = state_of(file); state.exists()) sum += static_cast<std::uintmax_t>(state.size);
   return sum;
 }
 
 }  // namespace
 
 bool is_job_folder(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::symlink_status(folder, ignored).type() == fs::file_type::directory &&
-         lies_in_notes(folder / ".stage" / "README") && is_ours(folder / "job.yaml");
+  return kind_of_name(folder) == FileKind::folder && lies_in_notes(folder / ".stage" / "README") && is_ours(folder / "job.yaml");
 }
 
 std::uintmax_t remove_job(const fs::path& folder) {

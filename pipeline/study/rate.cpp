@@ -8,6 +8,7 @@
 #include <map>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/cable_alone.h"
@@ -65,11 +66,8 @@ class Maker {
   void add_cable(const Node& dresspack, const std::string& name, bool among_others, const fs::path& rigs) {
     const Node cable = cable_alone(dresspack, name, {file_.string()});
     const std::string prefix = among_others ? fit_for_a_folder(name) + "-" : "";
-    std::vector<fs::path> files;
-    for (const fs::directory_entry& entry : fs::directory_iterator(rigs))
-      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    for (const fs::path& file : files) {
+    for (const fs::path& file : entries_of(rigs)) {
+      if (file.extension() != ".yaml") continue;
       Node job = read_yaml(file);
       const Node* motion = job.find("motion");
       const Node* words = motion ? motion->find("name") : nullptr;

@@ -55,8 +55,8 @@ PassingFile::PassingFile(const std::string& name) {
   std::string own = (folder / "dresslife-XXXXXX").string();
   const SignalsHeld until_it_is_noted;
   if (!::mkdtemp(own.data()))
-    throw InputError({folder.string()}, fmt::format("takes no temporary folder ({})", std::strerror(errno)),
-                     "make room there, or set TMPDIR to a folder that may be written");
+    throw MachineFault({folder.string()}, fmt::format("takes no temporary folder ({})", std::strerror(errno)),
+                       "make room there, or set TMPDIR to a folder that may be written");
   file_ = std::filesystem::path(own) / name;
   folder_at_the_end_.emplace(own);
   file_at_the_end_.emplace(file_);

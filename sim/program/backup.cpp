@@ -100,13 +100,11 @@ Backup inform_backup(const fs::path& folder, const std::vector<fs::path>& files,
 }
 
 bool is_backup(const fs::path& program) {
-  std::error_code failure;
-  return fs::is_directory(program, failure) || lower_case(program.extension().string()) == ".pgf";
+  return pipeline::kind_of(program) == pipeline::FileKind::folder || lower_case(program.extension().string()) == ".pgf";
 }
 
 Backup backup_of(const fs::path& program, const std::string& routine) {
-  std::error_code failure;
-  const bool listed = !fs::is_directory(program, failure);
+  const bool listed = pipeline::kind_of(program) != pipeline::FileKind::folder;
   const fs::path folder = listed ? (program.has_parent_path() ? program.parent_path() : ".") : program;
   std::map<Language, std::vector<fs::path>> files;
   for (const fs::path& file : pipeline::program_files(folder))

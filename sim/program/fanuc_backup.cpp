@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/backup.h"
 #include "sim/program/encoding.h"
@@ -163,20 +164,15 @@ bool is_variables(const fs::path& file) {
 }
 
 std::vector<fs::path> files_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code failure;
-  for (auto at = fs::directory_iterator(folder, failure); !failure && at != fs::directory_iterator();
-       at.increment(failure))
-    if (at->is_regular_file(failure)) files.push_back(at->path());
-  std::sort(files.begin(), files.end());
+  std::vector<fs::path> files = pipeline::entries_of(folder);
+  std::erase_if(files, [](const fs::path& file) { return pipeline::kind_of(file) != pipeline::FileKind::file; });
   return files;
 }
 
 /// The variable files of a folder of listings; where it has none, those of the folder around it: a backup in
 /// two languages has its listings in two folders.
 std::vector<fs::path> variables_of(const fs::path& folder) {
-  std::error_code failure;
-  for (const fs::path& place : {folder, fs::absolute(folder, failure).lexically_normal() / ".."}) {
+  for (const fs::path& place : {folder, fs::absolute(folder).lexically_normal() / ".."}) {
     std::vector<fs::path> files = files_in(place);
     std::erase_if(files, [](const fs::path& file) { return !is_variables(file); });
     if (!files.empty()) return files;
@@ -185,9 +181,8 @@ std::vector<fs::path> variables_of(const fs::path& folder) {
 }
 
 std::string text_of(const fs::path& file) {
-  std::error_code failure;
-  if (fs::file_size(file, failure) > ImportLimits::file_bytes || failure) return "";
-  return decoded_text(pipeline::read_text(file));
+  const pipeline::PlainFile source(file);
+  return source.size() > ImportLimits::file_bytes ? "" : decoded_text(source.text());
 }
 
 /// What a listing says about others, without running it.
@@ -298,8 +293,7 @@ fs::path folder_of_listings(const fs::path& folder, const std::vector<fs::path>&
   std::vector<std::string> within;
   for (const fs::path& file : files) {
     if (!is_listing(file) || text_of(file).find("/PROG") == std::string::npos) continue;
-    std::error_code failure;
-    if (fs::equivalent(file.parent_path(), folder, failure)) return folder;
+    if (pipeline::inode_of(file.parent_path()) == pipeline::inode_of(folder)) return folder;
     const std::string place = file.parent_path().string();
     if (std::find(within.begin(), within.end(), place) == within.end()) within.push_back(place);
   }

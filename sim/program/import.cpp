@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/base/program_files.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/settings/document.h"
@@ -45,16 +46,15 @@ std::vector<pipeline::MotionFrame> frames_of(const std::vector<NamedFrame>& read
 }
 
 SourceFile source_of(const std::filesystem::path& file, const std::map<std::string, std::string>& instead) {
-  std::error_code failure;
-  if (const auto size = std::filesystem::file_size(file, failure);
-      !failure && size > ImportLimits::file_bytes)
+  const pipeline::PlainFile source(file);
+  if (source.size() > ImportLimits::file_bytes)
     throw pipeline::InputError({file.string()},
-                               fmt::format("has {} bytes (at most {})", size, ImportLimits::file_bytes),
+                               fmt::format("has {} bytes (at most {})", source.size(), ImportLimits::file_bytes),
                                "split the program");
-  const std::filesystem::path shown = std::filesystem::proximate(file, failure);
-  const std::string name = failure || shown.empty() ? file.string() : shown.string();
+  const std::filesystem::path shown = std::filesystem::proximate(file);
+  const std::string name = shown.empty() ? file.string() : shown.string();
   const auto other = instead.find(name);
-  return {name, decoded_text(other == instead.end() ? pipeline::read_text(file) : other->second)};
+  return {name, decoded_text(other == instead.end() ? source.text() : other->second)};
 }
 
 /// "sill.mod:34 main: MoveL p20, v500, z10, gun;"
@@ -335,10 +335,9 @@ void add_modules(const pipeline::Motion& motion, bool beside, const std::map<std
       wanted = add_all(std::move(wanted), pipeline::program_files(wanted[i]));
   }
   std::set<std::filesystem::path> known;
-  std::error_code failure;
-  known.insert(std::filesystem::weakly_canonical(motion.program, failure));
+  known.insert(std::filesystem::weakly_canonical(motion.program));
   for (const std::filesystem::path& file : wanted)
-    if (known.insert(std::filesystem::weakly_canonical(file, failure)).second)
+    if (known.insert(std::filesystem::weakly_canonical(file)).second)
       files.push_back(source_of(file, instead));
 }
 
@@ -373,9 +372,8 @@ Program read_program(const pipeline::Motion& motion, const std::map<std::string,
   if (language == Language::fanuc &&
       !is_backup(motion.program))  // programs that it calls and the registers of its backup lie beside it
     for (const std::filesystem::path& beside : fanuc_files_beside(motion.program)) {
-      std::error_code failure;
       const bool listed = std::any_of(motion.modules.begin(), motion.modules.end(), [&](const auto& m) {
-        return std::filesystem::equivalent(m.file, beside, failure) ||
+        return pipeline::inode_of(m.file) == pipeline::inode_of(beside) ||
                lower_case(m.file.filename().string()) == lower_case(beside.filename().string());
       });
       if (!listed) files.push_back(source_of(beside, instead));

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::sim {
@@ -115,14 +116,13 @@ PatchedProgram patched(const pipeline::Job& job, const ReadProgram& read, const 
   for (const LineChange& change : way.changes) files.insert(change.where.file);
   std::map<std::string, std::string> instead;
   PatchedProgram made;
-  std::error_code failure;
-  const fs::path folder =
-      fs::is_directory(job.motion.program, failure) ? job.motion.program : job.motion.program.parent_path();
+  const bool is_folder = pipeline::kind_of(job.motion.program) == pipeline::FileKind::folder;
+  const fs::path folder = is_folder ? job.motion.program : job.motion.program.parent_path();
   for (const std::string& file : files) {
-    const fs::path below = fs::proximate(file, folder.empty() ? "." : folder, failure);
+    const fs::path below = fs::proximate(file, folder.empty() ? "." : folder);
     const Rewritten changed =
         rewritten(read.language, file, pipeline::read_text(file), read.program, way.changes,
-                  failure || below.empty() ? file : below.generic_string());
+                  below.empty() ? file : below.generic_string());
     instead[file] = changed.text;
     made.patch += changed.patch;
   }

@@ -55,7 +55,7 @@ TEST_CASE("an allocation that fails, or all from one on, ends each program with 
           // A study's warnings may stand before it.
           REQUIRE(outcome.err.ends_with(call.program +
                                         ": error: out of memory; run fewer jobs at a time, ask for fewer segments or "
-                                        "samples, or allow more\n"));
+                                        "samples, or allow more, then run again\n"));
           REQUIRE(outcome.err.find("error: ") == outcome.err.rfind("error: "));
           ++refused;
         }

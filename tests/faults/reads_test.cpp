@@ -124,6 +124,27 @@ TEST_CASE("each read and look that fails in a command over results is told, and 
             << " whole, 0 false\n";
 }
 
+TEST_CASE("no bit that turns in a file of results while a page is made from it changes the page") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}}\n");
+  REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+  const fs::path page = scratch / "runs/study/a/page.html";
+  const std::string right = content(page);
+  const auto fail_at = [&](int at) {
+    fs::remove(page);
+    return run_failing(scratch, Fault{"read", at, "flip", ".h5"}, "dresslife", "page runs/study/a");
+  };
+  REQUIRE(fail_at(0).status == 0);
+  REQUIRE(content(page) == right);
+  const int total = calls_counted(scratch);
+  for (int at = 1; at <= total; ++at) {
+    const Outcome outcome = fail_at(at);
+    INFO(at << " of " << total << ": " << outcome.status << outcome.err);
+    CHECK((outcome.status == 0 ? content(page) == right : is_one_error(outcome.err) && !fs::exists(page)));
+  }
+}
+
 TEST_CASE("on a file system without locks everything goes on, with a note") {
   Scratch scratch;
   write_small_job(scratch);

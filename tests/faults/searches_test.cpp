@@ -166,3 +166,64 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
                 << whole << " whole, 0 false, 0 lost, of " << calls << " calls\n";
     }
 }
+
+TEST_CASE("a search takes no fault of the machine for a bad routing") {
+  const std::string search = "improve better.yaml --rehearsals 2 --off 0 --quiet --trials ";
+  Scratch undisturbed;
+  write_inputs(undisturbed);
+  REQUIRE(run(undisturbed, "dresslife", search + "1").status == 0);
+  const Outcome right = run(undisturbed, "dresslife", search + "2");
+  REQUIRE(right.status == 0);
+  const std::string allocation =
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+      "write";
+#else
+      "allocate";
+#endif
+  for (const auto& [program, call] : {std::pair{"dresslife-sim", std::string("write")},
+                                      {"dresslife-strain", "write"},
+                                      {"dresslife-fatigue", allocation}}) {
+    Scratch scratch;
+    write_inputs(scratch);
+    REQUIRE(run(scratch, "dresslife", search + "1").status == 0);
+    const Outcome failed = run_with(scratch,
+                                    std::string("env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=") + call +
+                                        " FAULT_AT=1 FAULT_MORE=all FAULT_PROGRAM=" + program +
+                                        " LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "'",
+                                    "dresslife", search + "2");
+    INFO(program << ": " << failed.status << failed.out << failed.err);
+    CHECK(failed.status == 1);
+    CHECK(failed.err.find("then run again\n") != std::string::npos);
+    const Outcome next = run(scratch, "dresslife", search + "2");
+    INFO(next.err);
+    CHECK(next.status == 0);
+    CHECK(next.out == right.out);
+  }
+}
+
+TEST_CASE("a file system that cannot say what a path leads to changes no patch of a program") {
+  Scratch scratch;
+  write_inputs(scratch);
+  scratch.write("short.yaml", "base: robot.yaml\njobs: {a: {}}\n");
+  REQUIRE(run(scratch, "dresslife", "run short.yaml --quiet").status == 0);
+  const std::string arguments = "robot.yaml --ways runs/short/a/life.h5 --lines 1 -o ways.h5 --quiet";
+  REQUIRE(run(scratch, "dresslife-import", arguments).status == 0);
+  const std::string right = content(scratch / "ways.h5");
+  // Of the program and of its folder: these name the files of the patch.
+  for (const std::string path : {(scratch / "turn.mod").string(), std::string("dresslife-")})
+    for (const std::string call : {"look", "list"}) {
+      const auto fail_at = [&](int at) {
+        fs::remove(scratch / "ways.h5");
+        return run_failing(scratch, Fault{call, at, "EIO", path}, "dresslife-import", arguments);
+      };
+      REQUIRE(fail_at(0).status == 0);
+      std::mt19937 random(1);
+      const int total = calls_counted(scratch);
+      for (const int at : path == "dresslife-" ? some_of(total, rounds(30), random) : some_of(total, total, random)) {
+        const Outcome outcome = fail_at(at);
+        INFO(call << ' ' << at << " of " << total << " of " << path << ": " << outcome.status << outcome.err);
+        REQUIRE((outcome.status == 1 || (outcome.status == 0 && content(scratch / "ways.h5") == right)));
+        if (outcome.status == 1) REQUIRE(is_one_error(outcome.err));
+      }
+    }
+}

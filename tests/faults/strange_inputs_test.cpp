@@ -158,6 +158,47 @@ TEST_CASE("a strange file in the place of a result stops nothing but what needs 
   }
 }
 
+TEST_CASE("no run waits for a pipe or writes through a link among the notes of a study") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}}\n");
+  scratch.write("mine.txt", "mine\n");
+  REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+  const std::string changed = "run study.yaml --quiet --set strain.gate=0.0007";
+  for (const std::string name : {"a/.stage/strain.log", ".stage/.ninja_log", ".stage/.ninja_deps"})
+    for (const bool is_pipe : {true, false}) {
+      const fs::path note = scratch / ("runs/study/" + name);
+      fs::remove(note);
+      if (is_pipe)
+        REQUIRE(::mkfifo(note.c_str(), 0600) == 0);
+      else
+        fs::create_symlink(scratch / "mine.txt", note);
+      const Outcome outcome = run_with(scratch, "timeout -s KILL 20", "dresslife", changed);
+      INFO(name << ": " << outcome.status << outcome.err);
+      CHECK(outcome.status == 1);
+      CHECK(outcome.err.find(name + ": error: is a link, a device or a pipe") != std::string::npos);
+      CHECK(content(scratch / "mine.txt") == "mine\n");
+      fs::remove(note);
+    }
+  CHECK(run(scratch, "dresslife", changed).status == 0);
+}
+
+TEST_CASE("a folder in the place of the poses is refused in every mode of the simulation") {
+  Scratch scratch;
+  write_small_job(scratch);
+  fs::remove(scratch / "poses.csv");
+  fs::create_directory(scratch / "poses.csv");
+  scratch.write("list.yaml", "- {routing.free_length_m: 0.95}\n");
+  for (const std::string mode : {"", "--preview", "--screen list.yaml", "--screen list.yaml --rehearse"}) {
+    const Outcome outcome = run(scratch, "dresslife-sim", "job.yaml -o out.h5 --quiet " + mode);
+    INFO(mode << ": " << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find("poses.csv: error: is a folder, not a file; name a file") != std::string::npos);
+    CHECK(is_one_error(outcome.err));
+    CHECK_FALSE(fs::exists(scratch / "out.h5"));
+  }
+}
+
 TEST_CASE("three million values and a hundred megabytes of comment are refused before they are understood") {
   Scratch scratch;
   write_small_job(scratch);

@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "pipeline/base/errors.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/files/checks.h"
@@ -102,6 +103,8 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
   Outcome outcome;
   outcome.beyond.assign(outcome_limits, unasked);
   outcome.failure = row.failure;
+  if (!row.done() && !is_refusal(row.failure))
+    throw MachineFault({folder.string()}, "has no result (" + row.failure + ")", "mend that");
   if (!row.done()) return outcome;
   outcome.hours = row.headline_hours();
   const double share = std::max(row.largest_force_share.value_or(0), row.clamp_moment_share.value_or(0));
@@ -111,7 +114,7 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
   if (const std::optional<Receipt> made = read_receipt(receipt))
     for (const CheckedValue& check : checks_in(made->told)) see_check(outcome, check, asked);
   else
-    outcome.failure = fmt::format("{} cannot be read; run again", receipt.string());
+    throw MachineFault({receipt.string()}, "is damaged", "remove it");
   return outcome;
 }
 

@@ -44,8 +44,9 @@ struct Outcome {
   std::string words() const;
 };
 
-/// Result of a job in `folder`: checks from the simulation's receipt, life from the row. A receipt that cannot be
-/// read is a failure. An unknown check is an error of the program (std::logic_error).
+/// Result of a job in `folder`: checks from the simulation's receipt, life from the row. Only a refusal of the job is a
+/// failure. Errors: MachineFault for a job without a result for another reason, or without the receipt;
+/// std::logic_error for an unknown check.
 Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, const AskedLimits& asked = {});
 
 /// The worst of several jobs: shortest life, largest value of each limit, the first failure.

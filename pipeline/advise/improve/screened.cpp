@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipeline/base/stage_failed.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/files/files.h"
 #include "pipeline/resolve/job_text.h"
@@ -59,7 +60,9 @@ ScreenedList screening_of(const Job& job, const std::string& candidates, Screene
   if (longest_bracket)
     arguments.insert(arguments.end(), {"--bracket", fmt::format("{:.6g}", 1e3 * *longest_bracket)});
   if (by == ScreenedBy::short_runs) arguments.push_back("--rehearse");
-  return run_stage_program("dresslife-sim", arguments) == 0 ? read_screening(told.path()) : ScreenedList{};
+  if (run_stage_program("dresslife-sim", arguments) != 0)
+    throw StageFailed({draft.string()}, "cannot be screened (see above)", "mend what is named there");
+  return read_screening(told.path());
 }
 
 }  // namespace dresslife::pipeline

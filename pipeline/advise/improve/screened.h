@@ -34,8 +34,8 @@ ScreenedList read_screening(const std::filesystem::path& file);
 enum class ScreenedBy { geometry, short_runs };
 
 /// (candidate) results of dresslife-sim for a job with changes (a YAML list of maps from keys to values) in
-/// `folder`. longest_bracket: [m] (V7); absent: the job's. Empty where it refuses the job. Errors:
-/// InputError when it cannot be started.
+/// `folder`. longest_bracket: [m] (V7); absent: the job's. Errors: StageFailed; InputError when it cannot be
+/// started.
 ScreenedList screening_of(const Job& job, const std::string& candidates, ScreenedBy by,
                           std::optional<double> longest_bracket, const std::filesystem::path& folder);
 

@@ -410,7 +410,7 @@ TEST_CASE("files: what is absent, foreign or cut off is refused in one line with
             ": error: is not there; check the path, or make it with dresslife-maker");
   CHECK(error(scratch / ".") ==
         (scratch / ".").string() + ": error: is a folder, not a file; name a file");
-  const std::string remedy = "; make the file again with dresslife-maker";
+  const std::string remedy = "; make the file again with dresslife-maker, then run again";
   const fs::path text = scratch.write("text.h5", "time,strain\n0,1\n");
   CHECK(error(text) == text.string() + ": error: is not an HDF5 file, or is cut off" + remedy);
   const fs::path empty = scratch.write("empty.h5", "");
@@ -432,7 +432,7 @@ TEST_CASE("files: what is absent, foreign or cut off is refused in one line with
   CHECK(message_of([&] { FileReader reader(scratch / "whole.h5", motion_format()); }) ==
         (scratch / "whole.h5").string() +
             ": error: holds 'dresslife-sample' ('dresslife-motion' is expected); make the file again with "
-            "dresslife-sim");
+            "dresslife-sim, then run again");
 }
 
 TEST_CASE("files: any bit that turns is noticed") {
@@ -487,7 +487,7 @@ TEST_CASE("files: bytes changed anywhere in a file without checksum are refused 
 
 TEST_CASE("files: a file that does not keep its contract is refused, naming the dataset") {
   const Format right = sample_format();
-  const std::string remedy = "; make the file again with dresslife-maker";
+  const std::string remedy = "; make the file again with dresslife-maker, then run again";
   CHECK(refusal(changed([](Format& f) { f.version = 3; }), right) ==
         "has format version 3 (this program reads up to 2); update dresslife");
   CHECK(refusal(changed([](Format& f) { f.datasets.erase(f.datasets.begin() + 1); }), right) ==
@@ -525,7 +525,7 @@ TEST_CASE("files: an older version is read") {
 
 TEST_CASE(
     "files: numbers that are not finite are refused with their row, infinity only where it has no meaning") {
-  const std::string remedy = "; make the file again with dresslife-maker";
+  const std::string remedy = "; make the file again with dresslife-maker, then run again";
   Content content;
   content.field[7] = std::nan("");
   CHECK(refusal(sample_format(), sample_format(), content) ==
@@ -549,7 +549,7 @@ TEST_CASE("files: attributes of the wrong kind are refused") {
   const Format format = sample_format();
   write_sample(scratch / "f.h5", format);
   const FileReader reader(scratch / "f.h5", format);
-  const std::string file = (scratch / "f.h5").string(), remedy = "; make the file again with dresslife-maker";
+  const std::string file = (scratch / "f.h5").string(), remedy = "; make the file again with dresslife-maker, then run again";
   CHECK(message_of([&] { reader.text_attribute("total"); }) ==
         file + ": error: attribute 'total' is not text" + remedy);
   CHECK(message_of([&] { reader.number_attribute("format"); }) ==
@@ -565,7 +565,7 @@ TEST_CASE("files: a place that cannot be written is the user's to mend") {
       message_of([&] { FileWriter writer(file, sample_format()); }) ==
       file.string() +
           ": error: cannot be written (No such file or directory); check the folder, its permissions and the "
-          "disk");
+          "disk, then run again");
 }
 
 TEST_CASE("files: the manual lists every dataset of every format") {

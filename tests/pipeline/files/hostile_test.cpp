@@ -60,7 +60,7 @@ class Made {
     const std::string message =
         message_of([&] { FileReader(scratch_ / "f.h5", two_rows).read<double>("/group/rows"); });
     const std::string before = (scratch_ / "f.h5").string() + ": error: ",
-                      after = "; make the file again with dresslife-maker";
+                      after = "; make the file again with dresslife-maker, then run again";
     if (!message.starts_with(before) || !message.ends_with(after)) return message;
     return message.substr(before.size(), message.size() - before.size() - after.size());
   }

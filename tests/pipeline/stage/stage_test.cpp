@@ -162,13 +162,13 @@ TEST_CASE("stage: the user's mistakes end with 1, ours with 3, each in one line"
   CHECK(memory.errors ==
         "dresslife-sample: error: out of memory; run fewer jobs at a time, ask for fewer segments or "
         "samples, or "
-        "allow more\n");
+        "allow more, then run again\n");
   const Outcome disk = run({"in.h5", "-o", "out.h5"}, [](const StageCall&) {
     throw std::filesystem::filesystem_error("rename", "out.h5.part",
                                             std::make_error_code(std::errc::permission_denied));
   });
   CHECK(disk.status == 1);
-  CHECK(disk.errors == "out.h5.part: error: Permission denied; check the folder and its permissions\n");
+  CHECK(disk.errors == "out.h5.part: error: Permission denied; check the folder and its permissions, then run again\n");
 }
 
 TEST_CASE("stage: an output that cannot be is refused before any work") {

@@ -386,7 +386,7 @@ TEST_CASE("build graph: a file beside the job counts by its content") {
   editor.join();
   CHECK_FALSE(bench.states()[0].done());
   CHECK(bench.states()[0].failure.find(
-            "poses.csv: error: has changed while dresslife-sim ran; run it again") != std::string::npos);
+            "poses.csv: error: has changed while dresslife-sim ran; let nothing change it meanwhile, then run again") != std::string::npos);
   bench.run(study);
   CHECK(bench.words(study) == Words{"done"});
 }

@@ -131,7 +131,7 @@ TEST_CASE("ranking: a missing or damaged life file is a failed job with its reas
       read_ranking({{"lost", scratch / "lost.h5", ""}, {"cut", scratch.write("cut.h5", "no file"), ""}});
   CHECK(rows[0].failure ==
         (scratch / "cut.h5").string() +
-            ": error: is not an HDF5 file, or is cut off; make the file again with dresslife-fatigue");
+            ": error: is not an HDF5 file, or is cut off; make the file again with dresslife-fatigue, then run again");
   CHECK(rows[1].failure == (scratch / "lost.h5").string() +
                                ": error: is not there; check the path, or make it with dresslife-fatigue");
   CHECK(read_ranking({}).empty());

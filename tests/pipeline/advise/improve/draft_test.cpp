@@ -83,11 +83,16 @@ TEST_CASE("the worst of several jobs has the least life and the most of each lim
   CHECK(worst.words() == "bend radius passed by 0.25");
   CHECK(good.feasible());
   RankingRow failed;
-  failed.failure = "too short";
+  failed.failure = "job.yaml: error: routing.free_length_m is too short; make it longer";
   CHECK_FALSE(outcome_of(failed, "nowhere").feasible());
+  for (const std::string other : {"motion.h5: error: cannot be written (No space left on device); free space, then run again",
+                                  "dresslife-sim ended without a word (killed, or out of memory?)"}) {
+    failed.failure = other;
+    CHECK_THROWS_AS(outcome_of(failed, "nowhere"), MachineFault);
+  }
   RankingRow lost;  // done, it says, but what its simulation noted is gone
   lost.planned_hours = {1, 2, 3};
-  CHECK(outcome_of(lost, "nowhere").failure == "nowhere/.stage/sim.receipt cannot be read; run again");
+  CHECK_THROWS_AS(outcome_of(lost, "nowhere"), MachineFault);
 }
 
 TEST_CASE("a check counts as passed on the far side of its limit, and as kept on the near side") {
