@@ -40,6 +40,41 @@ double log_likelihood(const ObservedLife& observed, const LifeVariant& variant, 
   return log_all_within(within, common, own, n);
 }
 
+/// (P5). Sums of shares; where they underflow, of their logarithms.
+class ServiceLikelihood {
+ public:
+  ServiceLikelihood(const std::vector<LifeVariant>& variants, const Eigen::VectorXd& z) {
+    for (const LifeVariant& variant : variants) lives_.push_back(variant(z));
+  }
+
+  double operator()(const ObservedService& one) const {
+    const double end = one.failed ? log_of(one.log_life, density, log_density_of) : log_lives(one.log_life);
+    return one.count * (std::isinf(one.log_entry) ? end : end - log_lives(one.log_entry));
+  }
+
+ private:
+  static double density(double margin, double spread) { return normal_density(margin / spread) / spread; }
+  static double log_density_of(double margin, double spread) {
+    return log_density(margin, spread) - std::log(2 * std::numbers::pi) / 2;
+  }
+  static double share(double margin, double spread) { return normal_share(margin / spread); }
+  static double log_share(double margin, double spread) { return log_normal_share(margin / spread); }
+
+  double log_lives(double log_age) const { return log_of(log_age, share, log_share); }
+  template <class Of, class LogOf>
+  double log_of(double log_age, const Of& of, const LogOf& log_of_one) const {
+    double sum = 0;
+    for (const LifeAt& life : lives_) sum += of(life.log_median - log_age, life.spread);
+    constexpr double underflow = 1e-280;
+    if (sum > underflow) return std::log(sum / static_cast<double>(lives_.size()));
+    std::vector<double> terms;
+    for (const LifeAt& life : lives_) terms.push_back(log_of_one(life.log_median - log_age, life.spread));
+    return log_mean(terms);
+  }
+
+  std::vector<LifeAt> lives_;
+};
+
 }  // namespace
 
 double log_mean(const std::vector<double>& terms) {
@@ -52,6 +87,12 @@ double log_mean(const std::vector<double>& terms) {
 
 double log_likelihood(const ObservedLife& observed, const Eigen::VectorXd& z) {
   assert(!observed.variants.empty());
+  if (!observed.service.empty()) {
+    const ServiceLikelihood of(observed.variants, z);
+    double sum = 0;
+    for (const ObservedService& one : observed.service) sum += of(one);
+    return sum;
+  }
   std::vector<double> terms;
   for (const LifeVariant& variant : observed.variants) terms.push_back(log_likelihood(observed, variant, z));
   return log_mean(terms);

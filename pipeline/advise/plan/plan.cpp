@@ -18,8 +18,6 @@ constexpr double days_per_year = 365.2425;
 constexpr std::size_t ages = 400;  // of (D6), between a tenth of the shortest life and the robot's: 2 % steps
 constexpr double longest = 1e5;       // [h] of (D6): twice a robot's life
 
-double days_between(Day from, Day to) { return static_cast<double>((to - from).count()); }
-
 /// Weights of worlds, and what follows for one dresspack that lives at some age.
 class Worlds {
  public:
