@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <set>
 
@@ -14,6 +15,8 @@
 #include "pipeline/commands/as_json.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/duties_run.h"
+#include "pipeline/job/job.h"
+#include "pipeline/job/learned_settings.h"
 #include "pipeline/report/plan_page.h"
 #include "pipeline/study/row_warnings.h"
 
@@ -49,6 +52,13 @@ std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
   return texts;
 }
 
+/// Whether the samples are of a calibration from a maintenance system's table.
+bool knows_survivors(const Study& study) {
+  return std::any_of(study.jobs.begin(), study.jobs.end(), [](const StudyJob& one) {
+    return one.job && one.job->calibration && counts_survivors(*one.job->calibration);
+  });
+}
+
 /// The texts one after the other, and an empty line where there are some.
 std::string block(const std::vector<std::string>& texts) {
   return fmt::format("{}{}", fmt::join(texts, ""), texts.empty() ? "" : "\n");
@@ -70,7 +80,7 @@ int plan(const Options& options) {
                        "no plan helps; see dresslife improve");
   std::vector<DutyResult> duties = evaluated(file, made.study, made.rows);
   std::erase_if(duties, [&](const DutyResult& duty) { return !needed.contains(duty.name); });
-  const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent};
+  const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent, knows_survivors(made.study)};
   const Plan found = plan_of(fleet, tables, windows, day, rule);
   if (found.effective_worlds < fewest_worlds)
     throw InputError({options.fleet},

@@ -9,6 +9,7 @@
 
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
+#include "pipeline/job/learned_settings.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
@@ -295,10 +296,9 @@ std::string observed_text(const Observation& observation) {
                        readable(observation.at_curvature, 2));
   if (!observation.bending.empty()) return observation.bending.filename().string();
   if (!observation.service.empty())
-    return fmt::format("{} of {} failed",
-                       std::count_if(observation.service.begin(), observation.service.end(),
-                                     [](const ServiceRecord& one) { return one.failed; }),
-                       observation.service.size());
+    return service_text(static_cast<std::size_t>(std::count_if(observation.service.begin(), observation.service.end(),
+                                                               [](const ServiceRecord& one) { return one.failed; })),
+                        observation.service.size());
   const char* sign = observation.outcome == ObservedEnd::broken      ? ""
                      : observation.outcome == ObservedEnd::broken_by ? "at most "
                                                                      : "at least ";

@@ -263,7 +263,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     of_row.push_back(&tables.at(row.duty));
     hours_per_day.push_back(row.hours_per_week.value_or(of_row.back()->hours_per_week) / 7);
     plan.rows.emplace_back().age_hours = days_between(row.since, today) * hours_per_day.back();
-    worlds.survived(*of_row.back(), plan.rows.back().age_hours);
+    if (!rule.knows_survivors) worlds.survived(*of_row.back(), plan.rows.back().age_hours);
   }
   worlds.weigh();
   plan.effective_worlds = worlds.effective();

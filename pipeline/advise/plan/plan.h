@@ -4,6 +4,7 @@
 // of the metal, the model's error). In a world dresspacks fail independently, each by what it has for itself (its slack,
 // its scatter). Worlds are drawn from the prior. That every dresspack has survived until today is evidence.
 // (D3) The weight of a world w is the product over dresspacks i of S_w,i(a_i).
+// A calibration with a maintenance system's table has this evidence already: then all worlds weigh the same.
 // S_w,i(a): share of dresspacks of i's duty that reach the age a in the world w. So one dresspack informs the others, and
 // the uncertainty does not shrink with the size of the fleet.
 //
@@ -47,6 +48,7 @@ struct LifeTable {
 struct PlanRule {
   double risk = 0.1;  ///< (D4)
   bool by_cost = false;
+  bool knows_survivors = false;  ///< the worlds are drawn from a calibration to which they belong: (D3) would count them twice
 };
 
 struct RowPlan {

@@ -138,6 +138,11 @@ TEST_CASE("survivors tell which world the plant is in, and the spread between pl
     const double of_bad = survive_bad / (survive_bad + survive_good);
     const auto fails = [&](double mean) { return 1 - std::exp(-10 * week / mean); };
     CHECK(plan.rows[0].fails_before_first == Approx(of_bad * fails(bad) + (1 - of_bad) * fails(good)).margin(1e-3));
+    // Worlds of a calibration in which the survivors are counted: they do not count twice.
+    PlanRule counted{1, false};
+    counted.knows_survivors = true;
+    const Plan known = plan_of(fleet_of(many(count, 10)), {{"d", weibull(1, {bad, good})}}, windows_in({10}), start, counted);
+    CHECK(known.rows[0].fails_before_first == Approx((fails(bad) + fails(good)) / 2).margin(1e-3));
   }
   // New dresspacks say nothing: the number of failures is of one world or of the other, not of their mean.
   const Plan fresh = plan_of(fleet_of(many(100, 0)), {{"d", weibull(1, {bad, good})}}, windows_in({26}), start, {1, false});
