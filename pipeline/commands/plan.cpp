@@ -92,14 +92,16 @@ int plan(const Options& options) {
   const fs::path weeks = made.places.folder / (stem + "_weeks.csv"), page = made.places.folder / (stem + ".html");
   write_text_if_changed(table, csv);
   write_text_if_changed(weeks, plan_weeks_csv(fleet, found));
+  const std::string tests = rule.by_cost ? test_words(values_of_tests(fleet, tables, found), found) : "";
   std::vector<std::string> notes = doubts(duties);
   for (const std::string& caution : cautions(duties)) notes.push_back(caution);
+  if (!tests.empty()) notes.push_back(tests);
   write_text_if_changed(page, with_mark(plan_page(fs::path(options.fleet).stem().string(), fleet, found, notes, table.filename().string()),
                                         Mark::page));
   write_text_if_changed(calendar, plan_calendar(fleet, found));
   print(options.json ? json_of_csv(csv).text + "\n"
-                     : shown(fmt::format("{}{}\n{}Table: {}\nWeeks: {}\nCalendar: {}\nPage: {}\n", block(doubts(duties)),
-                                         plan_words(fleet, found), block(cautions(duties)), table.string(), weeks.string(),
+                     : shown(fmt::format("{}{}{}\n{}Table: {}\nWeeks: {}\nCalendar: {}\nPage: {}\n", block(doubts(duties)),
+                                         plan_words(fleet, found), tests, block(cautions(duties)), table.string(), weeks.string(),
                                          calendar.string(), page.string())));
   if (!options.quiet) tell(warning_lines(rows_of(file, made.rows)));
   return 0;

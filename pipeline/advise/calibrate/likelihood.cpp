@@ -47,9 +47,8 @@ class ServiceLikelihood {
     for (const LifeVariant& variant : variants) lives_.push_back(variant(z));
   }
 
-  double operator()(const ObservedService& one) const {
-    const double end = one.failed ? log_of(one.log_life, density, log_density_of) : log_lives(one.log_life);
-    return one.count * (std::isinf(one.log_entry) ? end : end - log_lives(one.log_entry));
+  double operator()(const ServiceFactor& one) const {
+    return one.count * (one.failed ? log_of(one.log_age, density, log_density_of) : log_of(one.log_age, share, log_share));
   }
 
  private:
@@ -60,7 +59,6 @@ class ServiceLikelihood {
   static double share(double margin, double spread) { return normal_share(margin / spread); }
   static double log_share(double margin, double spread) { return log_normal_share(margin / spread); }
 
-  double log_lives(double log_age) const { return log_of(log_age, share, log_share); }
   template <class Of, class LogOf>
   double log_of(double log_age, const Of& of, const LogOf& log_of_one) const {
     double sum = 0;
@@ -90,7 +88,7 @@ double log_likelihood(const ObservedLife& observed, const Eigen::VectorXd& z) {
   if (!observed.service.empty()) {
     const ServiceLikelihood of(observed.variants, z);
     double sum = 0;
-    for (const ObservedService& one : observed.service) sum += of(one);
+    for (const ServiceFactor& one : observed.service) sum += of(one);
     return sum;
   }
   std::vector<double> terms;

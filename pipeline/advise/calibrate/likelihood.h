@@ -20,7 +20,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <limits>
 #include <vector>
 
 #include "pipeline/advise/calibrate/emulator.h"
@@ -39,13 +38,11 @@ struct LifeAt {
 };
 using LifeVariant = std::function<LifeAt(const Eigen::VectorXd& z)>;
 
-/// (P5)
-struct ObservedService {
-  double log_life = 0;                  ///< x
-  double log_entry = -infinite_log;     ///< e; minus infinite: in use since the records began, or later
-  bool failed = false;
-  int count = 1;                        ///< of dresspacks alike
-  static constexpr double infinite_log = std::numeric_limits<double>::infinity();
+/// A factor of (P5) to the power of a number of dresspacks.
+struct ServiceFactor {
+  double log_age = 0;   ///< x or e
+  bool failed = false;  ///< f(x), else S
+  int count = 1;        ///< of dresspacks; below 0: of those that S(e) divides
 };
 
 struct ObservedLife {
@@ -55,7 +52,7 @@ struct ObservedLife {
   double common_share = 0;     ///< w, 0 .. 1
   double unshared_spread = 0;  ///< u, of ln life
   std::vector<LifeVariant> variants;
-  std::vector<ObservedService> service{};  ///< instead of one life; then the variants are the values j
+  std::vector<ServiceFactor> service{};  ///< instead of one life; then the variants are the values j
 };
 
 /// (P2), (P3) or (P5). Precondition: at least one variant.

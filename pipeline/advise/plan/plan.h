@@ -18,6 +18,7 @@
 //     g_w = (C_p S_w(T) + C_u (1 - S_w(T))) / integral of S_w from 0 to T, at the T with the least mean over w (D6)
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -27,12 +28,20 @@
 
 namespace dresslife::pipeline {
 
+/// A parameter that dresspacks share, in all worlds.
+struct SharedValue {
+  std::size_t parameter = 0;  ///< of uncertain_parameters()
+  std::string of;             ///< the construction or material that has it; empty: everything
+  std::vector<double> z;      ///< (world)
+};
+
 /// Lives of dresspacks under one duty [h of operation].
 struct LifeTable {
   std::size_t worlds = 0, draws = 0;
   std::vector<float> hours;  ///< (world, draw), rising in each world; infinite: no damage
   double robot_life_hours = 0;
   double hours_per_week = 0;
+  std::vector<SharedValue> shared{};  ///< what its lives depend on
 
   /// The first life of a world that is longer than an age; the end of the world's lives if none is.
   const float* first_after(std::size_t world, double age) const;
@@ -72,11 +81,23 @@ struct Plan {
   std::vector<YearOfPlan> years;
   std::vector<double> failures_in_week, failures_in_week_without_windows;  ///< (week) of all, mean over simulated plants
   double cost = 0, cost_without_windows = 0;  ///< mean over simulated plants: by this plan; if only failures are replaced
+  std::vector<double> weights;                ///< (world) (D3), their sum is 1
   double effective_worlds = 0;                ///< (sum of weights)^2 / sum of their squares
 };
 
 /// Fewer are no sample: percentiles would rest on chance.
 constexpr double fewest_worlds = 20;
+
+/// Cost per hour of replacement at an age or at failure (D6), [1/h].
+struct AgeRates {
+  Eigen::MatrixXd rate;  ///< (age, world)
+  /// (world) of the age with the least mean.
+  Eigen::VectorXd least(const Eigen::VectorXd& weights) const;
+};
+AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned_cost);
+
+/// Times [days from today] of the windows, then the end of the plan.
+std::vector<double> times_of(const std::vector<Window>& windows, Day today);
 
 /// tables: by the names of duties. Precondition: windows are not empty, every duty has a table, all of as many worlds.
 Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,

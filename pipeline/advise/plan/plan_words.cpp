@@ -7,6 +7,7 @@
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/job/uncertainty.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
@@ -98,6 +99,21 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
     text += fmt::format("Cost until {}: {} by this plan, {} if only failed dresspacks are replaced.\n", day_text(plan.end),
                         readable(plan.cost), readable(plan.cost_without_windows));
   return text;
+}
+
+std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
+  constexpr double worth_a_line = 1e-3;  // of the cost
+  constexpr std::size_t most = 3;
+  std::string lines;
+  std::size_t count = 0;
+  for (const TestValue& test : tests) {
+    if (!(test.saves > worth_a_line * plan.cost) || ++count > most) break;
+    const UncertainParameter& parameter = uncertain_parameters()[test.what.parameter];
+    lines += fmt::format("  {:>9}  {}: {}{}\n", readable(test.saves), parameter.test, parameter.name,
+                         test.what.of.empty() ? "" : fmt::format(" of '{}'", test.what.of));
+  }
+  if (lines.empty()) return "No test of what the dresspacks have in common would save a thousandth of this cost.\n";
+  return fmt::format("A test before the first window makes plans cheaper until {} by, on average:\n{}", day_text(plan.end), lines);
 }
 
 std::string plan_csv(const Fleet& fleet, const Plan& plan) {
