@@ -23,6 +23,7 @@ struct Installed {
   Day since{};
   std::optional<double> hours_per_week;
   double planned_cost = 0, unplanned_cost = 0;
+  std::optional<double> age_hours{};  ///< of a changed duty (keep_ages()); absent: the hours since then
 };
 
 struct Fleet {

@@ -21,6 +21,9 @@ constexpr double longest = 1e5;       // [h] of (D6): twice a robot's life
 /// Weights of worlds, and what follows for one dresspack that lives at some age.
 class Worlds {
  public:
+  Worlds(std::size_t count, const std::vector<double>& known) : Worlds(count) {
+    if (!known.empty()) weight_ = known;
+  }
   explicit Worlds(std::size_t count) : log_weight_(count, 0.0), weight_(count, 1.0 / static_cast<double>(count)) {}
 
   /// A dresspack that has survived (D3). Of some draws none that does stands for half a draw.
@@ -258,6 +261,17 @@ std::vector<double> times_of(const std::vector<Window>& windows, Day today) {
   return times;
 }
 
+void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today) {
+  for (Installed& row : changed.rows) {
+    const auto old = std::find_if(now.rows.begin(), now.rows.end(), [&](const Installed& one) { return one.name == row.name; });
+    if (old == now.rows.end() || old->since != row.since) continue;
+    const LifeTable &before = tables.at(old->duty), &after = tables.at(row.duty);
+    const double age = days_between(old->since, today) * old->hours_per_week.value_or(before.hours_per_week) / 7;
+    const double life = before.median(), new_life = after.median();
+    row.age_hours = old->duty == row.duty || std::isinf(new_life) ? age : age / life * new_life;
+  }
+}
+
 Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,
              const PlanRule& rule, std::uint64_t seed) {
   Plan plan;
@@ -266,14 +280,14 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   plan.end = today + std::chrono::days(std::llround(times.back()));
   std::vector<const LifeTable*> of_row;
   std::vector<double> hours_per_day;
-  Worlds worlds(tables.begin()->second.worlds);
+  Worlds worlds(tables.begin()->second.worlds, rule.weights);
   for (const Installed& row : fleet.rows) {
     of_row.push_back(&tables.at(row.duty));
     hours_per_day.push_back(row.hours_per_week.value_or(of_row.back()->hours_per_week) / 7);
-    plan.rows.emplace_back().age_hours = days_between(row.since, today) * hours_per_day.back();
+    plan.rows.emplace_back().age_hours = row.age_hours.value_or(days_between(row.since, today) * hours_per_day.back());
     if (!rule.knows_survivors) worlds.survived(*of_row.back(), plan.rows.back().age_hours);
   }
-  worlds.weigh();
+  if (rule.weights.empty()) worlds.weigh();
   plan.weights = worlds.weights();
   plan.effective_worlds = worlds.effective();
   Decision decision(worlds, rule);

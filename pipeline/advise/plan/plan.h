@@ -57,6 +57,7 @@ struct LifeTable {
 struct PlanRule {
   double risk = 0.1;  ///< (D4)
   bool by_cost = false;
+  std::vector<double> weights{};  ///< (world) of another plan of the same plant; empty: (D3)
   bool knows_survivors = false;  ///< the worlds are drawn from a calibration to which they belong: (D3) would count them twice
 };
 
@@ -98,6 +99,10 @@ AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned
 
 /// Times [days from today] of the windows, then the end of the plan.
 std::vector<double> times_of(const std::vector<Window>& windows, Day today);
+
+/// The dresspacks of a plant under other duties: one that is in `now`, too, under another duty or for other hours, keeps its damage. Its age
+/// are the hours under the new duty that wear it as much, by the median lives of both. A date of its own makes it a new dresspack.
+void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today);
 
 /// tables: by the names of duties. Precondition: windows are not empty, every duty has a table, all of as many worlds.
 Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,

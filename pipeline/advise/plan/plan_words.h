@@ -23,6 +23,9 @@ std::string percent_text(double share);
 /// What tests are worth, a line each of those that save a thousandth of the plan's cost or more, three at most.
 std::string test_words(const std::vector<TestValue>& tests, const Plan& plan);
 
+/// A plan beside the one of today's fleet: failures, windows, spare dresspacks, cost, and the dresspacks with another window.
+std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
+
 /// One row per dresspack and one column per week from today: P(failure in it) of today's dresspack, if it is not replaced.
 std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan);
 
