@@ -57,8 +57,8 @@ struct LifeTable {
 struct PlanRule {
   double risk = 0.1;  ///< (D4)
   bool by_cost = false;
-  std::vector<double> weights{};  ///< (world) of another plan of the same plant; empty: (D3)
   bool knows_survivors = false;  ///< the worlds are drawn from a calibration to which they belong: (D3) would count them twice
+  std::vector<double> weights{};  ///< (world) of another plan of the same plant; empty: (D3)
 };
 
 struct RowPlan {

@@ -55,7 +55,7 @@ TEST_CASE("a perfect test of two equally likely worlds saves what each costs les
     CHECK(saves > least - rounding);
     least = saves;
   }
-  const std::string words = test_words({{{index_of(Uncertain::friction_inside), "hose", {}}, 1234}, {{index_of(Uncertain::model), "", {}}, 0.1}}, plan);
+  const std::string words = test_words({{{index_of(Uncertain::friction_inside), "hose", {}}, 1234}, {{index_of(Uncertain::model), "", {}}, 1e-4}}, plan);
   CHECK(words.find("1,230  One bending test of a cable (one hour): friction_inside of 'hose'\n") != std::string::npos);
   CHECK(words.find("model") == std::string::npos);  // less than a thousandth of the plan's cost
   CHECK(test_words({}, plan).find("No test") != std::string::npos);
