@@ -15,11 +15,13 @@ constexpr double deciles = 1.2815515655446004;  // of a normal distribution, in 
 
 }  // namespace
 
-std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bool, uncertain_count>& own, std::size_t count) {
+std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bool, uncertain_count>& own,
+                                  std::size_t count) {
   std::vector<OwnValues> all(count);
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     if (!own[p]) continue;
-    const std::vector<double> z = standard_normals("own " + std::string(uncertain_parameters()[p].name), count);
+    const std::vector<double> z =
+        standard_normals("own " + std::string(uncertain_parameters()[p].name), count);
     for (std::size_t k = 0; k < count; ++k) all[k].z[p] = z[k];
   }
   for (const LifeResponse& mode : modes) {
@@ -40,7 +42,9 @@ LifeAt LifeOverParameters::at(const VectorXd& beside, const OwnValues* own) cons
   return {median, std::max(std::exp(least_log_spread), (late - early) / (2 * deciles))};
 }
 
-double LifeOverParameters::log_median_at(const VectorXd& beside) const { return first(point(beside, nullptr), 0, nullptr); }
+double LifeOverParameters::log_median_at(const VectorXd& beside) const {
+  return first(point(beside, nullptr), 0, nullptr);
+}
 
 ParameterPoint LifeOverParameters::point(const VectorXd& beside, const OwnValues* own) const {
   ParameterPoint z = own ? own->z : ParameterPoint{};

@@ -16,11 +16,13 @@ inline constexpr double least_log_spread = -6.9;  // ln 0.001: of ln life, where
 
 /// What one dresspack has for itself.
 struct OwnValues {
-  ParameterPoint z{};          ///< (parameter) 0 of those that it shares
-  std::vector<double> scatter;  ///< (mode) standard normal: the part of u that the modes do not have in common
+  ParameterPoint z{};  ///< (parameter) 0 of those that it shares
+  std::vector<double>
+      scatter;  ///< (mode) standard normal: the part of u that the modes do not have in common
 };
 /// Samples of equal probability: of each number every stratum once. own: the parameters. The same every time.
-std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bool, uncertain_count>& own, std::size_t count);
+std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bool, uncertain_count>& own,
+                                  std::size_t count);
 
 class LifeOverParameters {
  public:

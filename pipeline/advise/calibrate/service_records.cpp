@@ -28,12 +28,17 @@ struct ColumnWords {
 const std::array<ColumnWords, column_count>& columns() {
   static const std::array<ColumnWords, column_count> all{{
       {"robot", {"robot", "robotname", "roboter", "machine", "maschine", "station", "asset", "equipment"}},
-      {"dresspack", {"dresspack", "cable", "cablepackage", "cabledress", "umbilical", "component", "schlauchpaket", "kabel"}},
-      {"installed", {"installed", "installedon", "installdate", "installationdate", "installation", "dateinstalled", "mounted",
-                     "einbau", "einbaudatum", "eingebaut"}},
-      {"replaced", {"replaced", "replacedon", "replaceddate", "replacementdate", "datereplaced", "removed", "removedon",
-                    "removaldate", "ausbau", "ausbaudatum", "ausgebaut", "ersetzt", "gewechselt"}},
-      {"reason", {"reason", "removalreason", "replacementreason", "cause", "grund", "ausbaugrund", "ursache"}},
+      {"dresspack",
+       {"dresspack", "cable", "cablepackage", "cabledress", "umbilical", "component", "schlauchpaket",
+        "kabel"}},
+      {"installed",
+       {"installed", "installedon", "installdate", "installationdate", "installation", "dateinstalled",
+        "mounted", "einbau", "einbaudatum", "eingebaut"}},
+      {"replaced",
+       {"replaced", "replacedon", "replaceddate", "replacementdate", "datereplaced", "removed", "removedon",
+        "removaldate", "ausbau", "ausbaudatum", "ausgebaut", "ersetzt", "gewechselt"}},
+      {"reason",
+       {"reason", "removalreason", "replacementreason", "cause", "grund", "ausbaugrund", "ursache"}},
       {"hours_per_week", {"hoursperweek", "hperweek", "operatinghoursperweek", "stundenprowoche"}},
       {"job", {"job", "program", "programm"}},
   }};
@@ -49,7 +54,8 @@ std::string letters_of(const std::string& text) {
 }
 
 bool has_any(const std::string& text, std::initializer_list<std::string_view> words) {
-  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return text.find(word) != text.npos; });
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return text.find(word) != text.npos; });
 }
 
 enum class End { failed, removed, in_use };
@@ -58,21 +64,24 @@ enum class End { failed, removed, in_use };
 std::optional<End> end_in(const std::string& text) {
   const std::string letters = letters_of(text);
   if (has_any(letters, {"notfail", "nofail", "nodefect", "kein"})) return std::nullopt;
-  if (has_any(letters, {"fail", "broke", "break", "defect", "fault", "unplanned", "unscheduled", "corrective", "ausfall", "defekt",
-                        "bruch", "gebrochen", "strung", "stoerung", "ungeplant"}) &&
+  if (has_any(letters, {"fail", "broke", "break", "defect", "fault", "unplanned", "unscheduled", "corrective",
+                        "ausfall", "defekt", "bruch", "gebrochen", "strung", "stoerung", "ungeplant"}) &&
       !has_any(letters, {"prevent", "vorbeug"}))
     return End::failed;
-  if (has_any(letters, {"prevent", "planned", "scheduled", "maintenance", "inspection", "vorbeug", "geplant", "wartung",
-                        "collision", "crash", "kollision", "conversion", "modification", "umbau", "dismantled", "verschrott"}))
+  if (has_any(letters, {"prevent", "planned", "scheduled", "maintenance", "inspection", "vorbeug", "geplant",
+                        "wartung", "collision", "crash", "kollision", "conversion", "modification", "umbau",
+                        "dismantled", "verschrott"}))
     return End::removed;
-  if (letters.empty() || has_any(letters, {"alive", "inuse", "inservice", "running", "imbetrieb", "imeinsatz"}))
+  if (letters.empty() ||
+      has_any(letters, {"alive", "inuse", "inservice", "running", "imbetrieb", "imeinsatz"}))
     return End::in_use;
   return std::nullopt;
 }
 
 /// With a decimal point or a decimal comma.
 std::optional<double> number_of_export(std::string text) {
-  if (text.find('.') == text.npos && std::count(text.begin(), text.end(), ',') == 1) text[text.find(',')] = '.';
+  if (text.find('.') == text.npos && std::count(text.begin(), text.end(), ',') == 1)
+    text[text.find(',')] = '.';
   return number_in(text);
 }
 
@@ -125,30 +134,38 @@ class Export {
         if (std::find(known.begin(), known.end(), letters) == known.end()) continue;
         if (at_[c])
           throw InputError(reader_.where(titles_[k]),
-                           fmt::format("columns '{}' and '{}' both mean {}", titles_[*at_[c]].text, titles_[k].text, columns()[c].name),
+                           fmt::format("columns '{}' and '{}' both mean {}", titles_[*at_[c]].text,
+                                       titles_[k].text, columns()[c].name),
                            "keep or rename one of the two");
         at_[c] = k;
       }
     }
     for (const Column needed : {robot, installed, replaced})
       if (!at_[needed])
-        throw InputError(reader_.where(titles_.front()), fmt::format("the table has no column '{}'", columns()[needed].name),
-                         fmt::format("name one of its columns so ({})", fmt::join(columns()[needed].titles, ", ")));
+        throw InputError(
+            reader_.where(titles_.front()),
+            fmt::format("the table has no column '{}'", columns()[needed].name),
+            fmt::format("name one of its columns so ({})", fmt::join(columns()[needed].titles, ", ")));
   }
 
-  const CsvCell* cell(const CsvRow& cells, Column column) const { return at_[column] ? &cells[*at_[column]] : nullptr; }
+  const CsvCell* cell(const CsvRow& cells, Column column) const {
+    return at_[column] ? &cells[*at_[column]] : nullptr;
+  }
   std::string text(const CsvRow& cells, Column column) const {
     const CsvCell* const found = cell(cells, column);
     return found ? found->text : "";
   }
-  [[noreturn]] void refuse(const CsvRow& cells, Column column, const std::string& what, const std::string& remedy) const {
+  [[noreturn]] void refuse(const CsvRow& cells, Column column, const std::string& what,
+                           const std::string& remedy) const {
     throw InputError(reader_.where(*cell(cells, column)), what, remedy);
   }
 
   Day day(const CsvRow& cells, Column column) const {
     const std::string written = text(cells, column);
     const std::optional<Day> day = day_from_export(written);
-    if (!day) refuse(cells, column, fmt::format("'{}' is no date", written), std::string(date_remedy) + ", or 12.07.2027");
+    if (!day)
+      refuse(cells, column, fmt::format("'{}' is no date", written),
+             std::string(date_remedy) + ", or 12.07.2027");
     if (*day > request_.today)
       refuse(cells, column, fmt::format("{} is after today, {}", day_text(*day), day_text(request_.today)),
              "correct the date, or give --today");
@@ -157,9 +174,10 @@ class Export {
 
   Row row_of(const CsvRow& cells) const {
     if (cells.size() != titles_.size())
-      throw InputError(reader_.where(cells.back()),
-                       fmt::format("a row of {} cells (the table has {} columns)", cells.size(), titles_.size()),
-                       "fill or quote its cells");
+      throw InputError(
+          reader_.where(cells.back()),
+          fmt::format("a row of {} cells (the table has {} columns)", cells.size(), titles_.size()),
+          "fill or quote its cells");
     Row row{reader_.line(), reader_.where(*cell(cells, robot)), text(cells, robot)};
     if (row.name.empty()) refuse(cells, robot, "the robot has no name", "fill the cell");
     if (at_[dresspack]) row.name += ", " + text(cells, dresspack);
@@ -169,13 +187,16 @@ class Export {
       row.hours_per_week = number_of_export(hours);
       constexpr double fewest = 0.1, most = 168;  // of a week
       if (!row.hours_per_week || !(*row.hours_per_week >= fewest && *row.hours_per_week <= most))
-        refuse(cells, hours_per_week, fmt::format("hours_per_week is '{}' (must be {:g} .. {:g})", hours, fewest, most),
+        refuse(cells, hours_per_week,
+               fmt::format("hours_per_week is '{}' (must be {:g} .. {:g})", hours, fewest, most),
                "write the hours in which the program runs");
     }
-    row.job = text(cells, job), row.job_where = row.job.empty() ? Where{"--job"} : reader_.where(*cell(cells, job));
+    row.job = text(cells, job),
+    row.job_where = row.job.empty() ? Where{"--job"} : reader_.where(*cell(cells, job));
     if (row.job.empty()) row.job = request_.job;
     if (row.job.empty())
-      throw InputError(row.where, "it is not known which job this dresspack does", "give --job JOB.yaml, or a column job");
+      throw InputError(row.where, "it is not known which job this dresspack does",
+                       "give --job JOB.yaml, or a column job");
     return row;
   }
 
@@ -199,8 +220,10 @@ class Export {
              "write when it was replaced, or no reason");
     if (!is_date) row.end = End::in_use;
     if (row.to < row.from)
-      refuse(cells, replaced, fmt::format("replaced on {}, before it was installed on {}", day_text(row.to), day_text(row.from)),
-             "correct one of the dates");
+      refuse(
+          cells, replaced,
+          fmt::format("replaced on {}, before it was installed on {}", day_text(row.to), day_text(row.from)),
+          "correct one of the dates");
   }
 
   /// A dresspack that is there twice would count twice.
@@ -208,13 +231,16 @@ class Export {
     std::map<std::string, std::vector<const Row*>> places;
     for (const Row& row : rows) places[row.name].push_back(&row);
     for (auto& [name, at] : places) {
-      std::stable_sort(at.begin(), at.end(), [](const Row* a, const Row* b) { return std::pair(a->from, a->to) < std::pair(b->from, b->to); });
+      std::stable_sort(at.begin(), at.end(), [](const Row* a, const Row* b) {
+        return std::pair(a->from, a->to) < std::pair(b->from, b->to);
+      });
       for (std::size_t k = 1; k < at.size(); ++k)
         if (at[k]->from < at[k - 1]->to || (at[k]->from == at[k - 1]->from && at[k]->to == at[k - 1]->to))
-          throw InputError(at[k]->where,
-                           fmt::format("'{}' is in use from {} on, and line {} has it until {}", name, day_text(at[k]->from),
-                                       at[k - 1]->line, day_text(at[k - 1]->to)),
-                           "correct a date, remove the row that is there twice, or name the dresspack of each");
+          throw InputError(
+              at[k]->where,
+              fmt::format("'{}' is in use from {} on, and line {} has it until {}", name,
+                          day_text(at[k]->from), at[k - 1]->line, day_text(at[k - 1]->to)),
+              "correct a date, remove the row that is there twice, or name the dresspack of each");
     }
   }
 
@@ -242,7 +268,8 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
     if (row.end != End::in_use) first_removal = std::min(first_removal.value_or(row.to), row.to);
   const std::optional<Day> since = request.since ? request.since : first_removal;
   if (!since)
-    throw InputError({request.file.string()}, "has no dresspack that was removed, so the first day of the records is not known",
+    throw InputError({request.file.string()},
+                     "has no dresspack that was removed, so the first day of the records is not known",
                      "give it: --records-since DATE");
 
   ServiceTests read;
@@ -261,7 +288,8 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
       test.observation.what = "dresspacks of a plant";
       test.observation.source = request.file.filename().string();
       test.variants.push_back({name, catalogue_entry("jobs", row.job, row.job_where, row.job_where), ""});
-      hours_per_week[row.job] = job_from(test.variants.back().job, request.sets).fatigue.operating_hours_per_week;
+      hours_per_week[row.job] =
+          job_from(test.variants.back().job, request.sets).fatigue.operating_hours_per_week;
     }
     // Removals of the first day define it; they are no evidence of lives (a stopping time).
     const bool too_early = row.to < *since || (!request.since && row.end != End::in_use && row.to == *since);
@@ -283,17 +311,22 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   }
   std::erase_if(read.tests, [](const ObservedTest& test) { return test.observation.service.empty(); });
   if (read.tests.empty())
-    throw InputError({request.file.string()}, fmt::format("no dresspack was in use after {}, the first day of the records", day_text(*since)),
-                     "give an earlier day: --records-since DATE");
+    throw InputError(
+        {request.file.string()},
+        fmt::format("no dresspack was in use after {}, the first day of the records", day_text(*since)),
+        "give an earlier day: --records-since DATE");
   for (ObservedTest& test : read.tests) test.text += to_yaml(test.variants.front().job);
   read.words = fmt::format("Columns: {}.\n", table.column_words());
-  read.words += fmt::format("{} dresspacks: {} failed, {} were removed before, {} are in use on {}.\n", failed + removed + in_use,
-                            failed, removed, in_use, day_text(request.today));
-  read.words += fmt::format("Records begin on {}{}. {} dresspacks were put in before, and count from their age on that day.\n", day_text(*since),
-                            request.since ? "" : ", the day of the first removal", before);
+  read.words += fmt::format("{} dresspacks: {} failed, {} were removed before, {} are in use on {}.\n",
+                            failed + removed + in_use, failed, removed, in_use, day_text(request.today));
+  read.words += fmt::format(
+      "Records begin on {}{}. {} dresspacks were put in before, and count from their age on that day.\n",
+      day_text(*since), request.since ? "" : ", the day of the first removal", before);
   if (early > 0)
-    read.words += fmt::format("{} removed {} do not count{}.\n", early, request.since ? "before" : "on that day",
-                              request.since ? "" : ": --records-since DATE gives an earlier day from which the records are complete");
+    read.words += fmt::format(
+        "{} removed {} do not count{}.\n", early, request.since ? "before" : "on that day",
+        request.since ? ""
+                      : ": --records-since DATE gives an earlier day from which the records are complete");
   return read;
 }
 

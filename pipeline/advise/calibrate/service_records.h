@@ -22,9 +22,10 @@ namespace dresslife::pipeline {
 
 struct ServiceRequest {
   std::filesystem::path file;
-  std::string job;           ///< of the rows without one of their own; empty: each row has one
-  std::optional<Day> since;  ///< the first day of the records; absent: that of the first removal, which does not count then
-  Day today;                 ///< until which dresspacks in use have lived
+  std::string job;  ///< of the rows without one of their own; empty: each row has one
+  std::optional<Day>
+      since;  ///< the first day of the records; absent: that of the first removal, which does not count then
+  Day today;  ///< until which dresspacks in use have lived
   std::vector<std::string> sets;  ///< of the jobs
 };
 

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index bins = 16;  // of the result: 32 raise the value by less than 1 % of it
+constexpr Index bins = 16;  // of the result: the narrowest is as wide as half of the smallest error of a test
 
 /// (world, bin) P(j | w). The bins have equal probabilities if z is standard normal.
 MatrixXd results_of(const std::vector<double>& z, double error) {
@@ -24,7 +24,8 @@ MatrixXd results_of(const std::vector<double>& z, double error) {
   for (Index w = 0; w < share.rows(); ++w) {
     double below = 0;
     for (Index j = 0; j < bins; ++j) {
-      const double edge = j + 1 < bins ? std::hypot(1, error) * normal_quantile(double(j + 1) / double(bins)) : infinity;
+      const double edge =
+          j + 1 < bins ? std::hypot(1, error) * normal_quantile(double(j + 1) / double(bins)) : infinity;
       const double until = normal_share((edge - z[std::size_t(w)]) / error);
       share(w, j) = until - below;
       below = until;
@@ -39,13 +40,15 @@ struct Costs {
   VectorXd weights;       ///< (world) of those in which it can live, their sum is 1
 };
 
-Costs costs_of(const Installed& row, const LifeTable& table, double age, double hours_per_day, const std::vector<double>& times,
-               const std::vector<double>& world_weights, const VectorXd& best) {
+Costs costs_of(const Installed& row, const LifeTable& table, double age, double hours_per_day,
+               const std::vector<double>& times, const std::vector<double>& world_weights,
+               const VectorXd& best) {
   std::vector<double> until;  // [h]
   for (std::size_t k = 0; k + 1 < times.size(); ++k) until.push_back(times[k] * hours_per_day);
   constexpr double growth = 1.5;  // of later times, as in (D5)
   const double end = times.back() * hours_per_day, interval = end - until.back(), last = until.back();
-  for (double hours = interval; hours < growth * std::max(interval, table.robot_life_hours); hours *= growth) until.push_back(last + hours);
+  for (double hours = interval; hours < growth * std::max(interval, table.robot_life_hours); hours *= growth)
+    until.push_back(last + hours);
   const auto count = static_cast<Index>(until.size()), worlds = static_cast<Index>(table.worlds);
   Costs costs{MatrixXd::Zero(count, worlds), MatrixXd::Zero(count, worlds), VectorXd::Zero(worlds)};
   for (Index w = 0; w < worlds; ++w) {
@@ -59,7 +62,9 @@ Costs costs_of(const Installed& row, const LifeTable& table, double age, double 
       left -= table.running(world, std::min(before, age + end), std::min(at, age + end)) / lives;
       beyond += table.running(world, std::max(before, age + end), std::max(at, age + end)) / lives;
       before = at;
-      costs.fixed(t, w) = row.planned_cost + (row.unplanned_cost - row.planned_cost) * (1 - table.alive(world, at) / lives) - best[w] * beyond;
+      costs.fixed(t, w) = row.planned_cost +
+                          (row.unplanned_cost - row.planned_cost) * (1 - table.alive(world, at) / lives) -
+                          best[w] * beyond;
       costs.hours(t, w) = left;
     }
   }
@@ -70,7 +75,8 @@ Costs costs_of(const Installed& row, const LifeTable& table, double age, double 
 /// The values of several tests at once.
 class Values {
  public:
-  Values(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const Plan& plan) : fleet_(fleet), tables_(tables), plan_(plan) {}
+  Values(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const Plan& plan)
+      : fleet_(fleet), tables_(tables), plan_(plan) {}
 
   /// results: (test) of results_of().
   std::vector<double> of(const std::vector<MatrixXd>& results) {
@@ -81,9 +87,11 @@ class Values {
       const LifeTable& table = tables_.at(row.duty);
       const double hours_per_day = row.hours_per_week.value_or(table.hours_per_week) / 7;
       const Policies& policies = policies_of(row, table, results);
-      const Costs costs = costs_of(row, table, plan_.rows[i].age_hours, hours_per_day, times, plan_.weights, policies.best);
-      const VectorXd &now = policies.now;
-      const double before = (costs.fixed * costs.weights + costs.hours * now.cwiseProduct(costs.weights)).minCoeff();
+      const Costs costs =
+          costs_of(row, table, plan_.rows[i].age_hours, hours_per_day, times, plan_.weights, policies.best);
+      const VectorXd& now = policies.now;
+      const double before =
+          (costs.fixed * costs.weights + costs.hours * now.cwiseProduct(costs.weights)).minCoeff();
       for (std::size_t k = 0; k < results.size(); ++k) {
         const MatrixXd weights = costs.weights.asDiagonal() * results[k];
         const MatrixXd fixed = costs.fixed * weights;
@@ -103,7 +111,8 @@ class Values {
     VectorXd best;                ///< (world) at the one that is best in it
     std::vector<MatrixXd> after;  ///< (test) (world, bin) at the one that is best after the result
   };
-  const Policies& policies_of(const Installed& row, const LifeTable& table, const std::vector<MatrixXd>& results) {
+  const Policies& policies_of(const Installed& row, const LifeTable& table,
+                              const std::vector<MatrixXd>& results) {
     const auto [found, is_new] = policies_.try_emplace({&table, row.planned_cost, row.unplanned_cost});
     if (!is_new) return found->second;
     const AgeRates rates = age_rates(table, row.planned_cost, row.unplanned_cost);
@@ -125,11 +134,13 @@ class Values {
 
 }  // namespace
 
-double value_of_test(const SharedValue& what, double error, const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const Plan& plan) {
+double value_of_test(const SharedValue& what, double error, const Fleet& fleet,
+                     const std::map<std::string, LifeTable>& tables, const Plan& plan) {
   return Values(fleet, tables, plan).of({results_of(what.z, error)}).front();
 }
 
-std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const Plan& plan) {
+std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
+                                       const Plan& plan) {
   std::vector<TestValue> values;
   std::vector<MatrixXd> results;
   for (const auto& [name, table] : tables)
@@ -144,7 +155,8 @@ std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::s
     }
   const std::vector<double> saves = Values(fleet, tables, plan).of(results);
   for (std::size_t k = 0; k < values.size(); ++k) values[k].saves = saves[k];
-  std::stable_sort(values.begin(), values.end(), [](const TestValue& a, const TestValue& b) { return a.saves > b.saves; });
+  std::stable_sort(values.begin(), values.end(),
+                   [](const TestValue& a, const TestValue& b) { return a.saves > b.saves; });
   return values;
 }
 

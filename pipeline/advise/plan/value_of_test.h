@@ -24,9 +24,11 @@ struct TestValue {
 };
 
 /// By a test of this value with an error of a normal distribution, in z. plan: by cost, of this fleet.
-double value_of_test(const SharedValue& what, double error, const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const Plan& plan);
+double value_of_test(const SharedValue& what, double error, const Fleet& fleet,
+                     const std::map<std::string, LifeTable>& tables, const Plan& plan);
 
 /// Of the test of each parameter that the tables depend on, with the error of UncertainParameter::test_deviation; the largest first.
-std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const Plan& plan);
+std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
+                                       const Plan& plan);
 
 }  // namespace dresslife::pipeline

@@ -12,7 +12,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double log_median = 8, shift = 0.7, own_spread = 0.5, spread = 0.4;  // ln life: 8 + 0.7 z + 0.5 own + 0.4 scatter
+constexpr double log_median = 8, shift = 0.7, own_spread = 0.5,
+                 spread = 0.4;  // ln life: 8 + 0.7 z + 0.5 own + 0.4 scatter
 
 /// ln hours of a dresspack; entry: minus infinite if it was not in use when the records began.
 struct Lived {
@@ -27,7 +28,9 @@ ObservedLife in_service(const std::vector<Lived>& records) {
     if (!std::isinf(one.entry)) life.service.push_back({one.entry, false, -1});
   }
   for (const double own : standard_normals("own", 64))
-    life.variants.push_back([own](const VectorXd& z) { return LifeAt{log_median + shift * z[0] + own_spread * own, spread}; });
+    life.variants.push_back([own](const VectorXd& z) {
+      return LifeAt{log_median + shift * z[0] + own_spread * own, spread};
+    });
   return life;
 }
 
@@ -39,7 +42,8 @@ template <class LogLikelihoodAt>
 Grid posterior_on_grid(const LogLikelihoodAt& log_likelihood_at) {
   constexpr double reach = 5, width = 0.05;
   std::vector<double> at, weight;
-  for (double z = -reach; z <= reach; z += width) at.push_back(z), weight.push_back(log_likelihood_at(z) - z * z / 2);
+  for (double z = -reach; z <= reach; z += width)
+    at.push_back(z), weight.push_back(log_likelihood_at(z) - z * z / 2);
   const double most = *std::max_element(weight.begin(), weight.end());
   Grid grid;
   double sum = 0, squares = 0;
@@ -75,11 +79,13 @@ Plant simulated(double truth, double begin, double end, std::mt19937& random) {
   constexpr double some = 4000;  // of hours: planned replacements, in a third of the dresspacks
   for (int robot = 0; robot < robots; ++robot)
     for (double from = 0; from < end;) {
-      const double life = std::exp(log_median + shift * truth + own_spread * number(random) + spread * number(random));
+      const double life =
+          std::exp(log_median + shift * truth + own_spread * number(random) + spread * number(random));
       const double planned = uniform(random) < 1.0 / 3 ? some * uniform(random) : HUGE_VAL;
       const double to = std::min({from + life, from + planned, end});
       if (to > begin)
-        plant.records.push_back({std::log(to - from), from < begin ? std::log(begin - from) : -HUGE_VAL, to == from + life});
+        plant.records.push_back(
+            {std::log(to - from), from < begin ? std::log(begin - from) : -HUGE_VAL, to == from + life});
       from = to;
     }
   return plant;
@@ -90,12 +96,17 @@ Plant simulated(double truth, double begin, double end, std::mt19937& random) {
 TEST_CASE("in service: the posterior of one shared parameter is that of an independent integral") {
   // A lognormal life: own and scatter make one normal deviation.
   const double deviation = std::hypot(own_spread, spread);
-  const std::vector<Lived> records{{7.2, -HUGE_VAL, true}, {8.1, 7.5, true}, {8.6, 8.5, false}, {7.9, -HUGE_VAL, false}, {7.9, -HUGE_VAL, false}};
+  const std::vector<Lived> records{{7.2, -HUGE_VAL, true},
+                                   {8.1, 7.5, true},
+                                   {8.6, 8.5, false},
+                                   {7.9, -HUGE_VAL, false},
+                                   {7.9, -HUGE_VAL, false}};
   const Grid expected = posterior_on_grid([&](double z) {
     const auto u = [&](double x) { return (x - log_median - shift * z) / deviation; };
     const auto lives = [&](double x) { return 0.5 * std::erfc(u(x) / std::sqrt(2.0)); };
     const auto density = [&](double x) { return std::exp(-u(x) * u(x) / 2); };
-    return std::log(density(7.2) * density(8.1) / lives(7.5) * lives(8.6) / lives(8.5) * std::pow(lives(7.9), 2));
+    return std::log(density(7.2) * density(8.1) / lives(7.5) * lives(8.6) / lives(8.5) *
+                    std::pow(lives(7.9), 2));
   });
   // 64 strata instead of a normal distribution: their variance is 1.5 % too small.
   constexpr double strata = 0.02;
@@ -103,26 +114,30 @@ TEST_CASE("in service: the posterior of one shared parameter is that of an indep
   CHECK(found.mean == Approx(expected.mean).margin(strata * expected.deviation));
   CHECK(found.deviation == Approx(expected.deviation).epsilon(strata));
   const ObservedLife life = in_service(records);
-  const Posterior posterior = posterior_of({[&](const VectorXd& z) { return log_likelihood(life, z); }}, VectorXd::Zero(1));
+  const Posterior posterior =
+      posterior_of({[&](const VectorXd& z) { return log_likelihood(life, z); }}, VectorXd::Zero(1));
   constexpr double of_mean = 0.09, of_spread = 0.06;  // of draws worth 1,500 (posterior_test.cpp)
   CHECK(posterior.mean[0] == Approx(found.mean).margin(of_mean * found.deviation));
   CHECK(std::sqrt(posterior.covariance(0, 0)) == Approx(found.deviation).epsilon(of_spread));
 }
 
-TEST_CASE("in service: of simulated plants the true parameter is learned, and too long lives where truncation is ignored") {
+TEST_CASE(
+    "in service: of simulated plants the true parameter is learned, and too long lives where truncation is ignored") {
   std::mt19937 random(23);
   std::normal_distribution<double> number;
   constexpr int plants = 300;
   double within = 0, off = 0, off_ignored = 0, records = 0, truncated = 0, chance = 0;
   for (int p = 0; p < plants; ++p) {
     const double truth = number(random);
-    const Plant plant = simulated(truth, 6000, 9000, random);  // two mean lives before the records begin, one in them
+    const Plant plant =
+        simulated(truth, 6000, 9000, random);  // two mean lives before the records begin, one in them
     std::vector<Lived> ignored = plant.records;
     for (Lived& one : ignored) truncated += !std::isinf(one.entry), one.entry = -HUGE_VAL;
     records += double(ignored.size());
     const Grid learned = learned_from(plant.records);
     within += learned.low <= truth && truth <= learned.high;
-    off += (learned.mean - truth) / plants, chance += learned.deviation * learned.deviation / (double(plants) * plants);
+    off += (learned.mean - truth) / plants,
+        chance += learned.deviation * learned.deviation / (double(plants) * plants);
     off_ignored += (learned_from(ignored).mean - truth) / plants;
   }
   CAPTURE(records / plants, truncated / plants, within / plants, off, off_ignored, std::sqrt(chance));

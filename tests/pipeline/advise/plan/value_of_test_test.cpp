@@ -17,13 +17,15 @@ const Day start = *day_from("2026-11-23");
 
 std::vector<Window> windows_in(const std::vector<int>& weeks) {
   std::vector<Window> windows;
-  for (const int of : weeks) windows.push_back({start + std::chrono::days(7 * of), start + std::chrono::days(7 * of)});
+  for (const int of : weeks)
+    windows.push_back({start + std::chrono::days(7 * of), start + std::chrono::days(7 * of)});
   return windows;
 }
 
 Fleet new_dresspacks(std::size_t count, double planned, double unplanned) {
   Fleet fleet;
-  for (std::size_t i = 0; i < count; ++i) fleet.rows.push_back({{}, "r" + std::to_string(i), "d", start, {}, planned, unplanned});
+  for (std::size_t i = 0; i < count; ++i)
+    fleet.rows.push_back({{}, "r" + std::to_string(i), "d", start, {}, planned, unplanned});
   fleet.has_costs = true;
   return fleet;
 }
@@ -34,7 +36,8 @@ TEST_CASE("a perfect test of two equally likely worlds saves what each costs les
   // In one world every dresspack fails at 2,000 h, in the other none ever does.
   constexpr double life = 2000, robot = 40000, planned = 1, unplanned = 10;
   const float endless = std::numeric_limits<float>::infinity();
-  const std::map<std::string, LifeTable> tables{{"d", LifeTable{2, 1, {static_cast<float>(life), endless}, robot, week}}};
+  const std::map<std::string, LifeTable> tables{
+      {"d", LifeTable{2, 1, {static_cast<float>(life), endless}, robot, week}}};
   const Fleet fleet = new_dresspacks(3, planned, unplanned);
   const Plan plan = plan_of(fleet, tables, windows_in({10, 20}), start, {0.1, true});
   constexpr double last = 1400, end = 2100;  // [h]: the windows are at 700 and 1,400
@@ -45,7 +48,8 @@ TEST_CASE("a perfect test of two equally likely worlds saves what each costs les
   const double latest = last + 700 * std::pow(1.5, 10), never = planned - planned / robot * (latest - end);
   const double expected = 3 * (before - (before + never) / 2);
   // Ages of (D6) are 2 % apart: of the 0.35 that successors cost.
-  CHECK(value_of_test({0, "", {-1, 1}}, 1e-6, fleet, tables, plan) == Approx(expected).margin(3 * 0.02 * 0.35));
+  CHECK(value_of_test({0, "", {-1, 1}}, 1e-6, fleet, tables, plan) ==
+        Approx(expected).margin(3 * 0.02 * 0.35));
   // A test that says nothing saves nothing, and a better one never less.
   CHECK(value_of_test({0, "", {-1, 1}}, 1e6, fleet, tables, plan) == Approx(0).margin(1e-4));
   constexpr double rounding = 1e-12;  // of sums of some ten
@@ -55,8 +59,11 @@ TEST_CASE("a perfect test of two equally likely worlds saves what each costs les
     CHECK(saves > least - rounding);
     least = saves;
   }
-  const std::string words = test_words({{{index_of(Uncertain::friction_inside), "hose", {}}, 1234}, {{index_of(Uncertain::model), "", {}}, 1e-4}}, plan);
-  CHECK(words.find("1,230  One bending test of a cable (one hour): friction_inside of 'hose'\n") != std::string::npos);
+  const std::string words = test_words({{{index_of(Uncertain::friction_inside), "hose", {}}, 1234},
+                                        {{index_of(Uncertain::model), "", {}}, 1e-4}},
+                                       plan);
+  CHECK(words.find("1,230  One bending test of a cable (one hour): friction_inside of 'hose'\n") !=
+        std::string::npos);
   CHECK(words.find("model") == std::string::npos);  // less than a thousandth of the plan's cost
   CHECK(test_words({}, plan).find("No test") != std::string::npos);
   // Of a parameter that is the same in both worlds.
