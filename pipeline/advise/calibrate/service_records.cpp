@@ -178,7 +178,8 @@ class Export {
           reader_.where(cells.back()),
           fmt::format("a row of {} cells (the table has {} columns)", cells.size(), titles_.size()),
           "fill or quote its cells");
-    Row row{reader_.line(), reader_.where(*cell(cells, robot)), text(cells, robot)};
+    Row row;
+    row.line = reader_.line(), row.where = reader_.where(*cell(cells, robot)), row.name = text(cells, robot);
     if (row.name.empty()) refuse(cells, robot, "the robot has no name", "fill the cell");
     if (at_[dresspack]) row.name += ", " + text(cells, dresspack);
     row.from = day(cells, installed);
@@ -298,7 +299,6 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
       continue;
     }
     const double hours_per_day = row.hours_per_week.value_or(hours_per_week[row.job]) / 7;
-    constexpr double least_days = 0.5;  // removed on the day of its installation
     // Half a day for one that was removed on the day on which it was put in, or on which the records begin.
     const double entry_days = std::max(0.0, days_between(row.from, *since));
     const double days = std::max(days_between(row.from, row.to), entry_days + 0.5);

@@ -73,11 +73,11 @@ TEST_CASE("likelihood: dresspacks in service are mixtures, and those of before t
     service.service = std::move(factors);
     return value(service);
   };
-  constexpr double rounding = 1e-12;
-  CHECK(of({{2, true}}) == Approx(std::log(density(2))).epsilon(rounding));
-  CHECK(of({{2, false}}) == Approx(std::log(lives(2))).epsilon(rounding));
-  CHECK(of({{2, true}, {1.5, false, -1}}) == Approx(std::log(density(2) / lives(1.5))).epsilon(rounding));
-  CHECK(of({{2, false, 3}, {1.5, false, -3}}) == Approx(3 * std::log(lives(2) / lives(1.5))).epsilon(rounding));
+  constexpr double table = 1e-6, rounding = 1e-12;  // shares from a table are off by 3e-8
+  CHECK(of({{2, true}}) == Approx(std::log(density(2))).epsilon(table));
+  CHECK(of({{2, false}}) == Approx(std::log(lives(2))).epsilon(table));
+  CHECK(of({{2, true}, {1.5, false, -1}}) == Approx(std::log(density(2) / lives(1.5))).epsilon(table));
+  CHECK(of({{2, false, 3}, {1.5, false, -3}}) == Approx(3 * std::log(lives(2) / lives(1.5))).epsilon(table));
   // Where the shares underflow the later kind alone is left.
   CHECK(of({{50, false}}) == Approx(log_normal_share(-47) - std::log(2)).epsilon(rounding));
   CHECK(of({{50, true}}) == Approx(-47.0 * 47 / 2 - std::log(2 * std::numbers::pi) / 2 - std::log(2)).epsilon(rounding));
