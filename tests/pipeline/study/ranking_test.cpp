@@ -570,7 +570,7 @@ TEST_CASE("ranking: more than a thousand jobs are ranked with certainty, too") {
   std::vector<JobResult> results;
   for (std::size_t k = 0; k < half; ++k)
     for (JobResult result : {of_long, of_short}) {
-      result.job += std::to_string(k);
+      result.name += std::to_string(k);
       results.push_back(result);
     }
   const std::vector<RankingRow> rows = read_ranking(results);
