@@ -82,7 +82,7 @@ int plan(const Options& options) {
   }
   for (const Installed& row : fleet.rows) needed.insert(duty_named(file, row.duty, row.where).name);
   const DutiesRun made = run_duties(file, options);
-  const std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed);
+  std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed);
   for (const auto& [name, table] : tables)
     if (const double half = table.median(); half < table.hours_per_week)
       throw InputError({options.study}, fmt::format("half of the dresspacks under duty '{}' fail within {}", name, hours_text(half)),
@@ -90,7 +90,12 @@ int plan(const Options& options) {
   std::vector<DutyResult> duties = evaluated(file, made.study, made.rows);
   std::erase_if(duties, [&](const DutyResult& duty) { return !needed.contains(duty.name); });
   const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent, knows_survivors(made.study)};
-  const Plan found = plan_of(fleet, tables, windows, day, rule);
+  Plan found = plan_of(fleet, tables, windows, day, rule);
+  if (found.effective_worlds < enough_worlds) {  // many survivors leave few worlds
+    constexpr std::size_t times = 8;             // some seconds for 500 dresspacks
+    tables = life_tables(file, made.study, made.rows, needed, times * usual_worlds);
+    found = plan_of(fleet, tables, windows, day, rule);
+  }
   if (found.effective_worlds < fewest_worlds)
     throw InputError({options.fleet},
                      fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",

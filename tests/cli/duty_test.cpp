@@ -117,6 +117,15 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   scratch.write("other.csv", "name,duty,installed\nmore,d,\n");
   CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv").err.find("other.csv:1:1: error: has no costs, but fleet.csv has some") !=
         std::string::npos);
+  // Twenty that have lived for 32 weeks leave 6 of 500 samples, and 50 of 4,000; for three years none.
+  const auto survivors = [&](const std::string& since) {
+    std::string table = "name,duty,installed\n";
+    for (int k = 0; k < 20; ++k) table += "r" + std::to_string(k) + ",d," + since + "\n";
+    scratch.write("fleet.csv", table);
+    return run(scratch, "dresslife", plan + "2026-12-21");
+  };
+  CHECK(survivors("2026-04-13").status == 0);
+  CHECK(survivors("2023-11-20").err.find("of 4000 samples explain them; learn from them first") != std::string::npos);
   CHECK(run(scratch, "dresslife", plan + "2026-11-22").status == 1);
   scratch.write("fleet.csv", "name,duty,installed\none,dd,\n");
   const Outcome unknown = run(scratch, "dresslife", plan + "2026-11-25");

@@ -251,9 +251,8 @@ std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& prog
 }  // namespace
 
 std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
-                                             const std::set<std::string>& needed) {
-  // 500 worlds: a probability of 10 % is known to 1.3 %. 64 dresspacks in each: to 3.8 % in one world.
-  constexpr std::size_t worlds = 500, draws = 64;
+                                             const std::set<std::string>& needed, std::size_t worlds) {
+  constexpr std::size_t draws = 64;  // dresspacks in each: a probability of 10 % is known to 3.8 % in one world
   Programs programs(study, rows);
   std::map<std::string, LifeTable> tables;
   for (const Duty& duty : file.duties) {

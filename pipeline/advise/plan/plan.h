@@ -88,6 +88,8 @@ struct Plan {
 
 /// Fewer are no sample: percentiles would rest on chance.
 constexpr double fewest_worlds = 20;
+/// With fewer the plan is made again from more worlds: a probability of 10 % is known to 3 %.
+constexpr double enough_worlds = 100;
 
 /// Cost per hour of replacement at an age or at failure (D6), [1/h].
 struct AgeRates {
