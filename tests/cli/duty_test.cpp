@@ -119,9 +119,9 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
         std::string::npos);
   // Twenty that have lived for 32 weeks leave 6 of 500 samples, and 50 of 4,000; for three years none.
   const auto survivors = [&](const std::string& since) {
-    std::string table = "name,duty,installed\n";
-    for (int k = 0; k < 20; ++k) table += "r" + std::to_string(k) + ",d," + since + "\n";
-    scratch.write("fleet.csv", table);
+    std::string twenty = "name,duty,installed\n";
+    for (int k = 0; k < 20; ++k) twenty += "r" + std::to_string(k) + ",d," + since + "\n";
+    scratch.write("fleet.csv", twenty);
     return run(scratch, "dresslife", plan + "2026-12-21");
   };
   CHECK(survivors("2026-04-13").status == 0);
