@@ -15,17 +15,21 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index bins = 16;  // of the result: the narrowest is as wide as half of the smallest error of a test
+constexpr Index bins = 16;  // of the result: half of them are narrower than a fifth of its deviation
 
-/// (world, bin) P(j | w). The bins have equal probabilities if z is standard normal.
-MatrixXd results_of(const std::vector<double>& z, double error) {
+/// (world, bin) P(j | w). The bins have equal probabilities if z is normal over the weighted worlds.
+MatrixXd results_of(const std::vector<double>& z, double error, const std::vector<double>& weights) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  double mean = 0, variance = 0;
+  for (std::size_t w = 0; w < z.size(); ++w) mean += weights[w] * z[w];
+  for (std::size_t w = 0; w < z.size(); ++w) variance += weights[w] * (z[w] - mean) * (z[w] - mean);
+  const double deviation = std::sqrt(variance + error * error);
   MatrixXd share(static_cast<Index>(z.size()), bins);
   for (Index w = 0; w < share.rows(); ++w) {
     double below = 0;
     for (Index j = 0; j < bins; ++j) {
       const double edge =
-          j + 1 < bins ? std::hypot(1, error) * normal_quantile(double(j + 1) / double(bins)) : infinity;
+          j + 1 < bins ? mean + deviation * normal_quantile(double(j + 1) / double(bins)) : infinity;
       const double until = normal_share((edge - z[std::size_t(w)]) / error);
       share(w, j) = until - below;
       below = until;
@@ -136,7 +140,7 @@ class Values {
 
 double value_of_test(const SharedValue& what, double error, const Fleet& fleet,
                      const std::map<std::string, LifeTable>& tables, const Plan& plan) {
-  return Values(fleet, tables, plan).of({results_of(what.z, error)}).front();
+  return Values(fleet, tables, plan).of({results_of(what.z, error, plan.weights)}).front();
 }
 
 std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
@@ -151,7 +155,7 @@ std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::s
         continue;
       const UncertainParameter& parameter = uncertain_parameters()[shared.parameter];
       values.push_back({shared});
-      results.push_back(results_of(shared.z, parameter.test_deviation / parameter.deviation()));
+      results.push_back(results_of(shared.z, parameter.test_deviation / parameter.deviation(), plan.weights));
     }
   const std::vector<double> saves = Values(fleet, tables, plan).of(results);
   for (std::size_t k = 0; k < values.size(); ++k) values[k].saves = saves[k];

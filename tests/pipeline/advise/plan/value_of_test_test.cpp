@@ -50,6 +50,8 @@ TEST_CASE("a perfect test of two equally likely worlds saves what each costs les
   // Ages of (D6) are 2 % apart: of the 0.35 that successors cost.
   CHECK(value_of_test({0, "", {-1, 1}}, 1e-6, fleet, tables, plan) ==
         Approx(expected).margin(3 * 0.02 * 0.35));
+  CHECK(value_of_test({0, "", {4, 4.5}}, 1e-6, fleet, tables, plan) ==
+        Approx(value_of_test({0, "", {-1, 1}}, 1e-6, fleet, tables, plan)).epsilon(1e-12));  // a calibrated one
   // A test that says nothing saves nothing, and a better one never less.
   CHECK(value_of_test({0, "", {-1, 1}}, 1e6, fleet, tables, plan) == Approx(0).margin(1e-4));
   constexpr double rounding = 1e-12;  // of sums of some ten
