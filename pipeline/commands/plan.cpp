@@ -129,7 +129,11 @@ int plan(const Options& options) {
     what_if += fmt::format("Table: {}\nPage: {}\n", beside.string(), its_page.string());
   }
   write_text_if_changed(calendar, plan_calendar(fleet, found));
-  print(options.json ? json_of_csv(csv).text + "\n"
+  const auto json = [&] {
+    const std::string now = json_of_csv(csv).text;
+    return other ? fmt::format("{{\"plan\":{},\"what_if\":{}}}\n", now, json_of_csv(plan_csv(*changed, *other)).text) : now + "\n";
+  };
+  print(options.json ? json()
                      : shown(fmt::format("{}{}{}\n{}Table: {}\nWeeks: {}\nCalendar: {}\nPage: {}\n", block(doubts(duties)),
                                          plan_words(fleet, found), tests, block(cautions(duties)), table.string(), weeks.string(),
                                          calendar.string(), page.string()) + what_if));

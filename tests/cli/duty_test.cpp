@@ -114,6 +114,9 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   CHECK(beside.out.find("what if") != std::string::npos);
   CHECK(beside.out.find("more: ") != std::string::npos);
   CHECK(content(scratch / "runs/study/plan_fleet_what_if.csv").find("\nmore,d,") != std::string::npos);
+  const std::string json = run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --json").out;
+  CHECK(json.starts_with("{\"plan\":[{\"name\":\"new one\""));
+  CHECK(json.find(",\"what_if\":[{\"name\":\"new one\"") != std::string::npos);
   scratch.write("other.csv", "name,duty,installed\nmore,d,\n");
   CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv").err.find("other.csv:1:1: error: has no costs, but fleet.csv has some") !=
         std::string::npos);
