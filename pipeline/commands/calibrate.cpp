@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "pipeline/advise/calibrate/learning.h"
+#include "pipeline/advise/calibrate/service_records.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
@@ -18,14 +19,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int calibrate(const RunOptions& options) {
+struct Options : RunOptions {
+  std::string job, since, today;
+};
+
+Day day_of(const std::string& option, const std::string& text) {
+  if (const std::optional<Day> day = day_from_export(text)) return *day;
+  throw InputError({option}, fmt::format("'{}' is no date", text), date_remedy);
+}
+
+/// A table of a maintenance system, or observations.
+ServiceTests tests_of(const Options& options, const fs::path& file) {
+  if (file.extension() != ".csv" && file.extension() != ".CSV") {
+    for (const auto& [option, text] : {std::pair{"--job", &options.job}, {"--records-since", &options.since}, {"--today", &options.today}})
+      if (!text->empty())
+        throw InputError({option}, fmt::format("is of a maintenance system's table (.csv), not of {}", file.filename().string()),
+                         "leave it out");
+    return {read_observed_tests(file), ""};
+  }
+  std::optional<Day> since;
+  if (!options.since.empty()) since = day_of("--records-since", options.since);
+  const Day today = options.today.empty() ? pipeline::today() : day_of("--today", options.today);
+  if (since && *since > today) throw InputError({"--records-since"}, fmt::format("{} is after today, {}", options.since, day_text(today)), "correct it");
+  return read_service_tests({file, options.job, since, today, options.sets});
+}
+
+int calibrate(const Options& options) {
   const fs::path file = named_file(options.study, "observations");
-  const std::vector<ObservedTest> tests = read_observed_tests(file);
+  const auto [tests, words] = tests_of(options, file);
   const StudyPlaces places{fs::path(options.out) / ("calibrate_" + file.stem().string()), program_folder()};
   const FolderLock lock(places.folder);
   const Learned learned = learn(tests, options.sets, places,
                                 [&](const Study& study) { return made_rows(study, places, options); });
-  const std::string table = learned_table(learned);
+  const std::string table = (words.empty() ? "" : words + "\n") + learned_table(learned);
   write_text_if_changed(places.folder / "calibration.yaml",
                         with_mark(to_yaml(echo_fields(learned.calibration)), Mark::yaml));
   write_text_if_changed(places.folder / "calibration.svg", with_mark(calibration_picture(learned), Mark::xml));
@@ -38,11 +64,16 @@ int calibrate(const RunOptions& options) {
 }  // namespace
 
 Command calibrate_command() {
-  const auto options = std::make_shared<RunOptions>();
+  const auto options = std::make_shared<Options>();
   return {"calibrate",
-          "learn what is not known of cables from lives that were observed; a job that names the result starts "
-          "from it",
-          joined({{{"observations", "", "OBSERVATIONS.yaml", &options->study, {.required = true}}},
+          "learn what is not known of cables from lives that were observed, or from a maintenance system's table of dresspacks; "
+          "a job that names the result starts from it",
+          joined({{{"observations", "", "OBSERVATIONS.yaml or RECORDS.csv", &options->study, {.required = true}},
+                   {"--job", "JOB.yaml", "of the dresspacks in the table, unless its column job names one", &options->job},
+                   {"--records-since", "DATE",
+                    "the first day from which the table has every removal; default: that of its first removal, which does not count then",
+                    &options->since},
+                   {"--today", "DATE", "the day of the table; default: the computer's date", &options->today}},
                   run_options(*options), study_options(*options)}),
           [options] { return calibrate(*options); }};
 }

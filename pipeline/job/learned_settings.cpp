@@ -265,6 +265,15 @@ void check_learned_settings(const Job& job) {
   problems.finish();
 }
 
+std::string service_text(std::size_t failed, std::size_t all) { return fmt::format("{} of {} failed", failed, all); }
+
+bool counts_survivors(const Calibration& calibration) {
+  return std::any_of(calibration.observations.begin(), calibration.observations.end(), [](const LearnedFrom& from) {
+    const std::size_t end = from.observed.find(" failed"), of = from.observed.find(" of ");
+    return end != std::string::npos && of != std::string::npos;
+  });
+}
+
 void leave_out(Calibration& calibration, const std::set<std::string>& names) {
   const std::vector<LearnedParameter> all = std::move(calibration.parameters);
   const auto is_out = [&](std::size_t i) { return names.count(all[i].name) > 0; };

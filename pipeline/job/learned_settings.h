@@ -17,6 +17,11 @@ LearnedUnder learned_under(const std::vector<const Job*>& jobs);
 /// is another in the job; a calibration without settings is refused, too.
 void check_learned_settings(const Job& job);
 
+/// LearnedFrom::observed of dresspacks in service: "3 of 12 failed".
+std::string service_text(std::size_t failed, std::size_t all);
+/// Whether a calibration was learned from dresspacks in service, of which those in use are a part.
+bool counts_survivors(const Calibration& calibration);
+
 /// Takes these parameters out. The others keep their joint normal distribution.
 void leave_out(Calibration& calibration, const std::set<std::string>& names);
 

@@ -360,6 +360,13 @@ std::vector<std::vector<double>> mode_lives(const FailureModes& modes, const std
   return lives;
 }
 
+std::vector<double> shared_samples(const LifeResponse& mode, std::size_t parameter, std::size_t count) {
+  assert(uncertain_parameters()[parameter].shared != SharedBy::installation);
+  std::vector<double> z;
+  for (const ParameterPoint& point : samples_of(mode, "", count).z) z.push_back(point[parameter]);
+  return z;
+}
+
 std::vector<double> standard_normals(const std::string& name, std::size_t samples) {
   std::vector<double> values = normal_strata(samples);
   std::uint64_t state = seed_of(name);

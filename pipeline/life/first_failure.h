@@ -59,6 +59,9 @@ std::vector<std::vector<double>> mode_lives(const FailureModes& modes, const std
 /// (sample) standard normal numbers: every stratum once, in an order that the name decides.
 std::vector<double> standard_normals(const std::string& name, std::size_t samples);
 
+/// (sample) z of a parameter that dresspacks share, in the samples of any job. Precondition: not of SharedBy::installation.
+std::vector<double> shared_samples(const LifeResponse& mode, std::size_t parameter, std::size_t samples);
+
 /// Of log10 lives, in any order.
 LifePercentiles percentiles_of(std::vector<double> log10_lives);
 

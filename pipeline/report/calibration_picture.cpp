@@ -65,7 +65,9 @@ class Bars {
   std::size_t rows_ = 0;
 };
 
+/// Many lives have words only.
 void add_seen(Picture& picture, const Bars& bars, double y, const Observation& observation) {
+  if (!observation.service.empty()) return;
   const double at = bars.across(observation.cycles ? *observation.cycles : *observation.hours);
   if (observation.outcome != ObservedEnd::broken) {
     const double way = bounds_below(observation.outcome) ? 16 : -16, end = at + way;
@@ -103,7 +105,7 @@ std::string calibration_picture(const Learned& learned) {
     parameters.add(std::string(parameter.name), before, axis.learned ? &after : nullptr,
                    axis.learned ? fmt::format("{} ({} .. {})", readable(axis.after[1]),
                                               readable(axis.after[0]), readable(axis.after[2]))
-                                : "no test depends on it");
+                                : std::string(why_not_learned(axis)));
   }
   if (tests > 0) {
     picture.text(left, second - 10, "dot: observed; arrow to the right: at least, to the left: at most",

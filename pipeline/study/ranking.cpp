@@ -196,10 +196,11 @@ std::vector<double> lives_of(RankingRow& row, std::size_t samples) {
 /// samples in both. A job shares the rank of the first job before it from which it cannot be separated. More jobs
 /// have fewer samples; more than `most` jobs are not compared.
 void tell_orders(std::vector<RankingRow>& rows) {
-  constexpr std::size_t most = 1000, samples_in_all = 2'000'000;
+  // 500 samples: a share of 90 % is known to 1.3 %. 10,000 jobs then take 1.5 s for each failure mode.
+  constexpr std::size_t most = 20'000, samples_in_all = 2'000'000, fewest = 500;
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k].rank = rows[k].done() ? k + 1 : 0;
   if (rows.empty() || rows.size() > most) return;
-  const std::size_t samples = std::min(life_samples, samples_in_all / rows.size());
+  const std::size_t samples = std::clamp(samples_in_all / rows.size(), fewest, life_samples);
   std::vector<double> before, leader;
   std::size_t rank = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {

@@ -5,11 +5,14 @@
 #include <random>
 
 #include "pipeline/advise/calibrate/measured_bending.h"
+#include "pipeline/base/days.h"
 #include "pipeline/files/files.h"
 #include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
+using dresslife::pipeline::day_from;
+using dresslife::pipeline::day_text;
 using dresslife::pipeline::FileReader;
 using dresslife::pipeline::log_decrement_by_slip;
 using dresslife::pipeline::log_moment;
@@ -203,6 +206,41 @@ TEST_CASE("calibrate: the prior predicts the hours that a run predicts") {
   CHECK(std::abs(std::log(early / cell("life_hours_p10"))) < within);
   CHECK(std::abs(std::log(median / cell("life_hours_p50"))) < within);
   CHECK(std::abs(std::log(late / cell("life_hours_p90"))) < within);
+}
+
+TEST_CASE("calibrate: a maintenance system's table in one command teaches the job that names the result") {
+  Scratch scratch;
+  std::string job = wire_job;
+  job.insert(job.size() - 1, ", fatigue: {operating_hours_per_week: 0.1}");
+  scratch.write("job.yaml", job);
+  const double before = life_hours(scratch, "");
+  // Ten of them lived about ten times as long as predicted, and two are in use.
+  const auto day = [](double hours) {  // from 2000-01-03 on
+    return day_text(*day_from("2000-01-03") + std::chrono::days(std::llround(7 * hours / 0.1)));
+  };
+  std::string table = "Robot;Installed;Replaced;Reason\n";
+  for (int k = 0; k < 10; ++k)
+    table += fmt::format("R{};03.01.2000;{};failed\n", k, day(before * (8 + 0.4 * k)));
+  table += "R0;" + day(before * 8) + ";;\nR1;" + day(before * 8.4) + ";;\n";
+  scratch.write("plant.csv", table);
+  const std::string command = "calibrate plant.csv --job job.yaml --quiet --records-since 2000-01-03 --today " + day(before * 13);
+  const Outcome outcome = run(scratch, "dresslife", command);
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.out.find("12 dresspacks: 10 failed, 0 were removed before, 2 are in use") != std::string::npos);
+  CHECK(outcome.out.find("10 of 12 failed") != std::string::npos);
+  CHECK(outcome.out.find("Life of 'job' changes by one deviation of a parameter, as a factor: ") != std::string::npos);
+  const double after = life_hours(scratch, "--set calibration=runs/calibrate_plant/calibration.yaml");
+  // The prior of ln life has a deviation of ln 6 to ln 10, the mean of ten lives one of some tenths.
+  CHECK(after > 6 * before);
+  CHECK(after < 13 * before);
+  CHECK(run(scratch, "dresslife", "calibrate plant.csv --quiet --today 2999-01-01").err.find("plant.csv:2:1: error: it is not known which job") !=
+        std::string::npos);
+  CHECK(run(scratch, "dresslife", "calibrate plant.csv --job job.yaml --records-since soon").err.find("'soon' is no date") !=
+        std::string::npos);
+  scratch.write("o.yaml", "observations:\n" + row("as_predicted", "    cycles: 5\n"));
+  CHECK(run(scratch, "dresslife", "calibrate o.yaml --job job.yaml").err.find("--job: error: is of a maintenance system's table") !=
+        std::string::npos);
 }
 
 TEST_CASE("calibrate: rows that cannot be used are named at their place") {

@@ -103,6 +103,32 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   CHECK(cell(table, "old one", "replace_in") == "2026-12-21");
   CHECK(number(cell(table, "new one", "fails_before_first_window")) > 0);
   CHECK(content(scratch / "runs/study/plan_fleet.ics").find("DTSTART;VALUE=DATE:20261221") != std::string::npos);
+  // With costs a test has a value, and another fleet has a plan beside it.
+  scratch.write("fleet.csv", "name,duty,installed,planned_cost,unplanned_cost\nnew one,d,,10,90\nold one,d,2026-11-22,10,90\n");
+  scratch.write("other.csv", "name,duty,installed,planned_cost,unplanned_cost\nnew one,d,,10,90\nold one,d,2026-11-22,10,90\nmore,d,,10,90\n");
+  const Outcome beside = run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv");
+  INFO(beside.out << beside.err);
+  REQUIRE(beside.status == 0);
+  CHECK((beside.out.find("A test before the first window makes plans cheaper until") != std::string::npos ||
+         beside.out.find("No test of what the dresspacks have in common") != std::string::npos));
+  CHECK(beside.out.find("what if") != std::string::npos);
+  CHECK(beside.out.find("more: ") != std::string::npos);
+  CHECK(content(scratch / "runs/study/plan_fleet_what_if.csv").find("\nmore,d,") != std::string::npos);
+  const std::string json = run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --json").out;
+  CHECK(json.starts_with("{\"plan\":[{\"name\":\"new one\""));
+  CHECK(json.find(",\"what_if\":[{\"name\":\"new one\"") != std::string::npos);
+  scratch.write("other.csv", "name,duty,installed\nmore,d,\n");
+  CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv").err.find("other.csv:1:1: error: has no costs, but fleet.csv has some") !=
+        std::string::npos);
+  // Twenty that have lived for 32 weeks leave 6 of 500 samples, and 50 of 4,000; for three years none.
+  const auto survivors = [&](const std::string& since) {
+    std::string twenty = "name,duty,installed\n";
+    for (int k = 0; k < 20; ++k) twenty += "r" + std::to_string(k) + ",d," + since + "\n";
+    scratch.write("fleet.csv", twenty);
+    return run(scratch, "dresslife", plan + "2026-12-21");
+  };
+  CHECK(survivors("2026-04-13").status == 0);
+  CHECK(survivors("2023-11-20").err.find("of 4000 samples explain them; learn from them first") != std::string::npos);
   CHECK(run(scratch, "dresslife", plan + "2026-11-22").status == 1);
   scratch.write("fleet.csv", "name,duty,installed\none,dd,\n");
   const Outcome unknown = run(scratch, "dresslife", plan + "2026-11-25");

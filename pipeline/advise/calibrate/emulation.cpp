@@ -7,9 +7,12 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <utility>
 
+#include "pipeline/advise/calibrate/life_over_parameters.h"
 #include "pipeline/advise/calibrate/measured_bending.h"
 #include "pipeline/advise/calibrate/typical_cables.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/first_failure.h"
@@ -20,7 +23,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double least_log_spread = -6.9;       // ln 0.001: of ln life, where nothing scatters
 constexpr double deciles = 1.2815515655446004;  // of a normal distribution, in its deviations
 
 class RowsByJob {
@@ -57,45 +59,6 @@ LifeEnd end_of(ObservedEnd end) {
   return bounds_below(end) ? LifeEnd::at_least : LifeEnd::at_most;
 }
 
-/// A specimen's life over the parameters, as a run's samples evaluate it: the first of its failure modes. At equal shares
-/// of failed specimens, as if the scatter of wires were common to all modes.
-class LifeOverParameters {
- public:
-  LifeOverParameters(FailureModes modes, const std::array<bool, uncertain_count>& moves)
-      : modes_(std::move(modes)), moves_(moves) {
-    for (const LifeResponse& mode : modes_) surfaces_.emplace_back(mode);
-  }
-  LifeOverParameters(const LifeOverParameters&) = delete;
-  LifeOverParameters& operator=(const LifeOverParameters&) = delete;
-
-  /// beside (parameter): z from the keys of the job. A life without end counts as endless_log_life.
-  LifeAt at(const VectorXd& beside) const {
-    const ParameterPoint z = point(beside);
-    const double early = first(z, -deciles), median = first(z, 0), late = first(z, deciles);
-    return {median, std::max(std::exp(least_log_spread), (late - early) / (2 * deciles))};
-  }
-
-  double log_median_at(const VectorXd& beside) const { return first(point(beside), 0); }
-
- private:
-  ParameterPoint point(const VectorXd& beside) const {
-    ParameterPoint z{};
-    for (std::size_t p = 0; p < uncertain_count; ++p)
-      if (moves_[p]) z[p] = beside[static_cast<Index>(p)];
-    return z;
-  }
-  double first(const ParameterPoint& z, double u) const {
-    double life = endless_log_life;
-    for (const LifeSurface& surface : surfaces_)
-      life = std::min(life, surface.log10_life(z, u, Inside::as_is) * std::numbers::ln10);
-    return life;
-  }
-
-  const FailureModes modes_;
-  const std::array<bool, uncertain_count> moves_;
-  std::vector<LifeSurface> surfaces_;
-};
-
 class RoundEmulation {
  public:
   RoundEmulation(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
@@ -107,7 +70,8 @@ class RoundEmulation {
         made_.push_back(bending_of(tests[t], runs));
         continue;
       }
-      made_.push_back({life_of(tests[t], runs)});
+      made_.push_back({tests[t].observation.service.empty() ? life_of(tests[t], runs) : service_of(tests[t], runs.front())});
+      made_.back().moved_by = moved_by(tests[t], runs.front());
       const RankingRow& row = row_of(tests[t], runs.front().centre);
       if (!row.failing_mode.empty())
         made_.back().fails_first = fmt::format("{}, {:.0f} %", row.failing_mode, 100 * row.failing_mode_share);
@@ -131,6 +95,59 @@ class RoundEmulation {
       life.common_share = std::max(life.common_share, common_share(runs, log_life_of(observation, row)));
     }
     return life;
+  }
+
+  /// Dresspacks in service.
+  ObservedLife service_of(const ObservedTest& test, const RoundOfJobs::Runs& runs) {
+    // Ages within 5 % of each other count as one: they are off by 1.4 % in the mean, and lives scatter by tens of per cent.
+    constexpr double within = 0.05;
+    constexpr std::size_t draws = 64;  // of what each has for itself: a share of failures is known to 3 % or better
+    std::map<std::pair<long, bool>, int> counts;
+    const auto add = [&](double hours, bool failed, int count) { counts[{std::lround(std::log(hours) / within), failed}] += count; };
+    for (const ServiceRecord& one : test.observation.service) {
+      add(one.hours, one.failed, 1);
+      if (one.entry_hours > 0) add(one.entry_hours, false, -1);
+    }
+    ObservedLife life;
+    for (const auto& [of, count] : counts)
+      if (count != 0) life.service.push_back({within * double(of.first), of.second, count});
+    const RankingRow& row = row_of(test, runs.centre);
+    const LogLife centre = log_life_of(test.observation, row);
+    if (row.life_response.empty() || centre.median >= endless_log_life) {
+      life.variants.push_back([centre](const VectorXd&) { return LifeAt{centre.median, std::exp(centre.spread)}; });
+      return life;
+    }
+    const double log_hours = std::log(row.repeat_seconds / 3600);
+    const auto over = std::make_shared<const LifeOverParameters>(modes_from_text(row.life_response), runs.moves);
+    for (OwnValues& own : own_values(over->modes(), runs.own, draws))
+      life.variants.push_back([over, own = std::move(own), log_hours, at = round_.centre()](const VectorXd& z) {
+        const LifeAt repeats = over->at(z - at, &own);
+        return LifeAt{std::min(endless_log_life, repeats.log_median + log_hours), repeats.spread};
+      });
+    return life;
+  }
+
+  /// "model 2.0, strength 1.8": factors by which one deviation of a parameter changes the median life, largest first.
+  std::string moved_by(const ObservedTest& test, const RoundOfJobs::Runs& runs) const {
+    const RankingRow& row = row_of(test, runs.centre);
+    if (row.life_response.empty()) return "";
+    constexpr double worth_a_word = 0.05;  // of ln life
+    std::array<bool, uncertain_count> all = runs.moves;
+    for (std::size_t p = 0; p < uncertain_count; ++p) all[p] = all[p] || runs.own[p];
+    const LifeOverParameters life(modes_from_text(row.life_response), all);
+    std::vector<std::pair<double, std::string>> factors;
+    for (std::size_t p = 0; p < uncertain_count; ++p) {
+      VectorXd z = VectorXd::Zero(uncertain_count);
+      z[static_cast<Index>(p)] = 1;
+      const double change = std::abs(life.log_median_at(z) - life.log_median_at(-z)) / 2;
+      if (all[p] && change > worth_a_word)
+        factors.emplace_back(-change, fmt::format("{}{} {}", uncertain_parameters()[p].name, runs.own[p] ? " (each dresspack's own)" : "",
+                                                  readable(std::exp(change), 2)));
+    }
+    std::sort(factors.begin(), factors.end());
+    std::string words;
+    for (const auto& [change, text] : factors) words += (words.empty() ? "" : ", ") + text;
+    return words;
   }
 
   const RankingRow& row_of(const ObservedTest& test, std::size_t job) const {

@@ -11,8 +11,6 @@
 
 namespace dresslife::pipeline {
 
-inline constexpr double endless_log_life = 41.4;  // ln 1e18: a life without damage
-
 /// Emulators of a test: a life or a bending moment, of each variant.
 struct EmulatedTest {
   std::optional<ObservedLife> life{};
@@ -20,6 +18,8 @@ struct EmulatedTest {
   std::size_t shown = 0;               ///< index of the number that is shown
   double per_shown = 1;                ///< its divisor: the curvature for a stiffness
   std::string fails_first{};           ///< of a life, at the centre: "wires of signal cable, 100 %"
+
+  std::string moved_by{};              ///< of a life: factors of the median for one deviation, "model 2.0, strength 1.8"
 
   double log_likelihood_at(const Eigen::VectorXd& z) const;
 };

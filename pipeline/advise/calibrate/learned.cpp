@@ -18,6 +18,7 @@ constexpr double decile = 1.2815515655446004;  // of a normal distribution, in i
 /// How many of its deviations a prediction lies short of what was seen, or beyond it; 0 where it agrees.
 double surprise(const LearnedTest& test) {
   const Observation& observation = test.observation;
+  if (!observation.service.empty()) return 0;  // many lives are no single one
   const double seen = observation.is_life() ? observed_life(observation) : test.measured;
   const auto off = [&](double side) {
     return std::log(seen / test.before[1]) / (std::log(side / test.before[1]) / decile);
@@ -38,7 +39,7 @@ std::string parameter_lines(const Learned& learned) {
     const LearnedAxis& axis = learned.axes[p];
     text += fmt::format("{:<17} {:>24} {:>24}  {}\n", uncertain_parameters()[p].name, range(axis.before),
                         axis.learned ? range(axis.after) : "-",
-                        axis.learned ? fmt::format("{:.0f} %", 100 * axis.narrowed) : "no test depends on it");
+                        axis.learned ? fmt::format("{:.0f} %", 100 * axis.narrowed) : why_not_learned(axis));
   }
   return text;
 }
@@ -51,6 +52,7 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
     const UncertainParameter& parameter = uncertain_parameters()[p];
     learned[p].before = {parameter.value(-decile), parameter.value(0), parameter.value(decile)};
     learned[p].after = learned[p].before;
+    learned[p].is_own = axes.has_own(static_cast<Index>(p));
   }
   for (Index i = 0; i < axes.size(); ++i) {
     const auto p = static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(i)]);
@@ -61,6 +63,10 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
     learned[p].narrowed = std::sqrt(posterior.covariance(i, i));
   }
   return learned;
+}
+
+std::string_view why_not_learned(const LearnedAxis& axis) {
+  return axis.is_own ? "each dresspack has its own" : "no test depends on it";
 }
 
 std::string words_of(const PredictedDeciles& deciles) {
@@ -102,6 +108,10 @@ std::string learned_table(const Learned& learned) {
   for (const LearnedTest& test : learned.tests)
     text += fmt::format(fmt::runtime(columns), test.observation.name, name, seen(test), words_of(test.before),
                         words_of(test.by_others), words_of(test.after), test.fails_first);
+  for (const LearnedTest& test : learned.tests)
+    if (!test.observation.service.empty())
+      text += fmt::format("\nLife of '{}' changes by one deviation of a parameter, as a factor: {}\n", test.observation.name,
+                          test.moved_by.empty() ? "of none" : test.moved_by);
   text +=
       "\nParameters: factors of the job's keys (slope: added to b), median and 80 % range.\nPredicted: the life after which 10 % "
       "of such specimens have failed (half, 90 %), over the uncertain parameters, the unknowns of the test and scatter;\nof a "

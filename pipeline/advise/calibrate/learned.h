@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/advise/calibrate/prediction.h"
@@ -12,6 +13,7 @@ namespace dresslife::pipeline {
 /// Result of one parameter; empty: no test depends on it.
 struct LearnedAxis {
   bool learned = false;
+  bool is_own = false;  ///< each dresspack in service has its own
   PredictedDeciles before{}, after{};  ///< value of its key
   double narrowed = 1;         ///< standard deviation of z after over that before
 };
@@ -21,7 +23,7 @@ struct LearnedTest {
   PredictedDeciles before{}, after{};  ///< over all variants; after: weighted by their likelihood
   PredictedDeciles by_others{};        ///< over all variants, from the posterior of all tests but this one
   double measured = 0;         ///< measured value; 0 for a life
-  std::string fails_first{};   ///< EmulatedTest
+  std::string fails_first{}, moved_by{};  ///< EmulatedTest
 };
 
 struct Learned {
@@ -38,6 +40,9 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
 
 /// Notes on limits of the result.
 void add_doubts(Learned& learned, const Axes& axes);
+
+/// Why a parameter was not learned.
+std::string_view why_not_learned(const LearnedAxis& axis);
 
 /// "120 (4,100, 120,000)": 10 %, half, 90 % have failed.
 std::string words_of(const PredictedDeciles& deciles);

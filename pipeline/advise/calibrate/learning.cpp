@@ -82,6 +82,7 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
       if (learned.rounds == 1) learned.tests[t].before = predicted_deciles(emulated, prior_draws(), false);
       learned.tests[t].after = predicted_deciles(emulated, posterior_draws(learned.posterior, axes), true);
       learned.tests[t].fails_first = emulated.fails_first;
+      learned.tests[t].moved_by = emulated.moved_by;
       if (!emulated.life)
         learned.tests[t].measured = emulated.bending[0].numbers[emulated.shown].value / emulated.per_shown;
     }

@@ -9,6 +9,12 @@
 //     at most    none lived longer:         integral of Phi((x - m - c y)/o)^n phi(y) dy
 // A rating is an "at least" of one specimen.
 //
+// Dresspacks in service differ by what each has for itself. Of that there are some values j of equal probability, each with
+// its own m_j(z) and s_j(z). S(x) is the mean over j of Phi((m_j - x)/s_j), f(x) that of phi((m_j - x)/s_j)/s_j. With x of a
+// dresspack's end and e of its age at the begin of the records:
+//     failed        f(x)/S(e)                                                            (P5)
+//     not failed    S(x)/S(e)
+//
 // A test with unknown values has several variants of equal probability. Its likelihood is the mean of theirs.
 #pragma once
 
@@ -32,6 +38,13 @@ struct LifeAt {
 };
 using LifeVariant = std::function<LifeAt(const Eigen::VectorXd& z)>;
 
+/// A factor of (P5) to the power of a number of dresspacks.
+struct ServiceFactor {
+  double log_age = 0;   ///< x or e
+  bool failed = false;  ///< f(x), else S
+  int count = 1;        ///< of dresspacks; below 0: of those that S(e) divides
+};
+
 struct ObservedLife {
   double log_life = 0;  ///< x
   LifeEnd end = LifeEnd::broken;
@@ -39,9 +52,10 @@ struct ObservedLife {
   double common_share = 0;     ///< w, 0 .. 1
   double unshared_spread = 0;  ///< u, of ln life
   std::vector<LifeVariant> variants;
+  std::vector<ServiceFactor> service{};  ///< instead of one life; then the variants are the values j
 };
 
-/// (P2), (P3). Precondition: at least one variant.
+/// (P2), (P3) or (P5). Precondition: at least one variant.
 double log_likelihood(const ObservedLife& observed, const Eigen::VectorXd& z);
 
 /// A measured number as a sum of quantities of the model: value = sum of factor x exp(log of quantity(z)).

@@ -9,6 +9,7 @@
 
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
+#include "pipeline/job/learned_settings.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
@@ -214,7 +215,7 @@ std::array<double, 3> lives_of(const Observation& observation, const RankingRow&
   const auto& hours = observation.criterion == FailureCriterion::first_wire ? row.first_wire_hours
                       : row.planned()                                       ? row.by_scatter()
                                                                             : row.conductor_hours;
-  const double unit = observation.hours ? 1 : 3600 / row.repeat_seconds * observation.cycles_per_repeat;
+  const double unit = observation.hours || !observation.service.empty() ? 1 : 3600 / row.repeat_seconds * observation.cycles_per_repeat;
   std::array<double, 3> lives;
   // Without damage there is no scatter.
   for (std::size_t i = 0; i < lives.size(); ++i) lives[i] = std::isnan(hours[i]) ? endless : hours[i] * unit;
@@ -294,6 +295,10 @@ std::string observed_text(const Observation& observation) {
     return fmt::format("decrement {} at {} 1/m", readable(*observation.decrement, 2),
                        readable(observation.at_curvature, 2));
   if (!observation.bending.empty()) return observation.bending.filename().string();
+  if (!observation.service.empty())
+    return service_text(static_cast<std::size_t>(std::count_if(observation.service.begin(), observation.service.end(),
+                                                               [](const ServiceRecord& one) { return one.failed; })),
+                        observation.service.size());
   const char* sign = observation.outcome == ObservedEnd::broken      ? ""
                      : observation.outcome == ObservedEnd::broken_by ? "at most "
                                                                      : "at least ";

@@ -46,6 +46,12 @@ constexpr std::string_view word(FailureCriterion value) {
   return word_at({"first_wire", "conductor"}, value);
 }
 
+/// A dresspack of a plant: hours of operation at its end, and at the begin of the records if it was in use then.
+struct ServiceRecord {
+  double hours = 0, entry_hours = 0;
+  bool failed = false;  ///< else it was removed before, or is in use
+};
+
 struct Observation {
   std::string name, what, source, note;
   // What was observed, one of:
@@ -53,6 +59,8 @@ struct Observation {
   std::optional<double> stiffness;      ///< moment over curvature of the cable, bent from straight [N m2]
   std::optional<double> decrement;      ///< of the cable's free swing, held at one end [1]
   std::filesystem::path bending;        ///< a bending test as a table (measured_bending.h); empty: none
+
+  std::vector<ServiceRecord> service;  ///< many lives in hours instead of one; of a maintenance system (service_records.h)
 
   double at_curvature = 1;  ///< of stiffness; of decrement beside the clamp, at the end of a swing [1/m]
   double decrement_without_slip = 0;  ///< part of polymer and air in decrement [1]
@@ -66,7 +74,7 @@ struct Observation {
   static constexpr double universal_slopes = 0.37;
   std::vector<std::size_t> jobs;  ///< of the study that are its variants
 
-  bool is_life() const { return cycles || hours; }
+  bool is_life() const { return cycles || hours || !service.empty(); }
 };
 void describe(Fields& f, Observation& observation);
 
@@ -99,7 +107,7 @@ ValidationStudy read_observations(const std::filesystem::path& file, const std::
 /// infinite without damage.
 std::array<double, 3> lives_of(const Observation& observation, const RankingRow& row);
 
-/// Of a life [cycles or h].
+/// Of one life [cycles or h].
 inline double observed_life(const Observation& observation) {
   return observation.cycles ? *observation.cycles : *observation.hours;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/advise/calibrate/life_over_parameters.h"
 #include "pipeline/base/random.h"
 
 namespace dresslife::pipeline {
@@ -26,6 +27,10 @@ PredictedDeciles predicted_deciles(const ObservedLife& life, const Eigen::Matrix
     const VectorXd z = draws.row(k).transpose();
     std::vector<double> weight;
     for (const LifeVariant& variant : life.variants) {
+      if (!life.service.empty()) {  // a new dresspack is like none of them
+        weight.push_back(0);
+        continue;
+      }
       ObservedLife alone = life;
       alone.variants = {variant};
       weight.push_back(weighed ? log_likelihood(alone, z) : 0);

@@ -89,7 +89,8 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
     for (std::size_t p = 0; p < uncertain_count; ++p) {
       if (!acts(plain, static_cast<Uncertain>(p))) continue;
       if (!test.observation.is_life() && !uncertain_parameters()[p].of_strain) continue;
-      runs.moves[p] = true;
+      const bool is_own = uncertain_parameters()[p].shared == SharedBy::installation && !test.observation.service.empty();
+      (is_own ? runs.own : runs.moves)[p] = true;
       if (test.observation.is_life()) continue;
       VectorXd low = centre_, high = centre_;
       low[static_cast<Index>(p)] -= step_[static_cast<Index>(p)];
@@ -118,6 +119,9 @@ std::size_t RoundOfJobs::add(const ObservedTest& test, const ObservedTest::Varia
 }
 
 Axes::Axes(const RoundOfJobs& round) {
+  for (const auto& variants : round.runs())
+    for (const RoundOfJobs::Runs& runs : variants)
+      for (std::size_t p = 0; p < uncertain_count; ++p) own_[p] = own_[p] || runs.own[p];
   for (std::size_t p = 0; p < uncertain_count; ++p)
     if (std::any_of(round.runs().begin(), round.runs().end(), [&](const auto& variants) {
           return std::any_of(variants.begin(), variants.end(),

@@ -25,6 +25,7 @@ class RoundOfJobs {
   struct Runs {
     std::size_t centre;  ///< job
     std::array<bool, uncertain_count> moves{};              ///< (parameter) whether it can move the job
+    std::array<bool, uncertain_count> own{};    ///< (parameter) whether it can, and each dresspack in service has its own
     std::array<std::optional<Arms>, uncertain_count> arms;  ///< (parameter) of a bending test that it moves
   };
 
@@ -55,11 +56,13 @@ class Axes {
   explicit Axes(const RoundOfJobs& round);
   const std::vector<Eigen::Index>& places() const { return places_; }  ///< parameters
   Eigen::Index size() const { return static_cast<Eigen::Index>(places_.size()); }
+  bool has_own(Eigen::Index parameter) const { return own_[static_cast<std::size_t>(parameter)]; }  ///< of some test's Runs
   Eigen::VectorXd all(const Eigen::VectorXd& some) const;  ///< 0 for the others
   Eigen::VectorXd some(const Eigen::VectorXd& all_of_them) const;
 
  private:
   std::vector<Eigen::Index> places_;
+  std::array<bool, uncertain_count> own_{};
 };
 
 }  // namespace dresslife::pipeline

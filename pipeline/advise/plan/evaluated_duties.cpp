@@ -230,10 +230,29 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
   return results;
 }
 
+namespace {
+
+/// What the lives of these programs depend on and dresspacks share, each once.
+std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& programs, std::size_t worlds) {
+  std::vector<SharedValue> values;
+  for (const EvaluatedProgram& program : programs)
+    for (const LifeResponse& mode : program.modes)
+      for (std::size_t p = 0; p < uncertain_count; ++p) {
+        const SharedBy by = uncertain_parameters()[p].shared;
+        const auto at = static_cast<Eigen::Index>(p);
+        if (by == SharedBy::installation || !(mode.knowledge.covariance(at, at) > 0) || !LifeSurface(mode).depends_on(p)) continue;
+        const std::string of = by == SharedBy::construction ? mode.construction : by == SharedBy::material ? mode.material : "";
+        if (std::none_of(values.begin(), values.end(), [&](const SharedValue& known) { return known.parameter == p && known.of == of; }))
+          values.push_back({p, of, shared_samples(mode, p, worlds)});
+      }
+  return values;
+}
+
+}  // namespace
+
 std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
-                                             const std::set<std::string>& needed) {
-  // 500 worlds: a probability of 10 % is known to 1.3 %. 64 dresspacks in each: to 3.8 % in one world.
-  constexpr std::size_t worlds = 500, draws = 64;
+                                             const std::set<std::string>& needed, std::size_t worlds) {
+  constexpr std::size_t draws = 64;  // dresspacks in each: a probability of 10 % is known to 3.8 % in one world
   Programs programs(study, rows);
   std::map<std::string, LifeTable> tables;
   for (const Duty& duty : file.duties) {
@@ -245,6 +264,7 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
     LifeTable& table = tables[duty.name];
     table.worlds = worlds, table.draws = draws, table.hours.resize(worlds * draws);
     table.hours_per_week = duty.hours_per_week;
+    table.shared = shared_values(evaluated, worlds);
     table.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
     for (std::size_t d = 0; d < draws; ++d) {
       const std::vector<double> damage =

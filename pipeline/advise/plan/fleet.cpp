@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 
 #include "pipeline/base/csv_rows.h"
@@ -12,19 +11,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-using std::chrono::year_month_day;
-
-constexpr const char* date_remedy = "write YYYY-MM-DD, as in 2027-07-12";
-
 constexpr std::chrono::days longest_plan{3653};  // duties and robots change sooner
-
-/// The number that is all of a text.
-std::optional<int> whole(std::string_view text) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 /// A row by the titles of its columns.
 class Row {
@@ -86,23 +73,6 @@ Day needed_day(const std::string& text) {
 }
 
 }  // namespace
-
-std::optional<Day> day_from(std::string_view text) {
-  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return std::nullopt;
-  const auto year = whole(text.substr(0, 4)), month = whole(text.substr(5, 2)), day = whole(text.substr(8, 2));
-  if (!year || !month || !day || *month < 1 || *day < 1) return std::nullopt;
-  const year_month_day date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
-                            std::chrono::day(static_cast<unsigned>(*day))};
-  if (!date.ok()) return std::nullopt;
-  return Day(date);
-}
-
-std::string day_text(Day day) {
-  const year_month_day date(day);
-  return fmt::format("{:04}-{:02}-{:02}", int(date.year()), unsigned(date.month()), unsigned(date.day()));
-}
-
-Day today() { return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()); }
 
 Fleet read_fleet(const std::filesystem::path& file, Day today) {
   CsvReader reader(read_text(file), file.string());

@@ -7,22 +7,15 @@
 // the duty. Costs have any unit, the same in all rows; both columns may be absent.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "pipeline/base/days.h"
 #include "pipeline/base/errors.h"
 
 namespace dresslife::pipeline {
-
-using Day = std::chrono::sys_days;
-/// "2027-07-12"; absent: it is no date.
-std::optional<Day> day_from(std::string_view text);
-std::string day_text(Day day);
-Day today();
 
 struct Installed {
   Where where;
@@ -30,6 +23,7 @@ struct Installed {
   Day since{};
   std::optional<double> hours_per_week;
   double planned_cost = 0, unplanned_cost = 0;
+  std::optional<double> age_hours{};  ///< of a changed duty (keep_ages()); absent: the hours since then
 };
 
 struct Fleet {

@@ -18,11 +18,12 @@ constexpr double days_per_year = 365.2425;
 constexpr std::size_t ages = 400;  // of (D6), between a tenth of the shortest life and the robot's: 2 % steps
 constexpr double longest = 1e5;       // [h] of (D6): twice a robot's life
 
-double days_between(Day from, Day to) { return static_cast<double>((to - from).count()); }
-
 /// Weights of worlds, and what follows for one dresspack that lives at some age.
 class Worlds {
  public:
+  Worlds(std::size_t count, const std::vector<double>& known) : Worlds(count) {
+    if (!known.empty()) weight_ = known;
+  }
   explicit Worlds(std::size_t count) : log_weight_(count, 0.0), weight_(count, 1.0 / static_cast<double>(count)) {}
 
   /// A dresspack that has survived (D3). Of some draws none that does stands for half a draw.
@@ -90,13 +91,13 @@ class Decision {
       const double fails = lives > 0 ? worlds_.fails(table, now, from, from + interval) / lives : 1;
       return fails > rule_.risk && worlds_.fails(table, 0, 0, interval) < fails;
     }
-    const std::vector<double>& rate = least_rates(row, table);
+    const Eigen::VectorXd& rate = least_rates(row, table);
     const double saves = row.unplanned_cost - row.planned_cost;
     constexpr double growth = 1.5;  // of the times T: a curve of costs without corners
     for (double hours = interval; hours < growth * std::max(interval, table.robot_life_hours); hours *= growth) {
       const double to = from + hours;
       const double gain = worlds_.mean(table, now, [&](std::size_t w) {
-        return saves * (table.alive(w, from) - table.alive(w, to)) - rate[w] * table.running(w, from, to);
+        return saves * (table.alive(w, from) - table.alive(w, to)) - rate[static_cast<Eigen::Index>(w)] * table.running(w, from, to);
       });
       if (gain <= 0) return false;
     }
@@ -113,26 +114,13 @@ class Decision {
  private:
   static constexpr double age_step = 10;  // [h]: an eighth of a week
 
-  /// (world) cost per hour [1/h] of age replacement at the age with the least mean (D6).
-  const std::vector<double>& least_rates(const Installed& row, const LifeTable& table) {
+  /// (world) (D6)
+  const Eigen::VectorXd& least_rates(const Installed& row, const LifeTable& table) {
     const auto [found, is_new] = rates_.try_emplace({&table, row.planned_cost, row.unplanned_cost});
-    if (!is_new) return found->second;
-    const double shortest = *std::min_element(table.hours.begin(), table.hours.end()), last = std::min(table.robot_life_hours, longest);
-    const double first = std::max(shortest_life, std::min(last, shortest)) / 10;
-    const std::vector<double>& weights = worlds_.weights();
-    std::vector<double> running(weights.size(), 0.0), rate(weights.size());
-    double least = infinity, before = 0;
-    for (std::size_t k = 0; k < ages; ++k) {
-      const double age = first * std::pow(last / first, double(k) / double(ages - 1));
-      double mean = 0;
-      for (std::size_t w = 0; w < weights.size(); ++w) {
-        running[w] += table.running(w, before, age);
-        const double lives = table.alive(w, age);
-        rate[w] = (row.planned_cost * lives + row.unplanned_cost * (1 - lives)) / std::max(running[w], first);
-        mean += weights[w] * rate[w];
-      }
-      before = age;
-      if (mean < least) least = mean, found->second = rate;
+    if (is_new) {
+      const std::vector<double>& weights = worlds_.weights();
+      found->second = age_rates(table, row.planned_cost, row.unplanned_cost)
+                          .least(Eigen::VectorXd::Map(weights.data(), static_cast<Eigen::Index>(weights.size())));
     }
     return found->second;
   }
@@ -140,17 +128,8 @@ class Decision {
   const Worlds& worlds_;
   const PlanRule rule_;
   std::map<std::tuple<const LifeTable*, double, double, double, double>, bool> known_;
-  std::map<std::tuple<const LifeTable*, double, double>, std::vector<double>> rates_;
+  std::map<std::tuple<const LifeTable*, double, double>, Eigen::VectorXd> rates_;
 };
-
-/// Times [days from today] of the windows, then the end of the plan.
-std::vector<double> times_of(const std::vector<Window>& windows, Day today) {
-  std::vector<double> times;
-  for (const Window& window : windows) times.push_back(days_between(today, window.first));
-  const double interval = times.size() > 1 ? times.back() - times[times.size() - 2] : days_per_year;
-  times.push_back(times.back() + interval);
-  return times;
-}
 
 std::size_t weeks_until(double days) { return static_cast<std::size_t>(std::ceil(days / 7)); }
 
@@ -252,6 +231,47 @@ double LifeTable::running(std::size_t world, double from, double to) const {
   return sum / double(draws);
 }
 
+Eigen::VectorXd AgeRates::least(const Eigen::VectorXd& weights) const {
+  Eigen::Index best = 0;
+  (rate * weights).minCoeff(&best);
+  return rate.row(best).transpose();
+}
+
+AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned_cost) {
+  const double shortest = *std::min_element(table.hours.begin(), table.hours.end()), last = std::min(table.robot_life_hours, longest);
+  const double first = std::max(shortest_life, std::min(last, shortest)) / 10;
+  AgeRates rates{Eigen::MatrixXd(Eigen::Index(ages), Eigen::Index(table.worlds))};
+  for (std::size_t w = 0; w < table.worlds; ++w) {
+    double running = 0, before = 0;
+    for (std::size_t k = 0; k < ages; ++k) {
+      const double age = first * std::pow(last / first, double(k) / double(ages - 1)), lives = table.alive(w, age);
+      running += table.running(w, before, age);
+      before = age;
+      rates.rate(Eigen::Index(k), Eigen::Index(w)) = (planned_cost * lives + unplanned_cost * (1 - lives)) / std::max(running, first);
+    }
+  }
+  return rates;
+}
+
+std::vector<double> times_of(const std::vector<Window>& windows, Day today) {
+  std::vector<double> times;
+  for (const Window& window : windows) times.push_back(days_between(today, window.first));
+  const double interval = times.size() > 1 ? times.back() - times[times.size() - 2] : days_per_year;
+  times.push_back(times.back() + interval);
+  return times;
+}
+
+void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today) {
+  for (Installed& row : changed.rows) {
+    const auto old = std::find_if(now.rows.begin(), now.rows.end(), [&](const Installed& one) { return one.name == row.name; });
+    if (old == now.rows.end() || old->since != row.since) continue;
+    const LifeTable &before = tables.at(old->duty), &after = tables.at(row.duty);
+    const double age = days_between(old->since, today) * old->hours_per_week.value_or(before.hours_per_week) / 7;
+    const double life = before.median(), new_life = after.median();
+    row.age_hours = old->duty == row.duty || std::isinf(new_life) ? age : age / life * new_life;
+  }
+}
+
 Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,
              const PlanRule& rule, std::uint64_t seed) {
   Plan plan;
@@ -260,14 +280,15 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   plan.end = today + std::chrono::days(std::llround(times.back()));
   std::vector<const LifeTable*> of_row;
   std::vector<double> hours_per_day;
-  Worlds worlds(tables.begin()->second.worlds);
+  Worlds worlds(tables.begin()->second.worlds, rule.weights);
   for (const Installed& row : fleet.rows) {
     of_row.push_back(&tables.at(row.duty));
     hours_per_day.push_back(row.hours_per_week.value_or(of_row.back()->hours_per_week) / 7);
-    plan.rows.emplace_back().age_hours = days_between(row.since, today) * hours_per_day.back();
-    worlds.survived(*of_row.back(), plan.rows.back().age_hours);
+    plan.rows.emplace_back().age_hours = row.age_hours.value_or(days_between(row.since, today) * hours_per_day.back());
+    if (!rule.knows_survivors) worlds.survived(*of_row.back(), plan.rows.back().age_hours);
   }
-  worlds.weigh();
+  if (rule.weights.empty()) worlds.weigh();
+  plan.weights = worlds.weights();
   plan.effective_worlds = worlds.effective();
   Decision decision(worlds, rule);
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {

@@ -4,6 +4,7 @@
 // of the metal, the model's error). In a world dresspacks fail independently, each by what it has for itself (its slack,
 // its scatter). Worlds are drawn from the prior. That every dresspack has survived until today is evidence.
 // (D3) The weight of a world w is the product over dresspacks i of S_w,i(a_i).
+// A calibration with a maintenance system's table has this evidence already: then all worlds weigh the same.
 // S_w,i(a): share of dresspacks of i's duty that reach the age a in the world w. So one dresspack informs the others, and
 // the uncertainty does not shrink with the size of the fleet.
 //
@@ -17,6 +18,7 @@
 //     g_w = (C_p S_w(T) + C_u (1 - S_w(T))) / integral of S_w from 0 to T, at the T with the least mean over w (D6)
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -26,12 +28,20 @@
 
 namespace dresslife::pipeline {
 
+/// A parameter that dresspacks share, in all worlds.
+struct SharedValue {
+  std::size_t parameter = 0;  ///< of uncertain_parameters()
+  std::string of;             ///< the construction or material that has it; empty: everything
+  std::vector<double> z;      ///< (world)
+};
+
 /// Lives of dresspacks under one duty [h of operation].
 struct LifeTable {
   std::size_t worlds = 0, draws = 0;
   std::vector<float> hours;  ///< (world, draw), rising in each world; infinite: no damage
   double robot_life_hours = 0;
   double hours_per_week = 0;
+  std::vector<SharedValue> shared{};  ///< what its lives depend on
 
   /// The first life of a world that is longer than an age; the end of the world's lives if none is.
   const float* first_after(std::size_t world, double age) const;
@@ -47,6 +57,8 @@ struct LifeTable {
 struct PlanRule {
   double risk = 0.1;  ///< (D4)
   bool by_cost = false;
+  bool knows_survivors = false;  ///< the worlds are drawn from a calibration to which they belong: (D3) would count them twice
+  std::vector<double> weights{};  ///< (world) of another plan of the same plant; empty: (D3)
 };
 
 struct RowPlan {
@@ -70,11 +82,29 @@ struct Plan {
   std::vector<YearOfPlan> years;
   std::vector<double> failures_in_week, failures_in_week_without_windows;  ///< (week) of all, mean over simulated plants
   double cost = 0, cost_without_windows = 0;  ///< mean over simulated plants: by this plan; if only failures are replaced
+  std::vector<double> weights;                ///< (world) (D3), their sum is 1
   double effective_worlds = 0;                ///< (sum of weights)^2 / sum of their squares
 };
 
 /// Fewer are no sample: percentiles would rest on chance.
 constexpr double fewest_worlds = 20;
+/// With fewer the plan is made again from more worlds: a probability of 10 % is known to 3 %.
+constexpr double enough_worlds = 100;
+
+/// Cost per hour of replacement at an age or at failure (D6), [1/h].
+struct AgeRates {
+  Eigen::MatrixXd rate;  ///< (age, world)
+  /// (world) of the age with the least mean.
+  Eigen::VectorXd least(const Eigen::VectorXd& weights) const;
+};
+AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned_cost);
+
+/// Times [days from today] of the windows, then the end of the plan.
+std::vector<double> times_of(const std::vector<Window>& windows, Day today);
+
+/// The dresspacks of a plant under other duties: one that is in `now`, too, under another duty or for other hours, keeps its damage. Its age
+/// are the hours under the new duty that wear it as much, by the median lives of both. A date of its own makes it a new dresspack.
+void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today);
 
 /// tables: by the names of duties. Precondition: windows are not empty, every duty has a table, all of as many worlds.
 Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,

@@ -7,6 +7,7 @@
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/job/uncertainty.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
@@ -97,6 +98,56 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
   if (fleet.has_costs)
     text += fmt::format("Cost until {}: {} by this plan, {} if only failed dresspacks are replaced.\n", day_text(plan.end),
                         readable(plan.cost), readable(plan.cost_without_windows));
+  return text;
+}
+
+std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
+  constexpr double worth_a_line = 1e-3;  // of the cost
+  constexpr std::size_t most = 3;
+  std::string lines;
+  std::size_t count = 0;
+  for (const TestValue& test : tests) {
+    if (!(test.saves > worth_a_line * plan.cost) || ++count > most) break;
+    const UncertainParameter& parameter = uncertain_parameters()[test.what.parameter];
+    lines += fmt::format("  {:>9}  {}: {}{}\n", readable(test.saves), parameter.test, parameter.name,
+                         test.what.of.empty() ? "" : fmt::format(" of '{}'", test.what.of));
+  }
+  if (lines.empty()) return "No test of what the dresspacks have in common would save a thousandth of this cost.\n";
+  return fmt::format("A test before the first window makes plans cheaper until {} by, on average:\n{}", day_text(plan.end), lines);
+}
+
+std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
+  std::string text = fmt::format("{:<32}  {:>20}  {:>20}\n", "", "today's fleet", "what if");
+  const auto line = [&](const std::string& what, const std::string& now, const std::string& then) {
+    text += fmt::format("{:<32}  {:>20}  {:>20}\n", what, now, then);
+  };
+  const auto failing = [](const Plan& of) {
+    double sum = 0;
+    for (const RowPlan& row : of.rows) sum += row.fails_before_first;
+    return readable(sum, 2);
+  };
+  const auto spares = [](const YearOfPlan& year) {
+    return fmt::format("{} ({:g} .. {:g})", readable(year.planned + year.unplanned, 2), year.low, year.high);
+  };
+  line("dresspacks", std::to_string(plan.rows.size()), std::to_string(other.rows.size()));
+  line("fail before the first window", failing(plan), failing(other));
+  for (std::size_t n = 0; n < plan.windows.size(); ++n)
+    line("replaced from " + day_text(plan.windows[n].first), std::to_string(replaced_in(fleet, plan, n).size()),
+         std::to_string(replaced_in(changed, other, n).size()));
+  for (std::size_t y = 0; y < std::min(plan.years.size(), other.years.size()); ++y)
+    line(fmt::format("spare dresspacks in year {}", y + 1), spares(plan.years[y]), spares(other.years[y]));
+  if (fleet.has_costs) line("cost until " + day_text(plan.end), readable(plan.cost), readable(other.cost));
+  const auto when = [](const Plan& of, std::size_t i) {
+    return of.rows[i].window ? day_text(of.windows[*of.rows[i].window].first) : std::string("in no window");
+  };
+  std::vector<std::string> changes;
+  for (std::size_t i = 0; i < changed.rows.size(); ++i) {
+    const auto old = std::find_if(fleet.rows.begin(), fleet.rows.end(), [&](const Installed& row) { return row.name == changed.rows[i].name; });
+    const std::string now = old == fleet.rows.end() ? "new" : when(plan, static_cast<std::size_t>(old - fleet.rows.begin()));
+    if (now != when(other, i)) changes.push_back(fmt::format("{}: {} ({})", changed.rows[i].name, when(other, i), now));
+  }
+  text += fmt::format("Replaced at another time (now): {}\n", changes.empty() ? "none" : std::to_string(changes.size()));
+  if (!changes.empty()) text += wrapped(fmt::format("{}", fmt::join(changes, ", ")), width, "  ");
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/advise/plan/plan.h"
+#include "pipeline/advise/plan/value_of_test.h"
 
 namespace dresslife::pipeline {
 
@@ -18,6 +19,12 @@ std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::
 /// "2027-07-12 .. 2027-08-01", "4.2 %"
 std::string window_text(const Window& window);
 std::string percent_text(double share);
+
+/// What tests are worth, a line each of those that save a thousandth of the plan's cost or more, three at most.
+std::string test_words(const std::vector<TestValue>& tests, const Plan& plan);
+
+/// A plan beside the one of today's fleet: failures, windows, spare dresspacks, cost, and the dresspacks with another window.
+std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
 
 /// One row per dresspack and one column per week from today: P(failure in it) of today's dresspack, if it is not replaced.
 std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan);

@@ -563,6 +563,27 @@ TEST_CASE("ranking: jobs that cannot be separated share a rank, those that can d
   CHECK(*rows[1].outlives_next > 0.99);
 }
 
+TEST_CASE("ranking: more than a thousand jobs are ranked with certainty, too") {
+  const Scratch scratch;
+  SampleLife longer = living(20000), shorter = living(10000);
+  longer.planned_hours = 60, shorter.planned_hours = 50;
+  longer.life_response = response_of(4.5), shorter.life_response = response_of(4);
+  const JobResult of_long = job_with(scratch, "long", longer), of_short = job_with(scratch, "short", shorter);
+  constexpr std::size_t half = 600;
+  std::vector<JobResult> results;
+  for (std::size_t k = 0; k < half; ++k)
+    for (JobResult result : {of_long, of_short}) {
+      result.name += std::to_string(k);
+      results.push_back(result);
+    }
+  const std::vector<RankingRow> rows = read_ranking(results);
+  REQUIRE(rows.size() == 2 * half);
+  CHECK(rows[0].outlives_next == 0.5);
+  CHECK(rows[half - 1].rank == 1);
+  CHECK(rows[half - 1].outlives_next == 1);
+  CHECK(rows[half].rank == half + 1);
+}
+
 TEST_CASE("ranking: of one job the first words say what to do, forces that cannot be stop a plan") {
   const Scratch scratch;
   SampleLife life = living(20000);

@@ -63,6 +63,26 @@ TEST_CASE("likelihood: what is not known of a test counts each way alike") {
   CHECK(value(mixed) == Approx(std::log((1 + std::exp(-4.5)) / 2)));
 }
 
+TEST_CASE("likelihood: dresspacks in service are mixtures, and those of before the records count from their age then") {
+  // Two kinds of dresspacks, alike frequent.
+  ObservedLife service;
+  service.variants = {[](const VectorXd&) { return LifeAt{1, 0.5}; }, [](const VectorXd&) { return LifeAt{3, 1}; }};
+  const auto lives = [](double x) { return (normal_share((1 - x) / 0.5) + normal_share(3 - x)) / 2; };
+  const auto density = [](double x) { return (normal_density((1 - x) / 0.5) / 0.5 + normal_density(3 - x)) / 2; };
+  const auto of = [&](std::vector<ServiceFactor> factors) {
+    service.service = std::move(factors);
+    return value(service);
+  };
+  constexpr double table = 1e-6, rounding = 1e-12;  // shares from a table are off by 3e-8
+  CHECK(of({{2, true}}) == Approx(std::log(density(2))).epsilon(table));
+  CHECK(of({{2, false}}) == Approx(std::log(lives(2))).epsilon(table));
+  CHECK(of({{2, true}, {1.5, false, -1}}) == Approx(std::log(density(2) / lives(1.5))).epsilon(table));
+  CHECK(of({{2, false, 3}, {1.5, false, -3}}) == Approx(3 * std::log(lives(2) / lives(1.5))).epsilon(table));
+  // Where the shares underflow the later kind alone is left.
+  CHECK(of({{50, false}}) == Approx(log_normal_share(-47) - std::log(2)).epsilon(rounding));
+  CHECK(of({{50, true}}) == Approx(-47.0 * 47 / 2 - std::log(2 * std::numbers::pi) / 2 - std::log(2)).epsilon(rounding));
+}
+
 TEST_CASE("likelihood: measured numbers are sums of what the model says") {
   Measurement loop;
   loop.log_quantities = {Emulator(std::log(2)), Emulator(std::log(3))};

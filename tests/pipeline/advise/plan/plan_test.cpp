@@ -138,6 +138,11 @@ TEST_CASE("survivors tell which world the plant is in, and the spread between pl
     const double of_bad = survive_bad / (survive_bad + survive_good);
     const auto fails = [&](double mean) { return 1 - std::exp(-10 * week / mean); };
     CHECK(plan.rows[0].fails_before_first == Approx(of_bad * fails(bad) + (1 - of_bad) * fails(good)).margin(1e-3));
+    // Worlds of a calibration in which the survivors are counted: they do not count twice.
+    PlanRule counted{1, false};
+    counted.knows_survivors = true;
+    const Plan known = plan_of(fleet_of(many(count, 10)), {{"d", weibull(1, {bad, good})}}, windows_in({10}), start, counted);
+    CHECK(known.rows[0].fails_before_first == Approx((fails(bad) + fails(good)) / 2).margin(1e-3));
   }
   // New dresspacks say nothing: the number of failures is of one world or of the other, not of their mean.
   const Plan fresh = plan_of(fleet_of(many(100, 0)), {{"d", weibull(1, {bad, good})}}, windows_in({26}), start, {1, false});
@@ -145,6 +150,36 @@ TEST_CASE("survivors tell which world the plant is in, and the spread between pl
   CHECK(fresh.years[0].low < 1.5 * 100 * year / good);
   CHECK(fresh.years[0].high > 0.9 * 100 * year / bad);
   CHECK(fresh.effective_worlds == Approx(2).epsilon(1e-12));
+}
+
+TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and the plant its worlds") {
+  // Under the hard duty everything lives half as long.
+  const std::map<std::string, LifeTable> tables{{"d", weibull(2.5, {4000, 8000})}, {"hard", weibull(2.5, {2000, 4000})}};
+  const Fleet fleet = fleet_of({20, 20, 20});
+  Fleet changed = fleet;
+  changed.rows[1].duty = "hard";
+  changed.rows.push_back({{}, "one more", "hard", start, {}, 0, 0});
+  keep_ages(changed, fleet, tables, start);
+  const PlanRule rule{0.1, false};
+  const Plan plan = plan_of(fleet, tables, windows_in({4, 14}), start, rule);
+  PlanRule same = rule;
+  same.weights = plan.weights;
+  const Plan other = plan_of(changed, tables, windows_in({4, 14}), start, same);
+  CHECK(other.rows[0].age_hours == plan.rows[0].age_hours);
+  CHECK(other.rows[0].fails_before_first == plan.rows[0].fails_before_first);
+  CHECK(other.rows[1].age_hours == Approx(plan.rows[1].age_hours / 2).epsilon(1e-6));  // lives are single precision
+  CHECK(other.rows[3].age_hours == 0);
+  // The remaining life is half as long: in four weeks happens what else happens in eight.
+  const Plan later = plan_of(fleet, tables, windows_in({8, 28}), start, rule);
+  CHECK(other.rows[1].fails_before_first == Approx(later.rows[1].fails_before_first).margin(4e-4));  // 20,000 draws
+  CHECK(other.weights == plan.weights);
+  const std::string words = what_if_words(fleet, plan, changed, other);
+  CHECK(words.find("dresspacks                                           3                     4\n") != std::string::npos);
+  CHECK(words.find("one more: ") != std::string::npos);
+  // The same fleet once more changes nothing.
+  Fleet unchanged = fleet;
+  keep_ages(unchanged, fleet, tables, start);
+  CHECK(what_if_words(fleet, plan, unchanged, plan_of(unchanged, tables, windows_in({4, 14}), start, same)).find("(now): none") != std::string::npos);
 }
 
 TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it is named at its cell") {

@@ -1,0 +1,334 @@
+#include "pipeline/advise/calibrate/service_records.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include "pipeline/base/csv_rows.h"
+#include "pipeline/base/plain_file.h"
+#include "pipeline/base/readable.h"
+#include "pipeline/job/job.h"
+#include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/job_text.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+enum Column { robot, dresspack, installed, replaced, reason, hours_per_week, job, column_count };
+
+struct ColumnWords {
+  std::string_view name;
+  std::vector<std::string_view> titles;  ///< without letters other than a to z
+};
+const std::array<ColumnWords, column_count>& columns() {
+  static const std::array<ColumnWords, column_count> all{{
+      {"robot", {"robot", "robotname", "roboter", "machine", "maschine", "station", "asset", "equipment"}},
+      {"dresspack",
+       {"dresspack", "cable", "cablepackage", "cabledress", "umbilical", "component", "schlauchpaket",
+        "kabel"}},
+      {"installed",
+       {"installed", "installedon", "installdate", "installationdate", "installation", "dateinstalled",
+        "mounted", "einbau", "einbaudatum", "eingebaut", "eingebautam", "dateofinstallation"}},
+      {"replaced",
+       {"replaced", "replacedon", "replaceddate", "replacementdate", "datereplaced", "removed", "removedon",
+        "removaldate", "ausbau", "ausbaudatum", "ausgebaut", "ersetzt", "gewechselt", "ausgebautam",
+        "dateofreplacement"}},
+      {"reason",
+       {"reason", "removalreason", "replacementreason", "cause", "grund", "ausbaugrund", "ursache"}},
+      {"hours_per_week", {"hoursperweek", "hperweek", "operatinghoursperweek", "stundenprowoche"}},
+      {"job", {"job", "program", "programm"}},
+  }};
+  return all;
+}
+
+/// Lower case letters a to z of a text.
+std::string letters_of(const std::string& text) {
+  std::string letters;
+  for (const unsigned char letter : text)
+    if (letter < 128 && std::isalpha(letter)) letters += static_cast<char>(std::tolower(letter));
+  return letters;
+}
+
+bool has_any(const std::string& text, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return text.find(word) != text.npos; });
+}
+
+enum class End { failed, removed, in_use };
+
+/// absent: not known. "unplanned" holds "planned", so failures come first.
+std::optional<End> end_in(const std::string& text) {
+  const std::string letters = letters_of(text);
+  if (has_any(letters, {"notfail", "nofail", "nodefect", "kein"})) return std::nullopt;
+  if (has_any(letters, {"fail", "broke", "break", "defect", "fault", "unplanned", "unscheduled", "corrective",
+                        "ausfall", "defekt", "bruch", "gebrochen", "strung", "stoerung", "ungeplant"}) &&
+      !has_any(letters, {"prevent", "vorbeug"}))
+    return End::failed;
+  if (has_any(letters, {"prevent", "planned", "scheduled", "maintenance", "inspection", "vorbeug", "geplant",
+                        "wartung", "collision", "crash", "kollision", "conversion", "modification", "umbau",
+                        "dismantled", "verschrott"}))
+    return End::removed;
+  if (letters.empty() ||
+      has_any(letters, {"alive", "inuse", "inservice", "running", "imbetrieb", "imeinsatz"}))
+    return End::in_use;
+  return std::nullopt;
+}
+
+/// With a decimal point or a decimal comma.
+std::optional<double> number_of_export(std::string text) {
+  if (text.find('.') == text.npos && std::count(text.begin(), text.end(), ',') == 1)
+    text[text.find(',')] = '.';
+  return number_in(text);
+}
+
+struct Row {
+  int line = 0;
+  Where where;
+  std::string name;  ///< of the place: robot and dresspack
+  Day from{}, to{};
+  End end = End::in_use;
+  std::optional<double> hours_per_week;
+  std::string job;
+  Where job_where;
+};
+
+class Export {
+ public:
+  explicit Export(const ServiceRequest& request)
+      : request_(request), reader_(read_text(request.file), request.file.string(), ";\t,") {
+    titles_ = reader_.next();
+    if (titles_.empty()) refuse_file("holds no table");
+    find_columns();
+  }
+
+  std::vector<Row> rows() {
+    std::vector<Row> rows;
+    for (CsvRow cells = reader_.next(); !cells.empty(); cells = reader_.next()) rows.push_back(row_of(cells));
+    if (rows.empty()) refuse_file("has titles and no row");
+    check_overlaps(rows);
+    return rows;
+  }
+
+  std::string column_words() const {
+    std::vector<std::string> words;
+    for (std::size_t c = 0; c < column_count; ++c)
+      if (at_[c]) words.push_back(fmt::format("{} = '{}'", columns()[c].name, titles_[*at_[c]].text));
+    return fmt::format("{}", fmt::join(words, ", "));
+  }
+
+ private:
+  [[noreturn]] void refuse_file(const std::string& what) const {
+    throw InputError({request_.file.string(), 1, 1}, what,
+                     "write the line 'robot,dresspack,installed,replaced,reason', then a row per dresspack");
+  }
+
+  void find_columns() {
+    for (std::size_t k = 0; k < titles_.size(); ++k) {
+      const std::string letters = letters_of(titles_[k].text);
+      for (std::size_t c = 0; c < column_count; ++c) {
+        const auto& known = columns()[c].titles;
+        if (std::find(known.begin(), known.end(), letters) == known.end()) continue;
+        if (at_[c])
+          throw InputError(reader_.where(titles_[k]),
+                           fmt::format("columns '{}' and '{}' both mean {}", titles_[*at_[c]].text,
+                                       titles_[k].text, columns()[c].name),
+                           "keep or rename one of the two");
+        at_[c] = k;
+      }
+    }
+    for (const Column needed : {robot, installed, replaced})
+      if (!at_[needed])
+        throw InputError(
+            reader_.where(titles_.front()),
+            fmt::format("the table has no column '{}'", columns()[needed].name),
+            fmt::format("name one of its columns so ({})", fmt::join(columns()[needed].titles, ", ")));
+  }
+
+  const CsvCell* cell(const CsvRow& cells, Column column) const {
+    return at_[column] ? &cells[*at_[column]] : nullptr;
+  }
+  std::string text(const CsvRow& cells, Column column) const {
+    const CsvCell* const found = cell(cells, column);
+    return found ? found->text : "";
+  }
+  [[noreturn]] void refuse(const CsvRow& cells, Column column, const std::string& what,
+                           const std::string& remedy) const {
+    throw InputError(reader_.where(*cell(cells, column)), what, remedy);
+  }
+
+  Day day(const CsvRow& cells, Column column) const {
+    const std::string written = text(cells, column);
+    const std::optional<Day> day = day_from_export(written);
+    if (!day)
+      refuse(cells, column, fmt::format("'{}' is no date", written),
+             std::string(date_remedy) + ", or 12.07.2027");
+    if (*day > request_.today)
+      refuse(cells, column, fmt::format("{} is after today, {}", day_text(*day), day_text(request_.today)),
+             "correct the date, or give --today");
+    return *day;
+  }
+
+  Row row_of(const CsvRow& cells) const {
+    if (cells.size() != titles_.size())
+      throw InputError(
+          reader_.where(cells.back()),
+          fmt::format("a row of {} cells (the table has {} columns)", cells.size(), titles_.size()),
+          "fill or quote its cells");
+    Row row;
+    row.line = reader_.line(), row.where = reader_.where(*cell(cells, robot)), row.name = text(cells, robot);
+    if (row.name.empty()) refuse(cells, robot, "the robot has no name", "fill the cell");
+    if (at_[dresspack]) row.name += ", " + text(cells, dresspack);
+    row.from = day(cells, installed);
+    read_end(cells, row);
+    if (const std::string hours = text(cells, hours_per_week); !hours.empty()) {
+      row.hours_per_week = number_of_export(hours);
+      constexpr double fewest = 0.1, most = 168;  // of a week
+      if (!row.hours_per_week || !(*row.hours_per_week >= fewest && *row.hours_per_week <= most))
+        refuse(cells, hours_per_week,
+               fmt::format("hours_per_week is '{}' (must be {:g} .. {:g})", hours, fewest, most),
+               "write the hours in which the program runs");
+    }
+    row.job = text(cells, job),
+    row.job_where = row.job.empty() ? Where{"--job"} : reader_.where(*cell(cells, job));
+    if (row.job.empty()) row.job = request_.job;
+    if (row.job.empty())
+      throw InputError(row.where, "it is not known which job this dresspack does",
+                       "give --job JOB.yaml, or a column job");
+    return row;
+  }
+
+  void read_end(const CsvRow& cells, Row& row) const {
+    const std::string written = text(cells, replaced), why = text(cells, reason);
+    const std::optional<End> why_end = end_in(why);
+    if (!why_end)
+      refuse(cells, reason, fmt::format("reason '{}' does not say whether the dresspack failed", why),
+             "write failed, preventive or nothing (in use)");
+    const bool is_date = day_from_export(written).has_value();
+    if (!is_date && end_in(written) != End::in_use)
+      refuse(cells, replaced, fmt::format("'{}' is no date", written),
+             std::string(date_remedy) + " or 12.07.2027, or nothing while it is in use");
+    row.to = is_date ? day(cells, replaced) : request_.today;
+    row.end = *why_end;
+    if (is_date && row.end == End::in_use)
+      refuse(cells, at_[reason] ? reason : replaced, "a dresspack was removed and no reason is given",
+             "write failed or preventive as its reason");
+    if (!is_date && row.end == End::failed)
+      refuse(cells, replaced, fmt::format("the dresspack has a reason ('{}') and no date", why),
+             "write when it was replaced, or no reason");
+    if (!is_date) row.end = End::in_use;
+    if (row.to < row.from)
+      refuse(
+          cells, replaced,
+          fmt::format("replaced on {}, before it was installed on {}", day_text(row.to), day_text(row.from)),
+          "correct one of the dates");
+  }
+
+  /// A dresspack that is there twice would count twice.
+  void check_overlaps(const std::vector<Row>& rows) const {
+    std::map<std::string, std::vector<const Row*>> places;
+    for (const Row& row : rows) places[row.name].push_back(&row);
+    for (auto& [name, at] : places) {
+      std::stable_sort(at.begin(), at.end(), [](const Row* a, const Row* b) {
+        return std::pair(a->from, a->to) < std::pair(b->from, b->to);
+      });
+      for (std::size_t k = 1; k < at.size(); ++k)
+        if (at[k]->from < at[k - 1]->to || (at[k]->from == at[k - 1]->from && at[k]->to == at[k - 1]->to))
+          throw InputError(
+              at[k]->where,
+              fmt::format("'{}' is in use from {} on, and line {} has it until {}", name,
+                          day_text(at[k]->from), at[k - 1]->line, day_text(at[k - 1]->to)),
+              "correct a date, remove the row that is there twice, or name the dresspack of each");
+    }
+  }
+
+  const ServiceRequest& request_;
+  CsvReader reader_;
+  CsvRow titles_;
+  std::array<std::optional<std::size_t>, column_count> at_{};
+};
+
+/// "spot_welding" of "jobs/spot_welding.yaml": fit for a folder.
+std::string test_name(const std::string& job) {
+  std::string name = std::filesystem::path(job).stem().string();
+  for (char& letter : name)
+    if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
+  return name;
+}
+
+}  // namespace
+
+ServiceTests read_service_tests(const ServiceRequest& request) {
+  Export table(request);
+  const std::vector<Row> rows = table.rows();
+  std::optional<Day> first_removal;
+  for (const Row& row : rows)
+    if (row.end != End::in_use) first_removal = std::min(first_removal.value_or(row.to), row.to);
+  const std::optional<Day> since = request.since ? request.since : first_removal;
+  if (!since)
+    throw InputError({request.file.string()},
+                     "has no dresspack that was removed, so the first day of the records is not known",
+                     "give it: --records-since DATE");
+
+  ServiceTests read;
+  std::map<std::string, std::size_t> known;  // tests by their job
+  std::set<std::string> names;
+  std::map<std::string, double> hours_per_week;
+  std::size_t failed = 0, removed = 0, in_use = 0, before = 0, early = 0;
+  for (const Row& row : rows) {
+    const auto [at, is_new] = known.try_emplace(row.job, read.tests.size());
+    if (is_new) {
+      ObservedTest& test = read.tests.emplace_back();
+      test.where = row.job_where;
+      std::string name = test_name(row.job);
+      while (!names.insert(name).second) name += "_";
+      test.observation.name = name;
+      test.observation.what = "dresspacks of a plant";
+      test.observation.source = request.file.filename().string();
+      test.variants.push_back({name, catalogue_entry("jobs", row.job, row.job_where, row.job_where), ""});
+      hours_per_week[row.job] =
+          job_from(test.variants.back().job, request.sets).fatigue.operating_hours_per_week;
+    }
+    // Removals of the first day define it; they are no evidence of lives (a stopping time).
+    const bool too_early = row.to < *since || (!request.since && row.end != End::in_use && row.to == *since);
+    if (too_early) {
+      ++early;
+      continue;
+    }
+    const double hours_per_day = row.hours_per_week.value_or(hours_per_week[row.job]) / 7;
+    // Half a day for one that was removed on the day on which it was put in, or on which the records begin.
+    const double entry_days = std::max(0.0, days_between(row.from, *since));
+    const double days = std::max(days_between(row.from, row.to), entry_days + 0.5);
+    const ServiceRecord record{days * hours_per_day, entry_days * hours_per_day, row.end == End::failed};
+    ++(row.end == End::failed ? failed : row.end == End::removed ? removed : in_use);
+    before += record.entry_hours > 0;
+    ObservedTest& test = read.tests[at->second];
+    test.observation.service.push_back(record);
+    test.text += fmt::format("{} {} {}\n", record.hours, record.entry_hours, record.failed);
+  }
+  std::erase_if(read.tests, [](const ObservedTest& test) { return test.observation.service.empty(); });
+  if (read.tests.empty())
+    throw InputError(
+        {request.file.string()},
+        fmt::format("no dresspack was in use after {}, the first day of the records", day_text(*since)),
+        "give an earlier day: --records-since DATE");
+  for (ObservedTest& test : read.tests) test.text += to_yaml(test.variants.front().job);
+  read.words = fmt::format("Columns: {}.\n", table.column_words());
+  read.words += fmt::format("{} dresspacks: {} failed, {} were removed before, {} are in use on {}.\n",
+                            failed + removed + in_use, failed, removed, in_use, day_text(request.today));
+  read.words += fmt::format(
+      "Records begin on {}{}. {} dresspacks were put in before, and count from their age on that day.\n",
+      day_text(*since), request.since ? "" : ", the day of the first removal", before);
+  if (early > 0)
+    read.words += fmt::format(
+        "{} removed {} do not count{}.\n", early, request.since ? "before" : "on that day",
+        request.since ? ""
+                      : ": --records-since DATE gives an earlier day from which the records are complete");
+  return read;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,167 @@
+#include "pipeline/advise/plan/value_of_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "pipeline/base/statistics.h"
+#include "pipeline/job/uncertainty.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index bins = 16;  // of the result: half of them are narrower than a fifth of its deviation
+
+/// (world, bin) P(j | w). The bins have equal probabilities if z is normal over the weighted worlds.
+MatrixXd results_of(const std::vector<double>& z, double error, const std::vector<double>& weights) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double mean = 0, variance = 0;
+  for (std::size_t w = 0; w < z.size(); ++w) mean += weights[w] * z[w];
+  for (std::size_t w = 0; w < z.size(); ++w) variance += weights[w] * (z[w] - mean) * (z[w] - mean);
+  const double deviation = std::sqrt(variance + error * error);
+  MatrixXd share(static_cast<Index>(z.size()), bins);
+  for (Index w = 0; w < share.rows(); ++w) {
+    double below = 0;
+    for (Index j = 0; j < bins; ++j) {
+      const double edge =
+          j + 1 < bins ? mean + deviation * normal_quantile(double(j + 1) / double(bins)) : infinity;
+      const double until = normal_share((edge - z[std::size_t(w)]) / error);
+      share(w, j) = until - below;
+      below = until;
+    }
+  }
+  return share;
+}
+
+/// (D7) of one dresspack: the part beside A, and hours at the rate g_w(A).
+struct Costs {
+  MatrixXd fixed, hours;  ///< (time, world)
+  VectorXd weights;       ///< (world) of those in which it can live, their sum is 1
+};
+
+Costs costs_of(const Installed& row, const LifeTable& table, double age, double hours_per_day,
+               const std::vector<double>& times, const std::vector<double>& world_weights,
+               const VectorXd& best) {
+  std::vector<double> until;  // [h]
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) until.push_back(times[k] * hours_per_day);
+  constexpr double growth = 1.5;  // of later times, as in (D5)
+  const double end = times.back() * hours_per_day, interval = end - until.back(), last = until.back();
+  for (double hours = interval; hours < growth * std::max(interval, table.robot_life_hours); hours *= growth)
+    until.push_back(last + hours);
+  const auto count = static_cast<Index>(until.size()), worlds = static_cast<Index>(table.worlds);
+  Costs costs{MatrixXd::Zero(count, worlds), MatrixXd::Zero(count, worlds), VectorXd::Zero(worlds)};
+  for (Index w = 0; w < worlds; ++w) {
+    const auto world = static_cast<std::size_t>(w);
+    const double lives = table.alive(world, age);
+    if (!(lives > 0)) continue;
+    costs.weights[w] = world_weights[world];
+    double before = age, left = end, beyond = 0;
+    for (Index t = 0; t < count; ++t) {
+      const double at = age + until[std::size_t(t)];
+      left -= table.running(world, std::min(before, age + end), std::min(at, age + end)) / lives;
+      beyond += table.running(world, std::max(before, age + end), std::max(at, age + end)) / lives;
+      before = at;
+      costs.fixed(t, w) = row.planned_cost +
+                          (row.unplanned_cost - row.planned_cost) * (1 - table.alive(world, at) / lives) -
+                          best[w] * beyond;
+      costs.hours(t, w) = left;
+    }
+  }
+  if (const double sum = costs.weights.sum(); sum > 0) costs.weights /= sum;
+  return costs;
+}
+
+/// The values of several tests at once.
+class Values {
+ public:
+  Values(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const Plan& plan)
+      : fleet_(fleet), tables_(tables), plan_(plan) {}
+
+  /// results: (test) of results_of().
+  std::vector<double> of(const std::vector<MatrixXd>& results) {
+    const std::vector<double> times = times_of(plan_.windows, plan_.today);
+    std::vector<double> saves(results.size(), 0.0);
+    for (std::size_t i = 0; i < fleet_.rows.size(); ++i) {
+      const Installed& row = fleet_.rows[i];
+      const LifeTable& table = tables_.at(row.duty);
+      const double hours_per_day = row.hours_per_week.value_or(table.hours_per_week) / 7;
+      const Policies& policies = policies_of(row, table, results);
+      const Costs costs =
+          costs_of(row, table, plan_.rows[i].age_hours, hours_per_day, times, plan_.weights, policies.best);
+      const VectorXd& now = policies.now;
+      const double before =
+          (costs.fixed * costs.weights + costs.hours * now.cwiseProduct(costs.weights)).minCoeff();
+      for (std::size_t k = 0; k < results.size(); ++k) {
+        const MatrixXd weights = costs.weights.asDiagonal() * results[k];
+        const MatrixXd fixed = costs.fixed * weights;
+        const MatrixXd same = fixed + costs.hours * (now.asDiagonal() * weights);
+        const MatrixXd other = fixed + costs.hours * policies.after[k].cwiseProduct(weights);
+        double after = 0;
+        for (Index j = 0; j < bins; ++j) after += std::min(same.col(j).minCoeff(), other.col(j).minCoeff());
+        saves[k] += before - after;
+      }
+    }
+    return saves;
+  }
+
+ private:
+  struct Policies {
+    VectorXd now;                 ///< (world) g_w at the age that is best now
+    VectorXd best;                ///< (world) at the one that is best in it
+    std::vector<MatrixXd> after;  ///< (test) (world, bin) at the one that is best after the result
+  };
+  const Policies& policies_of(const Installed& row, const LifeTable& table,
+                              const std::vector<MatrixXd>& results) {
+    const auto [found, is_new] = policies_.try_emplace({&table, row.planned_cost, row.unplanned_cost});
+    if (!is_new) return found->second;
+    const AgeRates rates = age_rates(table, row.planned_cost, row.unplanned_cost);
+    const VectorXd weights = VectorXd::Map(plan_.weights.data(), static_cast<Index>(plan_.weights.size()));
+    found->second.now = rates.least(weights);
+    found->second.best = rates.rate.colwise().minCoeff().transpose();
+    for (const MatrixXd& result : results) {
+      MatrixXd& after = found->second.after.emplace_back(result.rows(), bins);
+      for (Index j = 0; j < bins; ++j) after.col(j) = rates.least(weights.cwiseProduct(result.col(j)));
+    }
+    return found->second;
+  }
+
+  const Fleet& fleet_;
+  const std::map<std::string, LifeTable>& tables_;
+  const Plan& plan_;
+  std::map<std::tuple<const LifeTable*, double, double>, Policies> policies_;
+};
+
+}  // namespace
+
+double value_of_test(const SharedValue& what, double error, const Fleet& fleet,
+                     const std::map<std::string, LifeTable>& tables, const Plan& plan) {
+  return Values(fleet, tables, plan).of({results_of(what.z, error, plan.weights)}).front();
+}
+
+std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
+                                       const Plan& plan) {
+  std::vector<TestValue> values;
+  std::vector<MatrixXd> results;
+  for (const auto& [name, table] : tables)
+    for (const SharedValue& shared : table.shared) {
+      if (std::any_of(values.begin(), values.end(), [&](const TestValue& known) {
+            return known.what.parameter == shared.parameter && known.what.of == shared.of;
+          }))
+        continue;
+      const UncertainParameter& parameter = uncertain_parameters()[shared.parameter];
+      values.push_back({shared});
+      results.push_back(results_of(shared.z, parameter.test_deviation / parameter.deviation(), plan.weights));
+    }
+  const std::vector<double> saves = Values(fleet, tables, plan).of(results);
+  for (std::size_t k = 0; k < values.size(); ++k) values[k].saves = saves[k];
+  std::stable_sort(values.begin(), values.end(),
+                   [](const TestValue& a, const TestValue& b) { return a.saves > b.saves; });
+  return values;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,53 @@
+#include "pipeline/base/days.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace dresslife::pipeline {
+namespace {
+
+using std::chrono::year_month_day;
+
+/// The number that is all of a text.
+std::optional<int> whole(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<Day> day_of(std::string_view year, std::string_view month, std::string_view day) {
+  const auto y = whole(year), m = whole(month), d = whole(day);
+  if (!y || !m || !d || *m < 1 || *d < 1) return std::nullopt;
+  const year_month_day date{std::chrono::year(*y), std::chrono::month(static_cast<unsigned>(*m)),
+                            std::chrono::day(static_cast<unsigned>(*d))};
+  if (!date.ok()) return std::nullopt;
+  return Day(date);
+}
+
+}  // namespace
+
+std::optional<Day> day_from(std::string_view text) {
+  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return std::nullopt;
+  return day_of(text.substr(0, 4), text.substr(5, 2), text.substr(8, 2));
+}
+
+std::optional<Day> day_from_export(std::string_view text) {
+  const std::string_view date = text.substr(0, text.find_first_of(" T"));
+  if (const std::optional<Day> day = day_from(date)) return day;
+  const std::size_t first = date.find('.'), second = date.find('.', first == date.npos ? first : first + 1);
+  constexpr std::size_t year_digits = 4;  // with two the century is not known
+  if (second == date.npos || date.size() - second - 1 != year_digits) return std::nullopt;
+  return day_of(date.substr(second + 1), date.substr(first + 1, second - first - 1), date.substr(0, first));
+}
+
+std::string day_text(Day day) {
+  const year_month_day date(day);
+  return fmt::format("{:04}-{:02}-{:02}", int(date.year()), unsigned(date.month()), unsigned(date.day()));
+}
+
+Day today() { return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()); }
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,136 @@
+// Tables of maintenance systems: usual forms, what counts of them, and refusals at their place.
+#include "pipeline/advise/calibrate/service_records.h"
+
+#include <unistd.h>
+
+#include <fstream>
+
+#include "pipeline/base/errors.h"
+#include "tests/catch.h"
+
+using namespace dresslife::pipeline;
+using Catch::Contains;
+
+namespace {
+
+const std::filesystem::path folder = std::filesystem::temp_directory_path();
+
+struct File {
+  File(const std::string& name, const std::string& text)
+      : path(folder / fmt::format("dresslife-{}-{}", ::getpid(), name)) {
+    std::ofstream(path) << text;
+  }
+  ~File() { std::filesystem::remove(path); }
+  std::filesystem::path path;
+};
+
+const Day today = *day_from("2026-11-23");
+
+/// since: empty: none. The job has 80 h a week.
+ServiceTests read(const std::string& table, const std::string& since = "", bool with_job = true) {
+  const File job(
+      "job.yaml",
+      "motion: {rig: {kind: axial, elongation_percent: 0.2}}\ndresspack: {cable: {name: wire, source: test, radius_mm: "
+      "0.1, components: [{name: strand, radius_mm: 0.1, helix_radius_mm: 0, material: copper_halved}]}}\n");
+  const File file("plant.csv", table);
+  std::optional<Day> day;
+  if (!since.empty()) day = day_from(since);
+  return read_service_tests({file.path, with_job ? job.path.string() : "", day, today, {}});
+}
+
+std::string refusal(const std::string& table, const std::string& since = "", bool with_job = true) {
+  try {
+    read(table, since, with_job);
+  } catch (const InputError& error) {
+    const std::string words = error.what(), name = "plant.csv";
+    return words.substr(words.find(name) == words.npos ? 0 : words.find(name));
+  }
+  return "read";
+}
+
+}  // namespace
+
+TEST_CASE("service records: the same plant in English with commas and in German with semicolons") {
+  const std::string english =
+      "robot,dresspack,installed,replaced,reason,hours_per_week\n"
+      "R1,a,2024-01-01,2024-12-30,failed,70\nR1,a,2024-12-30,alive,,70\n"
+      "R2,a,2022-05-02,2025-04-28,preventive,\nR3,a,2022-05-02,,,40.5\n";
+  const std::string german =
+      "Bemerkung;Roboter;Schlauchpaket;Einbaudatum;Ausbaudatum;Grund;Stunden pro Woche\n"
+      "x;R1;a;01.01.2024;30.12.2024 14:05;Kabelbruch;70\n;R1;a;30.12.2024;;;70\n"
+      ";R2;a;2.5.2022;28.04.2025;vorbeugend;\n;R3;a;02.05.2022;;;40,5\n";
+  for (const std::string& table : {english, german}) {
+    const ServiceTests plant = read(table, "2023-05-01");
+    REQUIRE(plant.tests.size() == 1);
+    const std::vector<ServiceRecord>& records = plant.tests.front().observation.service;
+    REQUIRE(records.size() == 4);
+    CHECK(records[0].hours == Approx(52 * 70));
+    CHECK(records[0].failed);
+    CHECK(records[0].entry_hours == 0);
+    CHECK(records[1].hours == Approx(99 * 70));  // until today
+    CHECK_FALSE(records[1].failed);
+    CHECK(records[2].hours == Approx(156 * 80));  // of the job
+    CHECK(records[2].entry_hours == Approx(52 * 80));
+    CHECK_FALSE(records[2].failed);
+    CHECK(records[3].entry_hours == Approx(52 * 40.5));
+    CHECK_THAT(plant.words,
+               Contains("4 dresspacks: 1 failed, 1 were removed before, 2 are in use on 2026-11-23.") &&
+                   Contains("Records begin on 2023-05-01. 2 dresspacks were put in before"));
+  }
+}
+
+TEST_CASE("service records: without a first day the first removal is it, and does not count") {
+  const std::string table =
+      "robot,installed,replaced,reason\nA,2024-01-01,2025-01-06,failed\nB,2024-01-01,2025-06-02,failed\nC,2025-03-03,,\n";
+  const ServiceTests plant = read(table);
+  const std::vector<ServiceRecord>& records = plant.tests.front().observation.service;
+  REQUIRE(records.size() == 2);
+  CHECK(records[0].entry_hours == Approx(53 * 80));
+  CHECK(records[1].entry_hours == 0);
+  CHECK_THAT(plant.words, Contains("1 removed on that day do not count: --records-since"));
+  CHECK(read(table, "2024-01-01").tests.front().observation.service.size() == 3);
+  CHECK_THAT(refusal("robot,installed,replaced\nA,2024-01-01,\n"),
+             Contains("has no dresspack that was removed") && Contains("--records-since"));
+}
+
+TEST_CASE("service records: what cannot be used is refused at its place, with a remedy") {
+  const std::string titles = "robot,dresspack,installed,replaced,reason\n";
+  const std::vector<std::array<std::string, 3>> cases{
+      {"", "plant.csv:1:1: error: holds no table", "write the line"},
+      {titles, "plant.csv:1:1: error: has titles and no row", "row per dresspack"},
+      {"robot,installed\nA,2024-01-01\n", "plant.csv:1:1: error: the table has no column 'replaced'",
+       "replacedon"},
+      {"robot,roboter,installed,replaced\n",
+       "plant.csv:1:7: error: columns 'robot' and 'roboter' both mean robot", "rename"},
+      {titles + "A,a,03/02/2024,,\n", "plant.csv:2:5: error: '03/02/2024' is no date", "YYYY-MM-DD"},
+      {titles + "A,a,2024-02-30,,\n", "plant.csv:2:5: error: '2024-02-30' is no date", "YYYY-MM-DD"},
+      {titles + "A,a,2027-02-03,,\n", "plant.csv:2:5: error: 2027-02-03 is after today", "--today"},
+      {titles + "A,a,2024-02-03,soon,\n", "plant.csv:2:16: error: 'soon' is no date",
+       "nothing while it is in use"},
+      {titles + "A,a,2024-02-03,2024-01-03,failed\n", "plant.csv:2:16: error: replaced on 2024-01-03, before",
+       "correct"},
+      {titles + "A,a,2024-02-03,2025-01-03,\n",
+       "plant.csv:2:27: error: a dresspack was removed and no reason", "failed or preventive"},
+      {titles + "A,a,2024-02-03,2025-01-03,blue\n", "plant.csv:2:27: error: reason 'blue' does not say",
+       "failed, preventive"},
+      {titles + "A,a,2024-02-03,,failed\n",
+       "plant.csv:2:16: error: the dresspack has a reason ('failed') and no date", "write when"},
+      {titles + "A,a,2024-02-03\n", "plant.csv:2:5: error: a row of 3 cells (the table has 5 columns)",
+       "fill or quote"},
+      {titles + ",a,2024-02-03,,\n", "plant.csv:2:1: error: the robot has no name", "fill"},
+      {titles + "A,a,2024-02-03,2025-01-03,failed\nA,a,2025-01-02,,\n",
+       "plant.csv:3:1: error: 'A, a' is in use from 2025-01-02 on, and line 2 has it until 2025-01-03",
+       "there twice"},
+      {"robot,installed,replaced,hours_per_week\nA,2024-02-03,,200\n",
+       "plant.csv:2:15: error: hours_per_week is '200'", "hours"}};
+  for (const auto& [table, problem, remedy] : cases) {
+    const std::string words = refusal(table);
+    CHECK_THAT(words, Contains(problem) && Contains(remedy));
+  }
+  CHECK_THAT(refusal(titles + "A,a,2024-02-03,,\n", "", false),
+             Contains("plant.csv:2:1: error: it is not known which job") && Contains("--job"));
+  CHECK_THAT(refusal("robot,installed,replaced,reason,job\nA,2024-01-01,2025-01-06,failed,none_such\n"),
+             Contains("plant.csv:2:32"));
+  CHECK_THAT(refusal(titles + "A,a,2024-01-01,2025-01-06,failed\n", "2025-06-01"),
+             Contains("no dresspack was in use after 2025-06-01"));
+}
