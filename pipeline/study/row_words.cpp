@@ -72,6 +72,29 @@ std::string abrasion_action(const RankingRow& row, double hours) {
                      mode->position_from_tool, range_text(mode->hours[0], mode->hours[2]));
 }
 
+/// Where the promise for a rated cable ends before these hours.
+std::string rating_action(const RankingRow& row, double hours) {
+  const UnvalidatedMode* const mode = row.unvalidated_mode(UnvalidatedMode::rating);
+  if (!mode || !(mode->hours[0] < hours)) return "";
+  return fmt::format("The maker's rating of {} covers {} only (not validated).", mode->place, range_text(mode->hours[0], mode->hours[2]));
+}
+
+std::string rating_words(const UnvalidatedMode& mode, const std::string& of) {
+  const std::string until = std::isinf(mode.hours[0])
+                                ? "the whole life in more than 9 of 10 cases"
+                                : fmt::format("{} (10 .. 90 %), {:.2f} m from the tool, most at {:.1f} s{}",
+                                              range_text(mode.hours[0], mode.hours[2]), mode.position_from_tool, mode.time,
+                                              mode.step.empty() ? "" : ", during '" + mode.step + "'");
+  return fmt::format("The maker's rating of {}{} is a lower bound of its life, is not validated and not in the hours above. It "
+                     "covers {}.", mode.place, of, until);
+}
+
+std::string clamp_words(const UnvalidatedMode& mode, const std::string& of) {
+  if (std::isinf(mode.hours[1])) return fmt::format("Bending at the clamps{} damages no wire in the median.", of);
+  return fmt::format("Bending at the {}{} breaks wires after {} (10 .. 90 %), which the hours above count.", mode.place, of,
+                     range_text(mode.hours[0], mode.hours[2]));
+}
+
 }  // namespace
 
 bool is_believable(const RankingRow& row) {
@@ -125,10 +148,10 @@ std::string action_words(const RankingRow& row) {
                          : "No replacement is foreseen: no wire is damaged.";
   if (outlives_robot(row, hours))
     return joined_words({fmt::format("The evaluated parts last longer than the robot ({} h).", readable(row.robot_life_hours)),
-                         abrasion_action(row, row.robot_life_hours),
+                         abrasion_action(row, row.robot_life_hours), rating_action(row, row.robot_life_hours),
                          row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
   return joined_words({fmt::format("Plan a replacement after {} ({}).", hours_text(hours), calendar_text(row.headline_months())),
-                       abrasion_action(row, hours)});
+                       abrasion_action(row, hours), rating_action(row, hours)});
 }
 
 std::string uncertainty_words(const RankingRow& row) { return joined_words({cause_words(row), test_words(row)}); }
@@ -161,6 +184,8 @@ std::string unvalidated_words(const UnvalidatedMode& mode) {
   if (mode.mode == UnvalidatedMode::wall)
     return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.{}", of,
                        unvalidated_life(mode.hours[1]), too_short_wall(mode));
+  if (mode.mode == UnvalidatedMode::rating) return joined_words({rating_words(mode, of), mode.note});
+  if (mode.mode == UnvalidatedMode::clamps) return joined_words({clamp_words(mode, of), mode.note});
   if (mode.place.empty()) return fmt::format("Abrasion{}: nothing rubs on the dresspack.", of);
   const std::string when = std::isinf(mode.hours[0])
                                ? "in fewer than 1 of 10 dresspacks"
