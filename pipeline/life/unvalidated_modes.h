@@ -1,5 +1,5 @@
 // Failure modes whose law has not been compared with a published test: their lives stand beside those of the
-// wires and are not in the planner's hours.
+// wires and are not in the planner's hours. Of a maker's rating the life is a lower bound: by then the promise ends.
 #pragma once
 
 #include <array>
@@ -13,6 +13,8 @@ struct UnvalidatedMode {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   static constexpr const char* wall = "hose's wall";
   static constexpr const char* abrasion = "abrasion";
+  static constexpr const char* rating = "maker's rating";
+  static constexpr const char* clamps = "bending at clamps";
 
   std::string mode;       ///< one of the above
   std::string dresspack;  ///< in which, among several; empty: the only one
@@ -22,10 +24,12 @@ struct UnvalidatedMode {
   double together_p10 = unknown;  ///< the planner's hours if this mode counted, too [h]
   int segment_from_tool = 0;      ///< of its worst place, 1 is nearest to the tool; 0: not known
   double position_from_tool = 0;  ///< [m]
-  std::string place;              ///< what rubs: "link_4"; of the wall the place around it: "hose 5"
+  std::string place;              ///< what rubs: "link_4"; of the wall the place around it: "hose 5"; a rated cable; a clamp
   double time = 0;                ///< when it is loaded most [s]
   std::string step;               ///< program line that runs then; empty: none
   double bends_at_limit = 0;      ///< of the wall by its law: bends of a straight hose to its bend radius limit; 0: not known
+
+  std::string note;               ///< further sentences; empty: none
 
   bool operator==(const UnvalidatedMode&) const = default;
 };

@@ -343,6 +343,10 @@ std::string facts(const RankingRow& row) {
   for (const UnvalidatedMode& mode : row.unvalidated) {
     const std::string of = mode.dresspack.empty() ? "" : " of " + escaped(mode.dresspack);
     const bool wall = mode.mode == UnvalidatedMode::wall;
+    if (mode.mode == UnvalidatedMode::rating || mode.mode == UnvalidatedMode::clamps) {
+      fact(mode.mode + of + (mode.mode == UnvalidatedMode::rating ? ", unvalidated" : ""), escaped(unvalidated_words(mode)));
+      continue;
+    }
     const std::string life =
         wall ? fmt::format("{} of motion until it cracks, {}", unvalidated_life(mode.hours[1]), escaped(mode.place))
              : fmt::format("{} of motion until it is worn through (10 .. 90 %), on {}", range_text(mode.hours[0], mode.hours[2]),

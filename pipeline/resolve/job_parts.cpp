@@ -72,6 +72,17 @@ void describe(Fields& echo, StrainKeys& keys) {
   echo.number("diameter_mm", dresspack.diameter, Need::optional, any_number(), "");
 }
 
+/// Of a cable without described wires.
+struct RatedKeys {
+  std::string name;
+  std::vector<Rating> ratings;
+};
+
+void describe(Fields& echo, RatedKeys& keys) {
+  echo.text("name", keys.name, Need::required, "");
+  echo.list("ratings", keys.ratings, Need::required, "");
+}
+
 /// What of a dresspack decides its lives.
 struct FatigueKeys {
   MountedDresspack mounted;
@@ -82,6 +93,11 @@ void describe(Fields& echo, FatigueKeys& keys) {
   Dresspack& dresspack = keys.mounted.dresspack;
   echo.list("materials", dresspack.materials, Need::optional, "");
   echo.maybe_group("sleeve", dresspack.sleeve, "");
+  echo.maybe_number("bend_relief_mm", dresspack.bend_relief, any_number(), "");
+  std::vector<RatedKeys> rated;
+  for (const Component& part : dresspack.components)
+    if (part.plain && !part.ratings.empty()) rated.push_back({part.name, part.ratings});
+  if (!rated.empty()) echo.list("rated", rated, Need::optional, "");
   if (!dresspack.core_parts.empty()) echo.text("core_parts", dresspack.core_parts, Need::optional, "");
 }
 
@@ -123,6 +139,7 @@ void describe_sim(Fields& echo, Job copy) {
     dresspack.core_diameter = 0;
     dresspack.core_parts.clear();
     dresspack.sleeve.reset();
+    dresspack.bend_relief.reset();
   }
   echo.group("motion", copy.motion, Need::required, "");
   echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());

@@ -78,8 +78,26 @@ std::string inspection_words(const RankingRow& row) {
   if (mode->mode == UnvalidatedMode::abrasion)
     return fmt::format("{} may wear through on {}, {}, after {} (not validated): inspect it there.", of, mode->place, place,
                        range_text(mode->hours[0], mode->hours[2]));
+  if (mode->mode == UnvalidatedMode::rating)
+    return fmt::format("The maker's rating of {} covers only {} (not validated).", mode->place, range_text(mode->hours[0], mode->hours[2]));
   return fmt::format("{} may come before, {}, after {} (not validated): inspect it there.", mode->mode, place,
                      hours_text(early_hours(*mode)));
+}
+
+std::string rating_words(const UnvalidatedMode& mode, const std::string& of) {
+  const std::string until = std::isinf(mode.hours[0])
+                                ? "the whole life in more than 9 of 10 cases"
+                                : fmt::format("{} (10 .. 90 %), {:.2f} m from the tool, most at {:.1f} s{}",
+                                              range_text(mode.hours[0], mode.hours[2]), mode.position_from_tool, mode.time,
+                                              mode.step.empty() ? "" : ", during '" + mode.step + "'");
+  return fmt::format("The maker's rating of {}{} is a lower bound of its life, is not validated and not in the hours above. It "
+                     "covers {}.", mode.place, of, until);
+}
+
+std::string clamp_words(const UnvalidatedMode& mode, const std::string& of) {
+  if (std::isinf(mode.hours[1])) return fmt::format("Bending at the clamps{} damages no wire in the median.", of);
+  return fmt::format("Bending at the {}{} breaks wires after {} (10 .. 90 %), which the hours above count.", mode.place, of,
+                     range_text(mode.hours[0], mode.hours[2]));
 }
 
 }  // namespace
@@ -188,6 +206,8 @@ std::string unvalidated_words(const UnvalidatedMode& mode) {
   if (mode.mode == UnvalidatedMode::wall)
     return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.{}", of,
                        unvalidated_life(mode.hours[1]), too_short_wall(mode));
+  if (mode.mode == UnvalidatedMode::rating) return joined_words({rating_words(mode, of), mode.note});
+  if (mode.mode == UnvalidatedMode::clamps) return joined_words({clamp_words(mode, of), mode.note});
   if (mode.place.empty()) return fmt::format("Abrasion{}: nothing rubs on the dresspack.", of);
   const std::string when = std::isinf(mode.hours[0])
                                ? "in fewer than 1 of 10 dresspacks"
