@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "fatigue/clamps.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
@@ -212,25 +211,6 @@ void write_tensions(pipeline::FileWriter& life, const std::vector<std::string>& 
 }
 
 }  // namespace
-
-std::optional<ClampPull> worst_clamp_pull(const pipeline::FileReader& strain, const pipeline::Job& job) {
-  if (!strain.has("/cable/strain")) return {};
-  const Cables cables = cables_of(strain, job);
-  const auto names = strain.read<std::string>("/cable/name");
-  const auto dresspack = strain.read<std::int32_t>("/cable/dresspack"), component = strain.read<std::int32_t>("/cable/component");
-  std::optional<ClampPull> worst;
-  for (std::size_t k = 0; k < cables.all.size(); ++k) {
-    double most = 0;
-    for (const std::size_t end : {1, 2})
-      for (const double one : cables.all[k].strain[end]) most = std::max(most, one);
-    const double force = cables.all[k].force.force(most);  // rises with the strain
-    const auto& part = job.dresspacks[static_cast<std::size_t>(dresspack[k])]
-                           .dresspack.components[static_cast<std::size_t>(component[k])];
-    const double holds = strain_relief_force(2 * part.radius);
-    if (force > 0 && (!worst || force / holds > worst->force / worst->holds)) worst = ClampPull{names[k], static_cast<std::size_t>(dresspack[k]), force, holds};
-  }
-  return worst;
-}
 
 std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& strain,
                                                   const pipeline::Job& job, pipeline::FileWriter& life) {

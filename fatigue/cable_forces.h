@@ -2,8 +2,6 @@
 // strain/theory.md). They are results and cause warnings, because the lives depend on them.
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "pipeline/base/warnings.h"
@@ -11,15 +9,6 @@
 #include "pipeline/job/job.h"
 
 namespace dresslife::fatigue {
-
-/// The pull that comes nearest to what a strain relief of its cable holds (clamps.h), or passes it most.
-struct ClampPull {
-  std::string cable;
-  std::size_t dresspack = 0;
-  double force = 0, holds = 0;  ///< [N]
-};
-/// Nothing: the file has no strains of cables, or none is pulled. Errors: as below.
-std::optional<ClampPull> worst_clamp_pull(const pipeline::FileReader& strain, const pipeline::Job& job);
 
 /// Writes tensions, moments and their shares into the life file. Of a file that has no strains of cables what
 /// it tells itself is handed on. Errors: InputError when the file names a cable that the job does not have.

@@ -12,7 +12,6 @@
 
 #include "fatigue/attribution.h"
 #include "fatigue/cable_forces.h"
-#include "fatigue/clamps.h"
 #include "fatigue/conductors.h"
 #include "fatigue/failure_modes.h"
 #include "fatigue/planes.h"
@@ -586,110 +585,12 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c) {
   return modes;
 }
 
-/// Where the wires of a dresspack are evaluated at one of its ends.
-struct ClampedEnd {
-  std::size_t dresspack, segment;
-  double damage = 0, relieved = 0;  ///< per repeat of the worst wire there, without and with a bend relief
-};
-
-double relief_of(const pipeline::Dresspack& dresspack) { return dresspack.bend_relief.value_or(dresspack.diameter); }
-
-std::vector<ClampedEnd> clamped_ends(const Context& c) {
-  const auto worst = worst_by_segment(c, true);
-  std::vector<float> range(worst.size());  // the largest of all wires
-  for (std::size_t site = 0; site < c.sites.size(); ++site)
-    if (c.damage.is_wire(site)) {
-      float& largest = range[static_cast<std::size_t>(c.sites.segment(site))];
-      largest = std::max(largest, c.damage.range[site]);
-    }
-  std::vector<ClampedEnd> ends;
-  for (std::size_t d = 0; d < c.job.dresspacks.size(); ++d) {
-    const auto [first, end] = c.segments_of(d);
-    if (end - first < 2) continue;
-    const pipeline::Dresspack& dresspack = c.job.dresspacks[d].dresspack;
-    const auto add = [&](std::size_t segment, std::size_t next) {
-      const std::size_t site = worst[segment];
-      ClampedEnd& one = ends.emplace_back(ClampedEnd{d, segment});
-      if (site == no_site || c.damage.damage[site] == 0) return;
-      one.damage = c.damage.damage[site];
-      const double left = relieved_strain(c.damage.range[site], range[next], std::abs(c.wires_at[next] - c.wires_at[segment]),
-                                          relief_of(dresspack)) / c.damage.range[site];
-      std::vector<float> strains = c.strains_of(site);
-      for (float& strain : strains) strain = static_cast<float>(left * strain);
-      DamageCounter::Workspace workspace;
-      one.relieved = std::min(one.damage, c.counters.of(site).settled_damage(strains, workspace));
-    };
-    constexpr double rounding = 1e-9;  // [m]
-    if (c.wires_at[first] < rounding) add(first, first + 1);
-    if (c.from_tool(end - 1) < rounding) add(end - 1, end - 2);
-  }
-  return ends;
-}
-
-/// before, after: damage per repeat of the dresspack's worst place without and with reliefs.
-std::string relief_words(const pipeline::Dresspack& dresspack, double before, double after) {
-  constexpr double longest = 1000, changes = 1.05;  // beyond and below these factors numbers say nothing
-  const double factor = after > 0 ? before / after : 2 * longest;
-  const std::string own = dresspack.bend_relief ? "The bend reliefs, which are not in these hours," : "Bend reliefs";
-  const std::string length = fmt::format("of {:.3g} mm", 1e3 * relief_of(dresspack));
-  if (before == 0 || factor < changes) return fmt::format("{} {} would not prolong the life of the wires. ", own, length);
-  return fmt::format("{} {} would let the wires live at least {} times as long. ", own, length,
-                     pipeline::readable(std::min(factor, longest), 2));
-}
-
-std::string pull_words(const ClampPull& pull) {
-  return fmt::format("The largest pull at a clamp is {} N, on {}; a strain relief (EN 50262, type A) {}holds {:g} N.",
-                     pipeline::readable(pull.force, 2), pull.cable, pull.force > pull.holds ? "only " : "",
-                     pull.holds);
-}
-
-/// The wires at the worst clamp of each dresspack, and what bend reliefs at its clamps would change. Their lives follow those
-/// of the dresspack's worst place: both are of the same copper, friction and slack. So a relief counts as a factor, that of the
-/// medians.
-std::vector<pipeline::UnvalidatedMode> clamp_modes(const Context& c, const std::vector<double>& lives) {
-  std::vector<pipeline::UnvalidatedMode> modes;
-  const std::vector<ClampedEnd> ends = clamped_ends(c);
-  const auto worst = worst_by_segment(c, true);
-  const std::optional<ClampPull> pull = worst_clamp_pull(c.strain, c.job);
-  const double first = c.worst == no_site ? 0 : c.damage.damage[c.worst];
-  for (std::size_t d = 0; d < c.job.dresspacks.size(); ++d) {
-    const ClampedEnd* at = nullptr;
-    double rest = 0;  // damage of the worst place with reliefs at this dresspack's clamps
-    for (std::size_t segment = 0; segment < worst.size(); ++segment) {
-      const auto of = std::find_if(ends.begin(), ends.end(),
-                                   [&](const ClampedEnd& one) { return one.dresspack == d && one.segment == segment; });
-      if (of != ends.end() && (!at || of->damage > at->damage)) at = &*of;
-      if (worst[segment] != no_site) rest = std::max(rest, of == ends.end() ? c.damage.damage[worst[segment]] : of->relieved);
-    }
-    if (!at) continue;
-    const pipeline::Dresspack& dresspack = c.job.dresspacks[d].dresspack;
-    pipeline::UnvalidatedMode& mode = modes.emplace_back();
-    mode.mode = pipeline::UnvalidatedMode::clamps;
-    mode.dresspack = pipeline::name_among(c.job, d);
-    const std::size_t begin = c.segments_of(d).first;
-    mode.place = at->segment == begin ? "base clamp" : "tool clamp";
-    mode.segment_from_tool = static_cast<int>(c.segments_of(d).end - at->segment);
-    mode.position_from_tool = c.from_tool(at->segment);
-    const auto later = [&](double damage) {  // (sample) log10 repeats of what has this damage where the worst place has `first`
-      std::vector<double> own = lives;
-      for (double& life : own) life = damage > 0 ? life + std::log10(first / damage) : std::numeric_limits<double>::infinity();
-      return pipeline::percentiles_of(std::move(own));
-    };
-    const auto own = later(at->damage);
-    for (std::size_t i = 0; i < own.size(); ++i) mode.hours[i] = hours(own[i], c.repeat_seconds());
-    mode.together_p10 = hours(later(rest)[0], c.repeat_seconds());
-    mode.note = relief_words(dresspack, first, rest);
-    if (pull && pull->dresspack == d) mode.note += pull_words(*pull);
-  }
-  return modes;
-}
-
 /// Modes that are not in the planner's hours. Returns notes for the terminal. lives: (sample) log10 repeats of those
 /// that are.
 std::string write_unvalidated(const Context& c, const std::vector<double>& lives) {
   std::vector<pipeline::UnvalidatedMode> modes = abrasion_modes(c.strain, c.job, lives);
-  for (auto& more : {rating_modes(c.strain, c.job, lives), clamp_modes(c, lives)})
-    modes.insert(modes.end(), more.begin(), more.end());
+  const auto rated = rating_modes(c.strain, c.job, lives);
+  modes.insert(modes.end(), rated.begin(), rated.end());
   const auto wall = write_hose(c);
   modes.insert(modes.end(), wall.begin(), wall.end());
   c.life.attribute("unvalidated_modes", pipeline::unvalidated_text(modes));

@@ -258,7 +258,7 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job) {
                                 [](const auto& mounted) { return worn_of(mounted.dresspack).has_value(); });
   if (!worn) add(UnvalidatedMode::abrasion);
   if (cables) add("jackets of the cables");
-  for (const char* always : {"kinks", "corkscrew", "fretting at clamps", "connectors"}) add(always);
+  for (const char* always : {"kinks", "corkscrew", "fretting and grip at clamps", "connectors"}) add(always);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

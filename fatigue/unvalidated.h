@@ -31,7 +31,7 @@ std::vector<pipeline::UnvalidatedMode> rating_modes(const pipeline::FileReader& 
 /// repeat: duration of one [s].
 void set_lives(pipeline::UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives, double repeat);
 
-/// The parts and modes of the job that have no life, in words: "power cable, kinks, corkscrew, fretting at clamps, connectors".
+/// The parts and modes of the job that have no life, in words: "power cable, kinks, corkscrew, fretting and grip at clamps, connectors".
 std::string not_evaluated(const pipeline::FileReader& strain, const pipeline::Job& job);
 
 }  // namespace dresslife::fatigue

@@ -196,9 +196,6 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.maybe_group("sleeve", dresspack.sleeve,
                 "A sleeve over the hose, or the jacket of a cable without a hose, that may wear through. Default: the wall "
                 "of hose_corrugation wears.");
-  f.maybe_number("bend_relief_mm", dresspack.bend_relief, above(0),
-                 "The length of the bend reliefs of hose and cables at the clamps. The planner's hours do not count them: results "
-                 "state beside them what a relief changes. Default: results state it for one diameter.");
   f.list("components", dresspack.components, Need::optional,
          "The parts in the hose. Without them only the motion is computed. `place: auto` instead of "
          "helix_radius_mm and phase_deg packs parts into the bore.");
@@ -457,7 +454,10 @@ bool is_from_construction(const Dresspack& dresspack) {
 
 void drop_ratings(Dresspack& dresspack) {
   dresspack.ratings.clear();
-  for (Component& component : dresspack.components) component.ratings.clear();
+  for (Component& component : dresspack.components) {
+    component.ratings.clear();
+    if (component.plain) component.plain->damage_exponent.reset();
+  }
 }
 
 int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {

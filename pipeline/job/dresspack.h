@@ -127,7 +127,6 @@ struct Dresspack {
   double core_diameter = 0;              ///< of what fills the middle and is no component [m]
   std::string core_parts;                ///< what that is, in words; empty: not said
   std::optional<Sleeve> sleeve;          ///< absent: abrasion wears the wall of hose_corrugation
-  std::optional<double> bend_relief;     ///< length of the bend reliefs at the clamps [m]
   std::vector<Component> components;
   std::vector<Material> materials;  ///< those that the wires name, looked up in the catalogue
   std::vector<Rating> ratings;      ///< of a dresspack that is a cable itself

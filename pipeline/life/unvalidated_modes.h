@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,7 +15,6 @@ struct UnvalidatedMode {
   static constexpr const char* wall = "hose's wall";
   static constexpr const char* abrasion = "abrasion";
   static constexpr const char* rating = "maker's rating";
-  static constexpr const char* clamps = "bending at clamps";
 
   std::string mode;       ///< one of the above
   std::string dresspack;  ///< in which, among several; empty: the only one
@@ -24,13 +24,14 @@ struct UnvalidatedMode {
   double together_p10 = unknown;  ///< the planner's hours if this mode counted, too [h]
   int segment_from_tool = 0;      ///< of its worst place, 1 is nearest to the tool; 0: not known
   double position_from_tool = 0;  ///< [m]
-  std::string place;              ///< what rubs: "link_4"; of the wall the place around it: "hose 5"; a rated cable; a clamp
+  std::string place;              ///< what rubs: "link_4"; of the wall the place around it: "hose 5"; a rated cable
   double time = 0;                ///< when it is loaded most [s]
   std::string step;               ///< program line that runs then; empty: none
   double bends_at_limit = 0;      ///< of the wall by its law: bends of a straight hose to its bend radius limit; 0: not known
+  std::string note;                ///< further sentences; empty: none
 
-  std::string note;               ///< further sentences; empty: none
-
+  /// By then 1 of 10 has failed by this mode; of the wall, whose scatter is not known, half.
+  double early_hours() const { return std::isnan(hours[0]) ? hours[1] : hours[0]; }
   bool operator==(const UnvalidatedMode&) const = default;
 };
 

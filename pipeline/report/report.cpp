@@ -343,8 +343,8 @@ std::string facts(const RankingRow& row) {
   for (const UnvalidatedMode& mode : row.unvalidated) {
     const std::string of = mode.dresspack.empty() ? "" : " of " + escaped(mode.dresspack);
     const bool wall = mode.mode == UnvalidatedMode::wall;
-    if (mode.mode == UnvalidatedMode::rating || mode.mode == UnvalidatedMode::clamps) {
-      fact(mode.mode + of + (mode.mode == UnvalidatedMode::rating ? ", unvalidated" : ""), escaped(unvalidated_words(mode)));
+    if (mode.mode == UnvalidatedMode::rating) {
+      fact(mode.mode + of + ", unvalidated", escaped(unvalidated_words(mode)));
       continue;
     }
     const std::string life =

@@ -75,11 +75,15 @@ void describe(Fields& echo, StrainKeys& keys) {
 /// Of a cable without described wires.
 struct RatedKeys {
   std::string name;
+  double radius = 0;
+  std::optional<double> damage_exponent;
   std::vector<Rating> ratings;
 };
 
 void describe(Fields& echo, RatedKeys& keys) {
   echo.text("name", keys.name, Need::required, "");
+  echo.number("radius_mm", keys.radius, Need::required, any_number(), "");
+  echo.maybe_number("damage_exponent", keys.damage_exponent, any_number(), "");
   echo.list("ratings", keys.ratings, Need::required, "");
 }
 
@@ -93,10 +97,9 @@ void describe(Fields& echo, FatigueKeys& keys) {
   Dresspack& dresspack = keys.mounted.dresspack;
   echo.list("materials", dresspack.materials, Need::optional, "");
   echo.maybe_group("sleeve", dresspack.sleeve, "");
-  echo.maybe_number("bend_relief_mm", dresspack.bend_relief, any_number(), "");
   std::vector<RatedKeys> rated;
   for (const Component& part : dresspack.components)
-    if (part.plain && !part.ratings.empty()) rated.push_back({part.name, part.ratings});
+    if (part.plain && !part.ratings.empty()) rated.push_back({part.name, part.radius, part.plain->damage_exponent, part.ratings});
   if (!rated.empty()) echo.list("rated", rated, Need::optional, "");
   if (!dresspack.core_parts.empty()) echo.text("core_parts", dresspack.core_parts, Need::optional, "");
 }
@@ -139,7 +142,6 @@ void describe_sim(Fields& echo, Job copy) {
     dresspack.core_diameter = 0;
     dresspack.core_parts.clear();
     dresspack.sleeve.reset();
-    dresspack.bend_relief.reset();
   }
   echo.group("motion", copy.motion, Need::required, "");
   echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());

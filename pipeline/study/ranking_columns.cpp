@@ -75,7 +75,7 @@ class Table {
               [](const RankingRow& row) -> const Lives& { return row.free_hours; });
     add_test();
     add_abrasion();
-    add_rating_and_clamps();
+    add_rating();
   }
   std::vector<RankingColumn> columns;
 
@@ -109,8 +109,8 @@ class Table {
     add(of("not_evaluated", "text", "parts of the dresspack and failure modes without a life", &RankingRow::not_evaluated));
   }
 
-  void add_rating_and_clamps() {
-    constexpr const char *rating = UnvalidatedMode::rating, *clamps = UnvalidatedMode::clamps;
+  void add_rating() {
+    constexpr const char* rating = UnvalidatedMode::rating;
     constexpr std::array<const char*, 3> ends{"p10", "p50", "p90"};
     for (std::size_t i = 0; i < ends.size(); ++i)
       add(of_mode(fmt::format("rating_hours_{}", ends[i]), "h",
@@ -120,14 +120,6 @@ class Table {
     add(of_mode("rating_first_share", "1", "share of the samples in which the wires of other cables outlive the rating", rating,
                 [](const UnvalidatedMode& mode) { return mode.first_share; }));
     add(of_mode("rating_of", "text", "that cable", rating, [](const UnvalidatedMode& mode) { return mode.place; }));
-    for (std::size_t i = 0; i < ends.size(); ++i)
-      add(of_mode(fmt::format("clamps_life_hours_{}", ends[i]), "h",
-                  "life of the wires at the worst clamp, which life_hours counts", clamps,
-                  [i](const UnvalidatedMode& mode) { return mode.hours[i]; }));
-    add(of_mode("clamps_at", "text", "that clamp", clamps, [](const UnvalidatedMode& mode) { return mode.place; }));
-    add(of_mode("clamps_relieved_hours_p10", "h",
-                "life_hours_p10 with bend reliefs of bend_relief_mm or one diameter of the hose, at least; not validated", clamps,
-                [](const UnvalidatedMode& mode) { return mode.together_p10; }));
   }
 
   void add_worst_wire() {

@@ -950,15 +950,13 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   dresspack.diameter = 0.05;
   StrainFile f = example();
   const auto modes_of = [](const FileReader& life) {
-    auto modes = pipeline::unvalidated_from(life.text_attribute("unvalidated_modes"));
-    std::erase_if(modes, [](const auto& mode) { return mode.mode == pipeline::UnvalidatedMode::clamps; });
-    return modes;
+    return pipeline::unvalidated_from(life.text_attribute("unvalidated_modes"));
   };
   const auto names_in = [](const FileReader& life) { return life.text_attribute("not_evaluated"); };
   {  // neither a thickness nor contacts
     const FileReader none(run(folder, f, job, "none.h5").file, pipeline::life_format());
     CHECK(modes_of(none).empty());
-    CHECK(names_in(none) == "abrasion, jackets of the cables, kinks, corkscrew, fretting at clamps, connectors");
+    CHECK(names_in(none) == "abrasion, jackets of the cables, kinks, corkscrew, fretting and grip at clamps, connectors");
   }
   pipeline::Material polymer;
   polymer.name = "polymer";
@@ -971,7 +969,7 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   const FileReader life(result.file, pipeline::life_format());
   const auto modes = modes_of(life);
   REQUIRE(modes.size() == 1);
-  CHECK(names_in(life) == "water hose, jackets of the cables, kinks, corkscrew, fretting at clamps, connectors");
+  CHECK(names_in(life) == "water hose, jackets of the cables, kinks, corkscrew, fretting and grip at clamps, connectors");
   CHECK(modes[0].place == "link_4");
   CHECK(modes[0].position_from_tool == Approx(0.35));
   CHECK(modes[0].segment_from_tool == 1);  // the last of 0.4 m
@@ -1028,35 +1026,4 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
   const double ratio = (1 / 0.11) / 5;  // the rig bends the axis
   CHECK(modes[0].hours[1] == Approx(hours(1e6 * std::pow(ratio, 5), duration)).epsilon(strata));
   CHECK(std::log10(modes[0].hours[2] / modes[0].hours[0]) == Approx(2 * 1.28155 * 1.5 * std::log10(ratio)).epsilon(strata));
-}
-
-TEST_CASE("life.h5: wires at a clamp are named with what a bend relief changes, which no hours count") {
-  const Folder folder;
-  pipeline::Job job = test_job();
-  job.dresspacks[0].dresspack.diameter = 0.05;
-  StrainFile f = example();  // at the base clamp 0.005, 0.2 m from there 0.002, further on less
-  f.sites = {swing(0, "cable 1/layer 1/wire 1", 0.005f), swing(1, "cable 1/layer 1/wire 1", 0.002f)};
-  const auto clamps_in = [&](const char* name) {
-    const FileReader life(run(folder, f, job, name).file, pipeline::life_format());
-    auto modes = pipeline::unvalidated_from(life.text_attribute("unvalidated_modes"));
-    std::erase_if(modes, [](const auto& mode) { return mode.mode != pipeline::UnvalidatedMode::clamps; });
-    REQUIRE(modes.size() == 1);
-    constexpr double six_figures = 1e-5;  // of the text
-    CHECK(modes[0].hours[0] == Approx(life.number_attribute("life_hours_p10")).epsilon(six_figures));
-    return modes[0];
-  };
-  const pipeline::UnvalidatedMode without = clamps_in("without.h5");
-  CHECK(without.place == "base clamp");
-  CHECK(without.position_from_tool == Approx(1));
-  CHECK_THAT(without.note, Catch::StartsWith("Bend reliefs of 50 mm would let the wires live at least "));
-  job.dresspacks[0].dresspack.bend_relief = 0.2;
-  const pipeline::UnvalidatedMode longer = clamps_in("longer.h5");
-  CHECK(longer.hours == without.hours);
-  CHECK(longer.together_p10 > without.together_p10);
-  CHECK(without.together_p10 > without.hours[0]);
-  CHECK_THAT(longer.note, Catch::StartsWith("The bend reliefs, which are not in these hours, of 200 mm would let the wires live "));
-  f.sites[1] = swing(1, "cable 1/layer 1/wire 1", 0.005f);  // nothing falls away from the clamp
-  const pipeline::UnvalidatedMode even = clamps_in("even.h5");
-  CHECK(even.together_p10 == even.hours[0]);
-  CHECK_THAT(even.note, Catch::Contains("would not prolong"));
 }

@@ -51,7 +51,6 @@ Dresspack scaled(Dresspack dresspack, double factor) {
   if (Corrugation* wall = dresspack.hose_corrugation ? &*dresspack.hose_corrugation : nullptr)
     multiply(factor, {&wall->pitch, &wall->height, &wall->wall});
   if (dresspack.sleeve) dresspack.sleeve->thickness *= factor;
-  multiply(factor, {&dresspack.bend_relief});
   for (Component& component : dresspack.components) scale(component, factor);
   drop_ratings(dresspack);
   dresspack.source = fmt::format("{} times the size of {}: {}", factor, dresspack.name, dresspack.source);

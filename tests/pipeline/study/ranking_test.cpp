@@ -374,41 +374,33 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   CHECK(table[1].at(column("not_evaluated")) == "water hose, kinks");
 }
 
-TEST_CASE("ranking: ratings and clamps have words and columns, and the first action names a rating that may end first") {
+TEST_CASE("ranking: ratings have words and columns, and the first action names a rating that may end first") {
   const Scratch scratch;
   UnvalidatedMode rated;
   rated.mode = UnvalidatedMode::rating;
   rated.hours = {5000, 9000, 16000}, rated.first_share = 0.9, rated.together_p10 = 5000;
   rated.place = "power cable", rated.position_from_tool = 0.4, rated.time = 3, rated.note = "20 % of that\tis twist.";
-  UnvalidatedMode clamps;
-  clamps.mode = UnvalidatedMode::clamps, clamps.place = "tool clamp", clamps.hours = {1e5, 2e5, 3e5}, clamps.together_p10 = 4e5;
-  clamps.note = "Bend reliefs help.";
-  SampleLife both = living(12000);
-  both.planned_hours = 1e5, both.robot_life_hours = 40000;
-  both.unvalidated = unvalidated_text({rated, clamps});
-  const auto rows = read_ranking({job_with(scratch, "both", both)});
+  SampleLife life = living(12000);
+  life.planned_hours = 1e5, life.robot_life_hours = 40000;
+  life.unvalidated = unvalidated_text({rated});
+  const auto rows = read_ranking({job_with(scratch, "rated", life)});
   CHECK(action_words(rows[0]) ==
-        "The evaluated parts last longer than the robot (40,000 h). The maker's rating of power cable covers 5,000 .. 16,000 h only "
-        "(not validated). Not evaluated: water hose, kinks.");
+        "The wires last longer than the robot (40,000 h). The maker's rating of power cable covers only 5,000 .. 16,000 h (not "
+        "validated): test or replace it by then. Not evaluated: water hose, kinks.");
   CHECK(unvalidated_words(rows[0]) ==
         "The maker's rating of power cable is a lower bound of its life, is not validated and not in the hours above. It covers 5,000 "
-        ".. 16,000 h (10 .. 90 %), 0.40 m from the tool, most at 3.0 s. 20 % of that is twist. Bending at the tool clamp breaks wires "
-        "after 100,000 .. 300,000 h (10 .. 90 %), which the hours above count. Bend reliefs help.");
+        ".. 16,000 h (10 .. 90 %), 0.40 m from the tool, most at 3.0 s. 20 % of that is twist.");
   const auto table = read_csv(ranking_csv(rows));
   const auto cell = [&](const std::string& name) {
     return table[1].at(static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), name) - table[0].begin()));
   };
   CHECK(cell("rating_hours_p50") == "9000");
   CHECK(cell("rating_of") == "power cable");
-  CHECK(cell("clamps_life_hours_p10") == "100000");
-  CHECK(cell("clamps_relieved_hours_p10") == "400000");
   CHECK(cell("abrasion_life_hours_p50").empty());
   rated.hours.fill(infinity), rated.note = "";
   CHECK(unvalidated_words(rated) ==
         "The maker's rating of power cable is a lower bound of its life, is not validated and not in the hours above. It covers the "
         "whole life in more than 9 of 10 cases.");
-  clamps.hours.fill(infinity);
-  CHECK(unvalidated_words(clamps) == "Bending at the clamps damages no wire in the median. Bend reliefs help.");
 }
 
 TEST_CASE("ranking: the relative life of a rated cable has columns and words, empty without a rating") {
