@@ -11,9 +11,11 @@
 #include <optional>
 
 #include "fatigue/damage.h"
+#include "fatigue/inspection.h"
 #include "fatigue/life_distribution.h"
 #include "fatigue/rated_cables.h"
 #include "fatigue/wear.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
@@ -149,6 +151,25 @@ std::string rating_words(const RatedLife& rated) {
   return std::isinf(rated.repeats) ? "" : fmt::format("{:.0f} % of that is twist.", 100 * rated.twist_share);
 }
 
+/// Share of the life after which abrasion is visible.
+double visible_from(const WornMaterial& material, const Abrasion& worn, const pipeline::Inspection& inspection) {
+  const WornLayer& layer = material.layer;
+  return layer.area(inspection.visible_depth_percent / 100 * layer.thickness, worn.arc) / layer.area(layer.thickness, worn.arc);
+}
+
+void put_inspection(UnvalidatedMode& mode, double visible_from, const std::vector<double>& own, double repeat,
+                    const pipeline::Job& job) {
+  const Inspected result = inspected(own, repeat, visible_from, job.inspection, job.fatigue);
+  mode.found_share = result.found_share, mode.unseen_share = result.unseen_share;
+  constexpr double said = 0.01;  // rarer failures need no plan
+  if (result.failed_share >= said)
+    mode.note = fmt::format(
+        "By the model {:.0f} % of the dresspacks wear through within the robot's life. A visual check every {:g} weeks "
+        "finds {} % of these before; {} % of all wear through unseen. No check sees broken wires.",
+        100 * result.failed_share, job.inspection.interval_weeks, pipeline::readable(100 * result.found_share),
+        pipeline::readable(100 * result.unseen_share, 2));
+}
+
 bool is_hose(const pipeline::Dresspack& dresspack) {
   return dresspack.hose_corrugation || dresspack.inner_diameter || !dresspack.hose_material.empty();
 }
@@ -179,6 +200,7 @@ std::vector<UnvalidatedMode> abrasion_modes(const FileReader& strain, const pipe
                                    std::lower_bound(program.time.begin(), program.time.end(), worn.time) -
                                    program.time.begin()));
     }
+    if (job.inspection.interval_weeks > 0) put_inspection(mode, visible_from(*material, worn, job.inspection), own, program.repeat(), job);
     set_lives(mode, std::move(own), lives, program.repeat());
   }
   return modes;

@@ -30,6 +30,8 @@ struct UnvalidatedMode {
   double bends_at_limit = 0;      ///< of the wall by its law: bends of a straight hose to its bend radius limit; 0: not known
   std::string note;                ///< further sentences; empty: none
 
+  double found_share = unknown;   ///< of what fails within the robot's life, visual checks find this before; unknown: nothing fails
+  double unseen_share = unknown;  ///< of all dresspacks: they fail within the robot's life, and no check has found it
   /// By then 1 of 10 has failed by this mode; of the wall, whose scatter is not known, half.
   double early_hours() const { return std::isnan(hours[0]) ? hours[1] : hours[0]; }
   bool operator==(const UnvalidatedMode&) const = default;

@@ -354,8 +354,9 @@ std::string facts(const RankingRow& row) {
     fact(mode.mode + of + ", unvalidated",
          std::isinf(mode.hours[1])
              ? "not damaged"
-             : fmt::format("{}, segment {} from the tool ({:.2f} m){}", life, mode.segment_from_tool, mode.position_from_tool,
-                           mode.step.empty() ? "" : ", worst during '" + escaped(mode.step) + "'"));
+             : fmt::format("{}, segment {} from the tool ({:.2f} m){}{}", life, mode.segment_from_tool, mode.position_from_tool,
+                           mode.step.empty() ? "" : ", worst during '" + escaped(mode.step) + "'",
+                           mode.note.empty() ? "" : ". " + escaped(mode.note)));
   }
   if (!row.not_evaluated.empty()) fact("not evaluated", escaped(row.not_evaluated));
   if (damaged(row)) {

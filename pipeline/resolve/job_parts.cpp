@@ -173,6 +173,7 @@ void describe_fatigue(Fields& echo, Job copy) {
   for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted});
   describe_each(echo, forms_of(copy), keys);
   echo.group("fatigue", copy.fatigue, Need::optional, "");
+  echo.group("inspection", copy.inspection, Need::optional, "");
   echo.group("uncertainty", copy.uncertainty, Need::optional, "");
   echo.maybe_group("calibration", copy.calibration, "");
 }

@@ -76,6 +76,7 @@ class Table {
     add_test();
     add_abrasion();
     add_rating();
+    add_inspection();
   }
   std::vector<RankingColumn> columns;
 
@@ -120,6 +121,15 @@ class Table {
     add(of_mode("rating_first_share", "1", "share of the samples in which the wires of other cables outlive the rating", rating,
                 [](const UnvalidatedMode& mode) { return mode.first_share; }));
     add(of_mode("rating_of", "text", "that cable", rating, [](const UnvalidatedMode& mode) { return mode.place; }));
+  }
+
+  void add_inspection() {
+    constexpr const char* abrasion = UnvalidatedMode::abrasion;
+    add(of_mode("abrasion_found_share", "1",
+                "share of the dresspacks worn through within the robot's life of which a visual check sees the wear before; not validated",
+                abrasion, [](const UnvalidatedMode& mode) { return mode.found_share; }));
+    add(of_mode("abrasion_unseen_share", "1", "share of all dresspacks that wear through within the robot's life, unseen by checks",
+                abrasion, [](const UnvalidatedMode& mode) { return mode.unseen_share; }));
   }
 
   void add_worst_wire() {

@@ -212,7 +212,7 @@ std::string unvalidated_words(const UnvalidatedMode& mode) {
   if (mode.first_share >= 0.01)
     text += fmt::format(" It comes before the wires in {:.0f} % of the samples; with it 1 of 10 has failed after {}.",
                         100 * mode.first_share, hours_text(mode.together_p10));
-  return text;
+  return joined_words({text, mode.note});
 }
 
 std::string unvalidated_words(const RankingRow& row) {

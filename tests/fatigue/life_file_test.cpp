@@ -14,6 +14,7 @@
 
 #include "fatigue/scatter.h"
 #include "fatigue/verdict.h"
+#include "pipeline/base/statistics.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_force.h"
 #include "pipeline/job/job.h"
@@ -987,6 +988,18 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   CHECK(modes[0].together_p10 <= life.number_attribute("life_hours_p10") * (1 + six_figures));
   CHECK(modes[0].together_p10 <= modes[0].hours[0] * (1 + six_figures));
   CHECK_THAT(result.notes.summary, Catch::Contains("; the surface lasts "));
+  CHECK(modes[0].found_share > 0);
+  CHECK_THAT(modes[0].note, Catch::Contains("A visual check every 2 weeks finds "));
+  job.inspection.visible_depth_percent = 100;  // visible as it fails: nothing is found
+  const auto unseen = modes_of(FileReader(run(folder, f, job, "unseen.h5").file, pipeline::life_format()));
+  CHECK(unseen[0].hours == modes[0].hours);
+  CHECK(unseen[0].found_share == 0);
+  const double worn = std::log10(job.fatigue.robot_life_hours / hours(repeats, duration)) / spread;
+  CHECK(unseen[0].unseen_share == Approx(pipeline::normal_share(worn)).margin(strata));
+  job.inspection.interval_weeks = 0;
+  const auto unchecked = modes_of(FileReader(run(folder, f, job, "unchecked.h5").file, pipeline::life_format()));
+  CHECK(std::isnan(unchecked[0].unseen_share));
+  CHECK(unchecked[0].note.empty());
 
   f.rubbed[1] = {-0.15, 10, 30};
   CHECK_THROWS_WITH(run(folder, f, job, "damaged.h5"),

@@ -332,6 +332,7 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   worn.first_share = 0.43, worn.together_p10 = 280;
   worn.segment_from_tool = 4, worn.position_from_tool = 0.13;
   worn.place = "link_4", worn.time = 2.5, worn.step = "weld\tspot";
+  worn.found_share = 0.97, worn.unseen_share = 0.02, worn.note = "A check finds it.";
   UnvalidatedMode untouched = worn;
   untouched.hours = {infinity, infinity, infinity}, untouched.place = "", untouched.first_share = 0;
   CHECK(unvalidated_from(unvalidated_text({worn, untouched}))[0].step == "weld spot");
@@ -361,7 +362,7 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   CHECK(unvalidated_words(rows[0]) ==
         "Abrasion is not validated and not in the hours above. By the model it wears through after 300 .. 51,000 h (10 .. 90 %), on "
         "link_4, 0.13 m from the tool, most at 2.5 s, during 'weld spot'. It comes before the wires in 43 % of the samples; with "
-        "it 1 of 10 has failed after 280 h.");
+        "it 1 of 10 has failed after 280 h. A check finds it.");
   CHECK(unvalidated_words(rows[1]) == "Abrasion: nothing rubs on the dresspack.");
   const auto table = read_csv(ranking_csv(rows));
   const auto column = [&](const std::string& name) {
@@ -370,6 +371,8 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   CHECK(table[1].at(column("abrasion_life_hours_p50")) == "2400");
   CHECK(table[1].at(column("abrasion_first_share")) == "0.43");
   CHECK(table[1].at(column("abrasion_on")) == "link_4");
+  CHECK(table[1].at(column("abrasion_found_share")) == "0.97");
+  CHECK(table[1].at(column("abrasion_unseen_share")) == "0.02");
   CHECK(table[2].at(column("abrasion_life_hours_p10")) == "inf");
   CHECK(table[1].at(column("not_evaluated")) == "water hose, kinks");
 }
