@@ -161,13 +161,15 @@ void put_inspection(UnvalidatedMode& mode, double visible_from, const std::vecto
                     const pipeline::Job& job) {
   const Inspected result = inspected(own, repeat, visible_from, job.inspection, job.fatigue);
   mode.found_share = result.found_share, mode.unseen_share = result.unseen_share;
-  constexpr double said = 0.01;  // rarer failures need no plan
-  if (result.failed_share >= said)
-    mode.note = fmt::format(
-        "By the model {:.0f} % of the dresspacks wear through within the robot's life. A visual check every {:g} weeks "
-        "finds {} % of these before; {} % of all wear through unseen. No check sees broken wires.",
-        100 * result.failed_share, job.inspection.interval_weeks, pipeline::readable(100 * result.found_share),
-        pipeline::readable(100 * result.unseen_share, 2));
+  constexpr double said = 0.01, least = 0.1;  // rarer failures need no plan; a share in percent below which digits say nothing
+  if (result.failed_share < said) return;
+  const double found = 100 * result.found_share, unseen = 100 * result.unseen_share;
+  mode.note = fmt::format(
+      "By the model {:.0f} % of the dresspacks wear through within the robot's life. A visual check every {:g} weeks finds {} % of "
+      "these before; {} % of all wear through unseen. No check sees broken wires.",
+      100 * result.failed_share, job.inspection.interval_weeks,
+      found > 100 - least ? fmt::format("more than {:g}", 100 - least) : pipeline::readable(found),
+      unseen < least ? fmt::format("less than {:g}", least) : pipeline::readable(unseen, 2));
 }
 
 bool is_hose(const pipeline::Dresspack& dresspack) {

@@ -138,9 +138,9 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
 void check_evaluated(const AskedLimits& asked, const RankingRow& row) {
   for (const ModeLimit& of : mode_limits)
     if (asked.*of.hours && row.done() && !row.unvalidated_mode(of.mode))
-      throw InputError(asked.where, fmt::format("{} is a limit of {}, which job '{}' does not evaluate", of.key, of.mode, row.job),
+      throw InputError(asked.where, fmt::format("{} is a limit of '{}', which is not evaluated", of.key, of.mode),
                        fmt::format("leave it out, or give the dresspack what it needs{}",
-                                   row.not_evaluated.empty() ? "" : " (not evaluated: " + row.not_evaluated + ")"));
+                                   row.not_evaluated.empty() ? "" : " (all that is not evaluated: " + row.not_evaluated + ")"));
 }
 
 void describe(Fields& f, AskedLimits& limits) {

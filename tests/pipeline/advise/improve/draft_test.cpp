@@ -149,7 +149,7 @@ TEST_CASE("modes beside the wires have limits in hours, and a limit of what a jo
   CHECK_NOTHROW(check_evaluated(asked, row));
   asked.abrasion = 1000;
   CHECK_THROWS_WITH(check_evaluated(asked, row),
-                    Catch::StartsWith("study.yaml:7: error: abrasion_life_h is a limit of abrasion, which job 'hard' does not evaluate") &&
+                    Catch::StartsWith("study.yaml:7: error: abrasion_life_h is a limit of 'abrasion', which is not evaluated") &&
                         Catch::Contains("abrasion, kinks"));
   row.failure = "too short";  // its own reason is told instead
   CHECK_NOTHROW(check_evaluated(asked, row));
