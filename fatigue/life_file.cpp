@@ -565,32 +565,42 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c) {
   c.life.attribute("hose_component", worst.component);
   c.life.attribute("hose_time", worst.time);
   c.life.attribute("hose_step", worst.step);
-  pipeline::UnvalidatedMode mode;
-  mode.mode = pipeline::UnvalidatedMode::wall;
-  mode.dresspack = pipeline::name_among(c.job, c.dresspack_of(c.worst_wall));
-  mode.hours[1] = worst.life_hours;
-  mode.segment_from_tool = static_cast<int>(worst.segment_from_tool);
-  mode.position_from_tool = worst.position_from_tool;
-  mode.place = worst.component;
-  mode.time = worst.time;
-  mode.step = worst.step;
-  mode.bends_at_limit = wall_bends_at_limit(c.job, c.job.dresspacks[c.dresspack_of(c.worst_wall)].dresspack);
-  return {mode};
+  std::vector<pipeline::UnvalidatedMode> modes;
+  for (const std::size_t site : worst_by_group(c.damage, c.job.dresspacks.size(), [&](std::size_t of) {
+         return c.damage.is_wire(of) ? no_site : c.dresspack_of(of);
+       })) {
+    if (site == no_site) continue;
+    const Worst wall = worst_of(c, site, c.cycles_of(site));
+    pipeline::UnvalidatedMode& mode = modes.emplace_back();
+    mode.mode = pipeline::UnvalidatedMode::wall;
+    mode.dresspack = pipeline::name_among(c.job, c.dresspack_of(site));
+    mode.hours[1] = wall.life_hours;
+    mode.segment_from_tool = static_cast<int>(wall.segment_from_tool);
+    mode.position_from_tool = wall.position_from_tool;
+    mode.place = wall.component;
+    mode.time = wall.time;
+    mode.step = wall.step;
+    mode.bends_at_limit = wall_bends_at_limit(c.job, c.job.dresspacks[c.dresspack_of(site)].dresspack);
+  }
+  return modes;
 }
 
 /// Modes that are not in the planner's hours. Returns notes for the terminal. lives: (sample) log10 repeats of those
 /// that are.
 std::string write_unvalidated(const Context& c, const std::vector<double>& lives) {
   std::vector<pipeline::UnvalidatedMode> modes = abrasion_modes(c.strain, c.job, lives);
+  const auto rated = rating_modes(c.strain, c.job, lives);
+  modes.insert(modes.end(), rated.begin(), rated.end());
   const auto wall = write_hose(c);
   modes.insert(modes.end(), wall.begin(), wall.end());
   c.life.attribute("unvalidated_modes", pipeline::unvalidated_text(modes));
   c.life.attribute("not_evaluated", not_evaluated(c.strain, c.job));
   std::string summary;
   for (const pipeline::UnvalidatedMode& mode : modes)
-    summary += fmt::format("; the {} {}", mode.mode == pipeline::UnvalidatedMode::wall ? "hose's wall" : "surface",
-                           std::isinf(mode.hours[1]) ? "is not damaged"
-                                                     : "lasts " + pipeline::readable(mode.hours[1]) + " h");
+    if (mode.mode == pipeline::UnvalidatedMode::wall || mode.mode == pipeline::UnvalidatedMode::abrasion)
+      summary += fmt::format("; the {} {}", mode.mode == pipeline::UnvalidatedMode::wall ? "hose's wall" : "surface",
+                             std::isinf(mode.hours[1]) ? "is not damaged"
+                                                       : "lasts " + pipeline::readable(mode.hours[1]) + " h");
   return summary;
 }
 

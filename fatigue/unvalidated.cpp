@@ -5,11 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "fatigue/damage.h"
+#include "fatigue/inspection.h"
 #include "fatigue/life_distribution.h"
+#include "fatigue/rated_cables.h"
 #include "fatigue/wear.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
@@ -55,19 +61,21 @@ std::vector<std::vector<RubbedPatch>> patches_of(const FileReader& strain, std::
   return patches;
 }
 
-/// Over the samples that the validated modes have; its rate and thickness are of its own.
-LifeResponse response_of(const Abrasion& worn, const pipeline::Job& job, const std::string& dresspack) {
+/// Over the samples that the validated modes have; its spread, a deviation of log10 of repeats, is of its own. name: what has
+/// the same name shares that, too.
+LifeResponse response_of(const std::string& name, double repeats, double log10_spread, const pipeline::Job& job,
+                         const std::string& dresspack) {
   LifeResponse response;
-  response.mode = UnvalidatedMode::abrasion;
+  response.mode = name;
   response.dresspack = dresspack;
   response.knowledge = pipeline::prior_of(job.uncertainty);
   if (!job.uncertainty.enabled) response.knowledge.covariance.setZero();
-  const double median = std::min(std::log10(worn.repeats), LifeResponse::endless);
+  const double median = std::min(std::log10(repeats), LifeResponse::endless);
   response.worst_life = {median};
   response.bound = {median, median, median};
   response.planned.resize(1);
   for (std::size_t i = 0; i < percentiles.size(); ++i)
-    response.planned[0][i] = median + pipeline::normal_quantile(percentiles[i]) * worn.log10_spread;
+    response.planned[0][i] = median + pipeline::normal_quantile(percentiles[i]) * log10_spread;
   response.scatter_shared = 0;
   return response;
 }
@@ -85,6 +93,85 @@ void put_place(UnvalidatedMode& mode, const FileReader& strain, std::size_t dres
     if (of[k] == dresspack && (end += length[k]) > position) ++mode.segment_from_tool;
 }
 
+/// The program as the strain file has it.
+struct Program {
+  std::vector<double> time;
+  std::vector<std::int32_t> step;
+  std::vector<std::string> text;
+
+  explicit Program(const FileReader& strain)
+      : time(strain.read<double>("/time")),
+        step(strain.read<std::int32_t>("/program/step")),
+        text(strain.read<std::string>("/program/text")) {}
+  double repeat() const { return time.empty() ? 0 : time.back() - time.front(); }
+  void put_sample(UnvalidatedMode& mode, std::size_t sample) const {
+    if (sample < step.size() && step[sample] >= 0) mode.step = text[static_cast<std::size_t>(step[sample])];
+  }
+};
+
+bool is_rated(const pipeline::Component& part) { return part.plain && !part.ratings.empty(); }
+
+/// How one dresspack deforms; in its outermost segments as at the clamps where the wires are evaluated there, too.
+struct HoseMotion {
+  std::vector<SegmentMotion> segments;
+  std::vector<double> position;  ///< (segment) from the base clamp [m]
+
+  HoseMotion(const FileReader& strain, std::size_t dresspack) {
+    const auto curvature = strain.read<double>("/deformation/curvature"), twist = strain.read<double>("/deformation/twist"),
+               length = strain.read<double>("/segment/length"), at = strain.read<double>("/segment/wires_at");
+    const auto of = pipeline::dresspack_of_segments(strain);
+    double end = 0;
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      if (of[k] != dresspack) continue;
+      SegmentMotion& segment = segments.emplace_back();
+      for (std::size_t row = k; row < twist.size(); row += of.size()) {
+        segment.curvature1.push_back(curvature[2 * row]), segment.curvature2.push_back(curvature[2 * row + 1]);
+        segment.twist.push_back(twist[row]);
+      }
+      end += length[k];
+      position.push_back(at[k]);
+    }
+    if (segments.size() < 3) return;
+    constexpr double rounding = 1e-9;  // [m]
+    if (position.front() < rounding) move_to_clamp(segments[0], segments[1]);
+    if (end - position.back() < rounding) move_to_clamp(segments.back(), segments[segments.size() - 2]);
+  }
+  /// The curvature goes straight on from the centres of the two segments.
+  static void move_to_clamp(SegmentMotion& nearest, const SegmentMotion& next) {
+    for (std::size_t t = 0; t < nearest.twist.size(); ++t) {
+      nearest.curvature1[t] += (nearest.curvature1[t] - next.curvature1[t]) / 2;
+      nearest.curvature2[t] += (nearest.curvature2[t] - next.curvature2[t]) / 2;
+    }
+  }
+};
+
+std::string rating_words(const RatedLife& rated) {
+  if (!rated.bends) return "Its rating is of twist alone: bending is not evaluated.";
+  if (!rated.twists) return "Its rating is of bending alone: twist is not evaluated.";
+  return std::isinf(rated.repeats) ? "" : fmt::format("{:.0f} % of that is twist.", 100 * rated.twist_share);
+}
+
+/// Share of the life after which abrasion is visible.
+double visible_from(const WornMaterial& material, const Abrasion& worn, const pipeline::Inspection& inspection) {
+  const WornLayer& layer = material.layer;
+  return layer.area(inspection.visible_depth_percent / 100 * layer.thickness, worn.arc) / layer.area(layer.thickness, worn.arc);
+}
+
+void put_inspection(UnvalidatedMode& mode, double visible_from, const std::vector<double>& own, double repeat,
+                    const pipeline::Job& job) {
+  const Inspected result = inspected(own, repeat, visible_from, job.inspection, job.fatigue);
+  mode.found_share = result.found_share, mode.unseen_share = result.unseen_share;
+  constexpr double said = 0.01, least = 0.1;  // rarer failures need no plan; a share in percent below which digits say nothing
+  if (result.failed_share < said) return;
+  const double found = 100 * result.found_share, unseen = 100 * result.unseen_share;
+  mode.note = fmt::format(
+      "By the model {:.0f} % of the dresspacks wear through within the robot's life. A visual check every {:g} weeks finds {} % of "
+      "these before; {} % of all wear through unseen. No check sees broken wires.",
+      100 * result.failed_share, job.inspection.interval_weeks,
+      found > 100 - least ? fmt::format("more than {:g}", 100 - least) : pipeline::readable(found),
+      unseen < least ? fmt::format("less than {:g}", least) : pipeline::readable(unseen, 2));
+}
+
 bool is_hose(const pipeline::Dresspack& dresspack) {
   return dresspack.hose_corrugation || dresspack.inner_diameter || !dresspack.hose_material.empty();
 }
@@ -96,10 +183,7 @@ std::vector<UnvalidatedMode> abrasion_modes(const FileReader& strain, const pipe
   std::vector<UnvalidatedMode> modes;
   if (!strain.has(table_of_work)) return modes;
   const auto patches = patches_of(strain, job.dresspacks.size());
-  const auto time = strain.read<double>("/time");
-  const auto step = strain.read<std::int32_t>("/program/step");
-  const auto text = strain.read<std::string>("/program/text");
-  const double repeat = time.empty() ? 0 : time.back() - time.front();
+  const Program program(strain);
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     const std::optional<WornMaterial> material = worn_of(job.dresspacks[d].dresspack);
     if (!material) continue;
@@ -111,20 +195,56 @@ std::vector<UnvalidatedMode> abrasion_modes(const FileReader& strain, const pipe
     mode.time = worn.time;
     std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
     if (std::isfinite(worn.repeats)) {
-      own = pipeline::first_failures({response_of(worn, job, mode.dresspack)}, "", lives.size());
+      own = pipeline::first_failures(
+          {response_of(mode.mode, worn.repeats, worn.log10_spread, job, mode.dresspack)}, "", lives.size());
       put_place(mode, strain, d, worn.position);
-      const auto sample =
-          static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), worn.time) - time.begin());
-      if (sample < step.size() && step[sample] >= 0) mode.step = text[static_cast<std::size_t>(step[sample])];
+      program.put_sample(mode, static_cast<std::size_t>(
+                                   std::lower_bound(program.time.begin(), program.time.end(), worn.time) -
+                                   program.time.begin()));
     }
-    std::vector<double> together(lives.size());
-    std::size_t first = 0;
-    for (std::size_t s = 0; s < lives.size(); ++s)
-      first += own[s] < lives[s], together[s] = std::min(own[s], lives[s]);
-    mode.first_share = static_cast<double>(first) / static_cast<double>(lives.size());
-    const auto repeats = pipeline::percentiles_of(std::move(own));
-    for (std::size_t i = 0; i < repeats.size(); ++i) mode.hours[i] = hours(repeats[i], repeat);
-    mode.together_p10 = hours(pipeline::percentiles_of(std::move(together))[0], repeat);
+    if (job.inspection.interval_weeks > 0) put_inspection(mode, visible_from(*material, worn, job.inspection), own, program.repeat(), job);
+    set_lives(mode, std::move(own), lives, program.repeat());
+  }
+  return modes;
+}
+
+void set_lives(UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives, double repeat) {
+  std::vector<double> together(lives.size());
+  std::size_t first = 0;
+  for (std::size_t s = 0; s < lives.size(); ++s)
+    first += own[s] < lives[s], together[s] = std::min(own[s], lives[s]);
+  mode.first_share = static_cast<double>(first) / static_cast<double>(lives.size());
+  const auto repeats = pipeline::percentiles_of(std::move(own));
+  for (std::size_t i = 0; i < repeats.size(); ++i) mode.hours[i] = hours(repeats[i], repeat);
+  mode.together_p10 = hours(pipeline::percentiles_of(std::move(together))[0], repeat);
+}
+
+std::vector<UnvalidatedMode> rating_modes(const FileReader& strain, const pipeline::Job& job,
+                                          const std::vector<double>& lives) {
+  std::vector<UnvalidatedMode> modes;
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    std::optional<HoseMotion> hose;
+    for (const pipeline::Component& part : job.dresspacks[d].dresspack.components) {
+      if (!is_rated(part)) continue;
+      if (!hose) hose.emplace(strain, d);
+      const RatedLife rated = rated_life(part, hose->segments);
+      UnvalidatedMode& mode = modes.emplace_back();
+      mode.mode = UnvalidatedMode::rating;
+      mode.dresspack = pipeline::name_among(job, d);
+      mode.place = part.name;
+      mode.note = rating_words(rated);
+      std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
+      const Program program(strain);
+      if (std::isfinite(rated.repeats)) {
+        own = pipeline::first_failures({response_of(mode.mode + " of " + part.name, rated.repeats, rated.log10_spread, job,
+                                                    mode.dresspack)},
+                                       "", lives.size());
+        put_place(mode, strain, d, hose->position[rated.segment]);
+        mode.time = program.time[rated.sample];
+        program.put_sample(mode, rated.sample);
+      }
+      set_lives(mode, std::move(own), lives, program.repeat());
+    }
   }
   return modes;
 }
@@ -134,25 +254,35 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job) {
   const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
+  const auto add_plain = [&](const pipeline::Component& part) {
+    const auto twisted = [](const pipeline::Rating& rating) { return rating.rig.kind == pipeline::RigKind::torsion; };
+    const auto of_twist = std::count_if(part.ratings.begin(), part.ratings.end(), twisted);
+    if (part.ratings.empty()) return add(part.name);
+    if (of_twist == 0) add("twist of " + part.name);
+    if (of_twist == std::ssize(part.ratings)) add("bending of " + part.name);
+  };
   bool cables = false;
   for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
     const pipeline::Dresspack& dresspack = mounted.dresspack;
     for (const pipeline::Component& part : dresspack.components)
-      if (part.plain) add(part.name);
+      if (part.plain) add_plain(part);
     if (!dresspack.core_parts.empty())
       add(dresspack.core_parts);
     else if (dresspack.core_diameter > 0)
       add(fmt::format("the core of {:.4g} mm", 1e3 * dresspack.core_diameter));
     if (is_hose(dresspack) && dresspack.hose_material.empty()) add(UnvalidatedMode::wall);
     cables = cables || std::any_of(dresspack.components.begin(), dresspack.components.end(),
-                                   [](const pipeline::Component& part) { return !part.components.empty(); });
+                                   [](const pipeline::Component& part) {
+                                     return !part.components.empty() ||
+                                            (part.plain && part.plain->kind == pipeline::PlainKind::cable);
+                                   });
   }
   const bool worn = strain.has(table_of_work) &&
                     std::all_of(job.dresspacks.begin(), job.dresspacks.end(),
                                 [](const auto& mounted) { return worn_of(mounted.dresspack).has_value(); });
   if (!worn) add(UnvalidatedMode::abrasion);
   if (cables) add("jackets of the cables");
-  for (const char* always : {"kinks", "clamps", "connectors"}) add(always);
+  for (const char* always : {"kinks", "corkscrew", "fretting and grip at clamps", "connectors"}) add(always);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

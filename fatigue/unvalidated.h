@@ -21,7 +21,17 @@ std::vector<pipeline::UnvalidatedMode> abrasion_modes(const pipeline::FileReader
                                                       const pipeline::Job& job,
                                                       const std::vector<double>& lives);
 
-/// The parts and modes of the job that have no life, in words: "power cable, kinks, clamps, connectors".
+/// The ends of what makers promise of the cables without described wires (rated_cables.h), one mode for each. lives: as above;
+/// the damage exponent is sampled beside them. Errors: InputError for deformations that are not of the dresspack's segments.
+std::vector<pipeline::UnvalidatedMode> rating_modes(const pipeline::FileReader& strain,
+                                                    const pipeline::Job& job,
+                                                    const std::vector<double>& lives);
+
+/// Percentiles of a mode's own lives and what it would change if it counted. own, lives: (sample) log10 repeats.
+/// repeat: duration of one [s].
+void set_lives(pipeline::UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives, double repeat);
+
+/// The parts and modes of the job that have no life, in words: "power cable, kinks, corkscrew, fretting and grip at clamps, connectors".
 std::string not_evaluated(const pipeline::FileReader& strain, const pipeline::Job& job);
 
 }  // namespace dresslife::fatigue

@@ -179,8 +179,9 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
     worst.position = (moment / volume + 0.5) * grid.length;
     worst.time = field.time[static_cast<std::size_t>(std::max_element(begin, end) - field.volume.begin())];
   }
+  worst.arc = arc[worst_arc];
   // The area goes with a power of the thickness, which is nearly the same within its spread.
-  const double power = std::log2(layer.area(layer.thickness * 2, arc[worst_arc]) / through[worst_arc]);
+  const double power = std::log2(layer.area(layer.thickness * 2, worst.arc) / through[worst_arc]);
   worst.log10_spread =
       std::hypot(std::log10(wear_rate(*worn.material, worst.obstacle).factor), power * thickness_spread);
   return worst;

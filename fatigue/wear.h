@@ -69,6 +69,7 @@ struct Abrasion {
   double position = 0;      ///< from the base clamp [m]
   std::string obstacle;     ///< that wears most there
   double time = 0;          ///< [s]
+  double arc = 0;           ///< b that is worn through first [m]
 };
 
 /// (F30). patches: of one dresspack, sectors of one width.

@@ -65,8 +65,8 @@ void describe(Fields& f, Component& component) {
   f.list("components", component.components, Need::optional, "The layers of parts inside this part.");
   f.maybe_group(
       "without_wires", component.plain,
-      "The description of a part of the dresspack that is neither wire nor cable. It has mass, stiffness "
-      "and a place, and no life.");
+      "The description of a part of the dresspack whose wires are not described, or which has none. It has mass, "
+      "stiffness and a place. Only a cable with ratings has a life.");
   f.number("jacket_stiffness_N_per_m2", component.jacket_stiffness, Need::optional, at_least(0),
            "The force per length and displacement by which a jacket holds the part along its path if it "
            "fills the gussets. It counts where strain.slip is friction.");
@@ -82,7 +82,7 @@ void describe(Fields& f, Component& component) {
   f.number("polymer_bending_stiffness_Nm2", component.polymer_bending_stiffness, Need::optional, at_least(0),
            "The share of the measured stiffness of jacket and insulation.");
   f.list("ratings", component.ratings, Need::optional,
-         "The cycles in test rigs that the maker of a cable states.");
+         "The cycles in test rigs that the maker of a cable states. They give a life to a cable without described wires.");
 }
 
 void describe(Fields& f, Corrugation& corrugation) {
@@ -256,6 +256,9 @@ void check_plain(const Component& part, const Component* parent, Problems& probl
   if (part.measured_bending_stiffness || part.polymer_bending_stiffness > 0)
     problems.add(part.where, fmt::format("'{}' is without wires and has a cable's stiffness", part.name),
                  "give without_wires.bending_stiffness_Nm2");
+  if (part.plain->kind == PlainKind::cable && !part.laying.mass)
+    problems.add(part.where, fmt::format("cable '{}' without described wires has no mass_kg_per_m", part.name),
+                 "give it: data sheets state it");
 }
 
 /// parent: null: the dresspack. Returns how many levels of parts it has, itself the first.
@@ -266,7 +269,7 @@ int check_component(const Component& component, const Component* parent, Problem
   else if (component.components.empty() == component.material.empty())
     problems.add(
         where, fmt::format("'{}' must have either a material (a wire) or components", component.name),
-        parent ? "give one of the two" : "give one of the two, or without_wires: {kind: hose, fibre or filler}");
+        parent ? "give one of the two" : "give one of the two, or without_wires: {kind: hose, fibre, filler or cable}");
   if (component.count > 1 && component.helix_radius == 0)
     problems.add(
         where,
@@ -416,20 +419,27 @@ void check_bending_friction(const Dresspack& dresspack) {
                    "give as bending_stiffness_Nm2 moment over curvature of the first bend, friction included");
 }
 
-/// Ratings are of whole cables. A copy of each is checked: what the job says stays as written.
-void check_ratings(const std::vector<Rating>& ratings) {
+/// A copy of each is checked: what the job says stays as written.
+void check_ratings(const std::vector<Rating>& ratings, bool of_plain) {
   for (Rating rating : ratings) {
     if (!rating.rig.where.line) rating.rig.where = rating.where;
     check_rig(rating.rig);
+    if (of_plain && (rating.rig.kind == RigKind::swivel || rating.rig.kind == RigKind::axial))
+      throw InputError(rating.rig.where,
+                       fmt::format("a rating of kind {} says nothing about a cable without described wires", word(rating.rig.kind)),
+                       "give a rating in torsion, rolling_flex, two_pulley or tick_tock");
   }
 }
+
+/// Ratings are of whole cables, described or not.
 void check_ratings(const Component& component, bool first_level) {
-  if (!component.ratings.empty() && (!first_level || component.components.empty()))
+  const bool plain = component.plain && component.plain->kind == PlainKind::cable;
+  if (!component.ratings.empty() && (!first_level || (component.components.empty() && !plain)))
     throw InputError(
         component.ratings.front().where,
         fmt::format("'{}' has ratings (they are of cables right in the dresspack)", component.name),
-        "give them to the cable");
-  check_ratings(component.ratings);
+        component.plain ? "set without_wires.kind: cable, or leave them out" : "give them to the cable");
+  check_ratings(component.ratings, plain);
   for (const Component& inner : component.components) check_ratings(inner, false);
 }
 
@@ -444,7 +454,10 @@ bool is_from_construction(const Dresspack& dresspack) {
 
 void drop_ratings(Dresspack& dresspack) {
   dresspack.ratings.clear();
-  for (Component& component : dresspack.components) component.ratings.clear();
+  for (Component& component : dresspack.components) {
+    component.ratings.clear();
+    if (component.plain) component.plain->damage_exponent.reset();
+  }
 }
 
 int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
@@ -460,7 +473,7 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   if (!dresspack.ratings.empty() && inner_radius(dresspack))
     problems.add(dresspack.ratings.front().where, "ratings stand beside a hose (they are of a cable)",
                  "give them to the cable in dresspack.components");
-  attempt(dresspack.where, [&] { check_ratings(dresspack.ratings); });
+  attempt(dresspack.where, [&] { check_ratings(dresspack.ratings, false); });
   for (const Component& component : dresspack.components) {
     attempt(component.where, [&] { check_ratings(component, true); });
     attempt(component.where, [&] { check_laying(dresspack, component, true); });

@@ -32,6 +32,7 @@ void describe_keys(Fields& f, Job& job, const JobForms& forms) {
   f.group("simulation", job.simulation, Need::optional, "The settings of dresslife-sim.");
   f.group("strain", job.strain, Need::optional, "The settings of dresslife-strain.");
   f.group("fatigue", job.fatigue, Need::optional, "The settings of dresslife-fatigue.");
+  f.group("inspection", job.inspection, Need::optional, "The visual checks of the dresspack in the plant.");
   f.group("uncertainty", job.uncertainty, Need::optional,
           "The uncertain parameters and their standard deviations.");
   f.maybe_group("calibration", job.calibration,

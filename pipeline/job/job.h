@@ -14,6 +14,7 @@
 
 #include "pipeline/job/calibration.h"
 #include "pipeline/job/fatigue.h"
+#include "pipeline/job/inspection.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/job/strain.h"
 #include "pipeline/job/uncertainty.h"
@@ -23,6 +24,7 @@ namespace dresslife::pipeline {
 struct Job : Setup {
   Strain strain;
   Fatigue fatigue;
+  Inspection inspection;
   Uncertainty uncertainty;
   std::optional<Calibration> calibration;  ///< what observations have taught; its medians stand in the keys
 };

@@ -8,13 +8,16 @@ namespace dresslife::pipeline {
 void describe(Fields& f, PlainPart& part) {
   f.place(part.where);
   f.choice("kind", part.kind,
-           "The kind of the part: a filler, a hose with a bore, or an optical fibre. Fillers and fibres are "
-           "solid.");
+           "The kind of the part: a filler, a hose with a bore, an optical fibre, or a cable whose wires are not described. "
+           "All but hoses are solid. A cable has a life by its ratings.");
   f.maybe_number("bore_mm", part.bore, above(0),
                  "The inner diameter of a hose. Default: two thirds of the outer one.");
   f.choice("filled_with", part.medium, "The content of a hose: water, or air of no weight.");
   f.maybe_number("bending_stiffness_Nm2", part.bending_stiffness, above(0),
                  "E I of the part. Default: of polymer of 50 MPa. E A follows from it.");
+  f.maybe_number("damage_exponent", part.damage_exponent, between(1, 20),
+                 "For a cable with ratings: a bend or twist of twice the range does 2^m times the damage. Default: 5, an "
+                 "ESTIMATE with a deviation of 1.5.");
 }
 
 void check_plain_part(const PlainPart& part, double radius, std::string_view name) {
@@ -22,6 +25,9 @@ void check_plain_part(const PlainPart& part, double radius, std::string_view nam
     throw InputError(part.where,
                      fmt::format("'{}' is a {} and has a bore or a filling", name, word(part.kind)),
                      "set kind: hose, or leave out bore_mm and filled_with");
+  if (part.kind != PlainKind::cable && part.damage_exponent)
+    throw InputError(part.where, fmt::format("'{}' is a {} and has a damage_exponent", name, word(part.kind)),
+                     "set kind: cable, or leave it out");
   if (part.bore && *part.bore >= 2 * radius)
     throw InputError(part.where,
                      fmt::format("'{}' has bore_mm {:.4g} (it is {:.4g} mm wide outside)", name,

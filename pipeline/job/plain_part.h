@@ -1,5 +1,6 @@
-// Parts of a dresspack without wires: hoses for air and water, optical fibres, fillers. They have mass and
-// stiffness, take room, push cables aside and pull at the clamps. No life is computed for them.
+// Parts of a dresspack without wires: hoses for air and water, optical fibres, fillers, and cables whose construction is
+// not known. They have mass and stiffness, take room, push cables aside and pull at the clamps. Only cables with ratings
+// have a life (fatigue/rated_cables.h).
 #pragma once
 
 #include <optional>
@@ -12,8 +13,8 @@ namespace dresslife::pipeline {
 
 class Fields;
 
-enum class PlainKind { filler, hose, fibre };
-constexpr std::string_view word(PlainKind value) { return word_at({"filler", "hose", "fibre"}, value); }
+enum class PlainKind { filler, hose, fibre, cable };
+constexpr std::string_view word(PlainKind value) { return word_at({"filler", "hose", "fibre", "cable"}, value); }
 
 enum class Medium { air, water };
 constexpr std::string_view word(Medium value) { return word_at({"air", "water"}, value); }
@@ -23,12 +24,17 @@ struct PlainPart {
   std::optional<double> bore;               ///< inner diameter of a hose [m]; absent: two thirds of the outer
   Medium medium = Medium::air;              ///< that fills it
   std::optional<double> bending_stiffness;  ///< E I [N m2]; absent: of polymer
+  std::optional<double> damage_exponent;    ///< m of (F31), of a cable; absent: usual_damage_exponent
   Where where;
 };
 
+/// Damage of a bend or twist over its range. ESTIMATE: the strain-life curve of copper_halved has 3.1 at 1e5, 4.8 at 1e6 and
+/// 6.8 at 1e7 cycles.
+constexpr double usual_damage_exponent = 5, damage_exponent_deviation = 1.5;
+
 void describe(Fields& f, PlainPart& part);
 
-/// Errors: InputError for a bore that does not fit, or in what is no hose.
+/// Errors: InputError for a bore that does not fit, or in what is no hose, and for a damage exponent of what is no cable.
 void check_plain_part(const PlainPart& part, double radius, std::string_view name);
 
 }  // namespace dresslife::pipeline

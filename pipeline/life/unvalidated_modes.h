@@ -1,8 +1,9 @@
 // Failure modes whose law has not been compared with a published test: their lives stand beside those of the
-// wires and are not in the planner's hours.
+// wires and are not in the planner's hours. Of a maker's rating the life is a lower bound: by then the promise ends.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ struct UnvalidatedMode {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   static constexpr const char* wall = "hose's wall";
   static constexpr const char* abrasion = "abrasion";
+  static constexpr const char* rating = "maker's rating";
 
   std::string mode;       ///< one of the above
   std::string dresspack;  ///< in which, among several; empty: the only one
@@ -22,11 +24,16 @@ struct UnvalidatedMode {
   double together_p10 = unknown;  ///< the planner's hours if this mode counted, too [h]
   int segment_from_tool = 0;      ///< of its worst place, 1 is nearest to the tool; 0: not known
   double position_from_tool = 0;  ///< [m]
-  std::string place;              ///< what rubs: "link_4"; of the wall the place around it: "hose 5"
+  std::string place;              ///< what rubs: "link_4"; of the wall the place around it: "hose 5"; a rated cable
   double time = 0;                ///< when it is loaded most [s]
   std::string step;               ///< program line that runs then; empty: none
   double bends_at_limit = 0;      ///< of the wall by its law: bends of a straight hose to its bend radius limit; 0: not known
+  std::string note;                ///< further sentences; empty: none
 
+  double found_share = unknown;   ///< of what fails within the robot's life, visual checks find this before; unknown: nothing fails
+  double unseen_share = unknown;  ///< of all dresspacks: they fail within the robot's life, and no check has found it
+  /// By then 1 of 10 has failed by this mode; of the wall, whose scatter is not known, half.
+  double early_hours() const { return std::isnan(hours[0]) ? hours[1] : hours[0]; }
   bool operator==(const UnvalidatedMode&) const = default;
 };
 

@@ -343,6 +343,10 @@ std::string facts(const RankingRow& row) {
   for (const UnvalidatedMode& mode : row.unvalidated) {
     const std::string of = mode.dresspack.empty() ? "" : " of " + escaped(mode.dresspack);
     const bool wall = mode.mode == UnvalidatedMode::wall;
+    if (mode.mode == UnvalidatedMode::rating) {
+      fact(mode.mode + of + ", unvalidated", escaped(unvalidated_words(mode)));
+      continue;
+    }
     const std::string life =
         wall ? fmt::format("{} of motion until it cracks, {}", unvalidated_life(mode.hours[1]), escaped(mode.place))
              : fmt::format("{} of motion until it is worn through (10 .. 90 %), on {}", range_text(mode.hours[0], mode.hours[2]),
@@ -350,8 +354,9 @@ std::string facts(const RankingRow& row) {
     fact(mode.mode + of + ", unvalidated",
          std::isinf(mode.hours[1])
              ? "not damaged"
-             : fmt::format("{}, segment {} from the tool ({:.2f} m){}", life, mode.segment_from_tool, mode.position_from_tool,
-                           mode.step.empty() ? "" : ", worst during '" + escaped(mode.step) + "'"));
+             : fmt::format("{}, segment {} from the tool ({:.2f} m){}{}", life, mode.segment_from_tool, mode.position_from_tool,
+                           mode.step.empty() ? "" : ", worst during '" + escaped(mode.step) + "'",
+                           mode.note.empty() ? "" : ". " + escaped(mode.note)));
   }
   if (!row.not_evaluated.empty()) fact("not evaluated", escaped(row.not_evaluated));
   if (damaged(row)) {

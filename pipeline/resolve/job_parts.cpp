@@ -72,6 +72,21 @@ void describe(Fields& echo, StrainKeys& keys) {
   echo.number("diameter_mm", dresspack.diameter, Need::optional, any_number(), "");
 }
 
+/// Of a cable without described wires.
+struct RatedKeys {
+  std::string name;
+  double radius = 0;
+  std::optional<double> damage_exponent;
+  std::vector<Rating> ratings;
+};
+
+void describe(Fields& echo, RatedKeys& keys) {
+  echo.text("name", keys.name, Need::required, "");
+  echo.number("radius_mm", keys.radius, Need::required, any_number(), "");
+  echo.maybe_number("damage_exponent", keys.damage_exponent, any_number(), "");
+  echo.list("ratings", keys.ratings, Need::required, "");
+}
+
 /// What of a dresspack decides its lives.
 struct FatigueKeys {
   MountedDresspack mounted;
@@ -82,6 +97,10 @@ void describe(Fields& echo, FatigueKeys& keys) {
   Dresspack& dresspack = keys.mounted.dresspack;
   echo.list("materials", dresspack.materials, Need::optional, "");
   echo.maybe_group("sleeve", dresspack.sleeve, "");
+  std::vector<RatedKeys> rated;
+  for (const Component& part : dresspack.components)
+    if (part.plain && !part.ratings.empty()) rated.push_back({part.name, part.radius, part.plain->damage_exponent, part.ratings});
+  if (!rated.empty()) echo.list("rated", rated, Need::optional, "");
   if (!dresspack.core_parts.empty()) echo.text("core_parts", dresspack.core_parts, Need::optional, "");
 }
 
@@ -154,6 +173,7 @@ void describe_fatigue(Fields& echo, Job copy) {
   for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted});
   describe_each(echo, forms_of(copy), keys);
   echo.group("fatigue", copy.fatigue, Need::optional, "");
+  echo.group("inspection", copy.inspection, Need::optional, "");
   echo.group("uncertainty", copy.uncertainty, Need::optional, "");
   echo.maybe_group("calibration", copy.calibration, "");
 }

@@ -75,6 +75,8 @@ class Table {
               [](const RankingRow& row) -> const Lives& { return row.free_hours; });
     add_test();
     add_abrasion();
+    add_rating();
+    add_inspection();
   }
   std::vector<RankingColumn> columns;
 
@@ -106,6 +108,28 @@ class Table {
     add(of_mode("abrasion_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", abrasion,
                 [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
     add(of("not_evaluated", "text", "parts of the dresspack and failure modes without a life", &RankingRow::not_evaluated));
+  }
+
+  void add_rating() {
+    constexpr const char* rating = UnvalidatedMode::rating;
+    constexpr std::array<const char*, 3> ends{"p10", "p50", "p90"};
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      add(of_mode(fmt::format("rating_hours_{}", ends[i]), "h",
+                  "the maker's rating of a cable without described wires covers so much, a lower bound of its life, by the "
+                  "uncertainty of its damage exponent; not validated", rating,
+                  [i](const UnvalidatedMode& mode) { return mode.hours[i]; }));
+    add(of_mode("rating_first_share", "1", "share of the samples in which the wires of other cables outlive the rating", rating,
+                [](const UnvalidatedMode& mode) { return mode.first_share; }));
+    add(of_mode("rating_of", "text", "that cable", rating, [](const UnvalidatedMode& mode) { return mode.place; }));
+  }
+
+  void add_inspection() {
+    constexpr const char* abrasion = UnvalidatedMode::abrasion;
+    add(of_mode("abrasion_found_share", "1",
+                "share of the dresspacks worn through within the robot's life of which a visual check sees the wear before; not validated",
+                abrasion, [](const UnvalidatedMode& mode) { return mode.found_share; }));
+    add(of_mode("abrasion_unseen_share", "1", "share of all dresspacks that wear through within the robot's life, unseen by checks",
+                abrasion, [](const UnvalidatedMode& mode) { return mode.unseen_share; }));
   }
 
   void add_worst_wire() {

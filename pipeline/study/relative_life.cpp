@@ -148,7 +148,7 @@ bool has_ratings(const Job& job) {
     const auto& parts = mounted.dresspack.components;
     return !mounted.dresspack.ratings.empty() ||
            std::any_of(parts.begin(), parts.end(),
-                       [](const Component& part) { return !part.ratings.empty(); });
+                       [](const Component& part) { return !part.plain && !part.ratings.empty(); });
   });
 }
 

@@ -64,9 +64,6 @@ std::string too_short_wall(const UnvalidatedMode& mode) {
                      readable(mode.bends_at_limit), readable(published_bends));
 }
 
-/// Hours by which 1 of 10 has failed by a mode; of the wall, whose scatter is not known, half.
-double early_hours(const UnvalidatedMode& mode) { return std::isnan(mode.hours[0]) ? mode.hours[1] : mode.hours[0]; }
-
 /// What an unvalidated mode may do before the row's headline, and what to do. Empty: none may.
 std::string inspection_words(const RankingRow& row) {
   const UnvalidatedMode* const mode = earlier_unvalidated(row);
@@ -78,8 +75,21 @@ std::string inspection_words(const RankingRow& row) {
   if (mode->mode == UnvalidatedMode::abrasion)
     return fmt::format("{} may wear through on {}, {}, after {} (not validated): inspect it there.", of, mode->place, place,
                        range_text(mode->hours[0], mode->hours[2]));
+  if (mode->mode == UnvalidatedMode::rating)
+    return fmt::format("The maker's rating of {} covers only {} (not validated): test or replace it by then.", mode->place,
+                       range_text(mode->hours[0], mode->hours[2]));
   return fmt::format("{} may come before, {}, after {} (not validated): inspect it there.", mode->mode, place,
-                     hours_text(early_hours(*mode)));
+                     hours_text(mode->early_hours()));
+}
+
+std::string rating_words(const UnvalidatedMode& mode, const std::string& of) {
+  const std::string until = std::isinf(mode.hours[0])
+                                ? "the whole life in more than 9 of 10 cases"
+                                : fmt::format("{} (10 .. 90 %), {:.2f} m from the tool, most at {:.1f} s{}",
+                                              range_text(mode.hours[0], mode.hours[2]), mode.position_from_tool, mode.time,
+                                              mode.step.empty() ? "" : ", during '" + mode.step + "'");
+  return fmt::format("The maker's rating of {}{} is a lower bound of its life, is not validated and not in the hours above. It "
+                     "covers {}.", mode.place, of, until);
 }
 
 }  // namespace
@@ -88,7 +98,7 @@ const UnvalidatedMode* earlier_unvalidated(const RankingRow& row) {
   const UnvalidatedMode* first = nullptr;
   double before = std::min(row.headline_hours(), row.robot_life_hours);
   for (const UnvalidatedMode& mode : row.unvalidated)
-    if (early_hours(mode) < before && too_short_wall(mode).empty()) before = early_hours(mode), first = &mode;
+    if (mode.early_hours() < before && is_credible(mode)) before = mode.early_hours(), first = &mode;
   return first;
 }
 
@@ -96,9 +106,11 @@ std::string unvalidated_note(const std::vector<RankingRow>& rows) {
   std::vector<std::string> jobs;
   for (const RankingRow& row : rows)
     if (const UnvalidatedMode* const mode = row.has_result() ? earlier_unvalidated(row) : nullptr)
-      jobs.push_back(fmt::format("{}{}: after {}", rows.size() > 1 ? row.job + ", " : "", mode->mode, hours_text(early_hours(*mode))));
+      jobs.push_back(fmt::format("{}{}: after {}", rows.size() > 1 ? row.job + ", " : "", mode->mode, hours_text(mode->early_hours())));
   return jobs.empty() ? "" : fmt::format("* A mode that is not validated may come before. {}.", fmt::join(jobs, "; "));
 }
+
+bool is_credible(const UnvalidatedMode& mode) { return too_short_wall(mode).empty(); }
 
 bool is_believable(const RankingRow& row) {
   const std::vector<Warning> warnings = warnings_of(row);
@@ -188,6 +200,7 @@ std::string unvalidated_words(const UnvalidatedMode& mode) {
   if (mode.mode == UnvalidatedMode::wall)
     return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.{}", of,
                        unvalidated_life(mode.hours[1]), too_short_wall(mode));
+  if (mode.mode == UnvalidatedMode::rating) return joined_words({rating_words(mode, of), mode.note});
   if (mode.place.empty()) return fmt::format("Abrasion{}: nothing rubs on the dresspack.", of);
   const std::string when = std::isinf(mode.hours[0])
                                ? "in fewer than 1 of 10 dresspacks"
@@ -199,7 +212,7 @@ std::string unvalidated_words(const UnvalidatedMode& mode) {
   if (mode.first_share >= 0.01)
     text += fmt::format(" It comes before the wires in {:.0f} % of the samples; with it 1 of 10 has failed after {}.",
                         100 * mode.first_share, hours_text(mode.together_p10));
-  return text;
+  return joined_words({text, mode.note});
 }
 
 std::string unvalidated_words(const RankingRow& row) {

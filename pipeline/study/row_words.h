@@ -47,6 +47,8 @@ std::string own_values_words(const RankingRow& row);
 /// "The strain of this wire follows joint_6 most.", that this is no cause, and the command that tries it. Empty: not known.
 std::string joint_words(const RankingRow& row);
 
+/// Whether the mode's law does not contradict the published test of a hose's wall.
+bool is_credible(const UnvalidatedMode& mode);
 /// "The life of the hose's wall is not validated .. By the model it is 3,400 h."; of abrasion also what rubs where and when.
 std::string unvalidated_words(const UnvalidatedMode& mode);
 /// Of all modes of a row. Empty: none was evaluated.

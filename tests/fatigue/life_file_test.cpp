@@ -14,6 +14,7 @@
 
 #include "fatigue/scatter.h"
 #include "fatigue/verdict.h"
+#include "pipeline/base/statistics.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_force.h"
 #include "pipeline/job/job.h"
@@ -72,6 +73,7 @@ struct StrainFile {
   };
   std::vector<Cable> cables;        // of the job's first component
   std::vector<double> hose_moment;  // (span) at the last sample, as the strains
+  double curvature = 0;        // about d1 at samples 20 and, to the other side, 60; else 0 [1/m]
   std::vector<Rubbed> rubbed;  // by link_4, 5 mm long, in one sector of 5 degrees; empty: no table
 };
 
@@ -117,7 +119,10 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
   for (std::size_t t = 0; t < samples; ++t) time.push_back(duration * t / (samples - 1));
   const std::vector<double> lengths{0.1, 0.2, 0.3, 0.4};
   const std::vector<std::string> text{"approach", "weld", "retreat"};
-  const std::vector<double> rows(samples * segments, 0.0), pairs(2 * samples * segments, 0.0);
+  const std::vector<double> rows(samples * segments, 0.0);
+  std::vector<double> pairs(2 * samples * segments, 0.0);
+  for (std::size_t k = 0; k < segments; ++k)
+    pairs[2 * (20 * segments + k)] = f.curvature, pairs[2 * (60 * segments + k)] = -f.curvature;
   file.append("/time", std::span<const double>(time));
   file.append("/program/step", std::span<const std::int32_t>(f.step));
   file.append("/program/text", std::span<const std::string>(text));
@@ -952,7 +957,7 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   {  // neither a thickness nor contacts
     const FileReader none(run(folder, f, job, "none.h5").file, pipeline::life_format());
     CHECK(modes_of(none).empty());
-    CHECK(names_in(none) == "abrasion, jackets of the cables, kinks, clamps, connectors");
+    CHECK(names_in(none) == "abrasion, jackets of the cables, kinks, corkscrew, fretting and grip at clamps, connectors");
   }
   pipeline::Material polymer;
   polymer.name = "polymer";
@@ -965,7 +970,7 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   const FileReader life(result.file, pipeline::life_format());
   const auto modes = modes_of(life);
   REQUIRE(modes.size() == 1);
-  CHECK(names_in(life) == "water hose, jackets of the cables, kinks, clamps, connectors");
+  CHECK(names_in(life) == "water hose, jackets of the cables, kinks, corkscrew, fretting and grip at clamps, connectors");
   CHECK(modes[0].place == "link_4");
   CHECK(modes[0].position_from_tool == Approx(0.35));
   CHECK(modes[0].segment_from_tool == 1);  // the last of 0.4 m
@@ -983,8 +988,55 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   CHECK(modes[0].together_p10 <= life.number_attribute("life_hours_p10") * (1 + six_figures));
   CHECK(modes[0].together_p10 <= modes[0].hours[0] * (1 + six_figures));
   CHECK_THAT(result.notes.summary, Catch::Contains("; the surface lasts "));
+  CHECK(modes[0].found_share > 0);
+  CHECK_THAT(modes[0].note, Catch::Contains("A visual check every 2 weeks finds "));
+  job.inspection.visible_depth_percent = 100;  // visible as it fails: nothing is found
+  const auto unseen = modes_of(FileReader(run(folder, f, job, "unseen.h5").file, pipeline::life_format()));
+  CHECK(unseen[0].hours == modes[0].hours);
+  CHECK(unseen[0].found_share == 0);
+  const double worn = std::log10(job.fatigue.robot_life_hours / hours(repeats, duration)) / spread;
+  CHECK(unseen[0].unseen_share == Approx(pipeline::normal_share(worn)).margin(strata));
+  job.inspection.interval_weeks = 0;
+  const auto unchecked = modes_of(FileReader(run(folder, f, job, "unchecked.h5").file, pipeline::life_format()));
+  CHECK(std::isnan(unchecked[0].unseen_share));
+  CHECK(unchecked[0].note.empty());
 
   f.rubbed[1] = {-0.15, 10, 30};
   CHECK_THROWS_WITH(run(folder, f, job, "damaged.h5"),
                     Catch::Contains("/rubbing: row 2 is no patch of a dresspack; make the file again with dresslife-strain"));
+}
+
+TEST_CASE("life.h5: a cable without described wires has the life of its rating, one with wires does not have it, too") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;
+  pipeline::Rating bends;
+  bends.rig.kind = pipeline::RigKind::tick_tock, bends.rig.radius = 0.1, bends.cycles = 1e6, bends.source = "test";
+  pipeline::Component power;
+  power.name = "power cable", power.radius = 0.01, power.plain = pipeline::PlainPart{pipeline::PlainKind::cable, {}, {}, {}, {}, {}};
+  dresspack.components.push_back(power);
+  dresspack.components.front().ratings = {bends};  // beside its wires
+  const auto rated_modes = [&](const FileReader& life) {
+    auto modes = pipeline::unvalidated_from(life.text_attribute("unvalidated_modes"));
+    std::erase_if(modes, [](const auto& mode) { return mode.mode != pipeline::UnvalidatedMode::rating; });
+    return modes;
+  };
+  StrainFile f = example();
+  {
+    const FileReader none(run(folder, f, job, "none.h5").file, pipeline::life_format());
+    CHECK(rated_modes(none).empty());
+    CHECK_THAT(none.text_attribute("not_evaluated"), Catch::StartsWith("power cable, abrasion"));
+  }
+  dresspack.components.back().ratings = {bends};
+  f.curvature = 5;  // 1/m to either side, half of what the rig does
+  const FileReader life(run(folder, f, job, "rated.h5").file, pipeline::life_format());
+  const auto modes = rated_modes(life);
+  REQUIRE(modes.size() == 1);
+  CHECK(modes[0].place == "power cable");
+  CHECK(modes[0].note == "Its rating is of bending alone: twist is not evaluated.");
+  CHECK_THAT(life.text_attribute("not_evaluated"), Catch::StartsWith("twist of power cable, abrasion"));
+  constexpr double strata = 1e-3;  // 10,000 samples
+  const double ratio = (1 / 0.11) / 5;  // the rig bends the axis
+  CHECK(modes[0].hours[1] == Approx(hours(1e6 * std::pow(ratio, 5), duration)).epsilon(strata));
+  CHECK(std::log10(modes[0].hours[2] / modes[0].hours[0]) == Approx(2 * 1.28155 * 1.5 * std::log10(ratio)).epsilon(strata));
 }

@@ -291,6 +291,7 @@ class Improver {
       }
     }
     for (const RankingRow& row : makers_.make_rows(study)) {
+      if (done_.trials.empty()) check_evaluated(done_.limits, row);  // the jobs as they are
       const auto [k, j] = trial_of.at(row.job);
       trials[k].outcomes[j] = outcome_of(row, places_.job(row.job), done_.limits);
       trials[k].cycle_seconds += row.repeat_seconds;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -20,7 +21,7 @@ namespace {
 
 constexpr double unasked = -1e3;  // of a limit that is not set: far from it, and finite for the models
 
-enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable, bracket };
+enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable, abrasion, wall, rating, bracket };
 static_assert(bracket == bracket_limit);
 
 void see(Outcome& outcome, Limit limit, double g) {
@@ -29,6 +30,24 @@ void see(Outcome& outcome, Limit limit, double g) {
 
 double log_ratio(double value, double limit) {
   return value > 0 ? std::clamp(std::log(value / limit), unasked, -unasked) : unasked;
+}
+
+/// A limit of a mode that the planner's hours leave out.
+struct ModeLimit {
+  const char* key;
+  const char* mode;
+  Limit limit;
+  std::optional<double> AskedLimits::*hours;
+};
+constexpr std::array<ModeLimit, 3> mode_limits{
+    {{"abrasion_life_h", UnvalidatedMode::abrasion, abrasion, &AskedLimits::abrasion},
+     {"wall_life_h", UnvalidatedMode::wall, wall, &AskedLimits::wall},
+     {"rating_life_h", UnvalidatedMode::rating, rating, &AskedLimits::rating}}};
+
+void see_modes(Outcome& outcome, const RankingRow& row, const AskedLimits& asked) {
+  for (const ModeLimit& of : mode_limits)
+    for (const UnvalidatedMode& mode : row.unvalidated)
+      if (asked.*of.hours && mode.mode == of.mode) see(outcome, of.limit, log_ratio(*(asked.*of.hours), mode.early_hours()));
 }
 
 /// Less slack than asked for, as a share of the length. Its limit is a share of the length, too: so the
@@ -60,7 +79,7 @@ const std::vector<std::string>& outcome_limit_names() {
   static const std::vector<std::string> names{
       "bend radius", "twist",         "too short",           "too long",
       "tension",     "contact force", "retraction's stroke", "forces in cables",
-      "bracket"};
+      "abrasion",    "hose's wall",   "maker's rating",      "bracket"};
   return names;
 }
 
@@ -109,6 +128,7 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
   outcome.hours = row.headline_hours();
   const double share = std::max(row.largest_force_share.value_or(0), row.clamp_moment_share.value_or(0));
   see(outcome, believable, log_ratio(share, believable_share));
+  see_modes(outcome, row, asked);
   constexpr std::size_t simulation = 0;
   const std::filesystem::path receipt = folder / files_of_stage(simulation).receipt;
   if (const std::optional<Receipt> made = read_receipt(receipt))
@@ -118,10 +138,23 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
   return outcome;
 }
 
+void check_evaluated(const AskedLimits& asked, const RankingRow& row) {
+  for (const ModeLimit& of : mode_limits)
+    if (asked.*of.hours && row.done() && !row.unvalidated_mode(of.mode))
+      throw InputError(asked.where, fmt::format("{} is a limit of '{}', which is not evaluated", of.key, of.mode),
+                       fmt::format("leave it out, or give the dresspack what it needs{}",
+                                   row.not_evaluated.empty() ? "" : " (all that is not evaluated: " + row.not_evaluated + ")"));
+}
+
 void describe(Fields& f, AskedLimits& limits) {
+  f.place(limits.where);
   f.maybe_number("contact_force_N", limits.contact_force, above(0),
                  "largest of the dresspack on robot and cell");
   f.maybe_number("tension_N", limits.tension, above(0), "largest of the hose, besides its maker's");
+  const char* const least = "least hours of motion until 1 of 10 has failed by it";
+  f.maybe_number("abrasion_life_h", limits.abrasion, above(0), least);
+  f.maybe_number("wall_life_h", limits.wall, above(0), "least hours of motion until half of the hoses have cracked");
+  f.maybe_number("rating_life_h", limits.rating, above(0), "least hours of motion that makers' ratings cover in 9 of 10 samples");
 }
 
 Outcome worst_of(const std::vector<Outcome>& jobs) {

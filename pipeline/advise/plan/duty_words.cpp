@@ -17,10 +17,25 @@ namespace {
 /// The robot lived through the history, too.
 double robot_life_left(const DutyResult& duty) { return std::max(0.0, duty.robot_life_hours - duty.past_hours); }
 
-/// What abrasion, which no test validates, may do before these hours.
+/// What the first of the modes that no test validates may do before these hours.
 std::string inspection(const DutyResult& duty, double hours) {
-  if (!(duty.worn_hours_p10 < hours)) return "";
-  return fmt::format(" The hose may wear through after {} (not validated): inspect it.", hours_text(duty.worn_hours_p10));
+  const auto first = std::min_element(duty.others.begin(), duty.others.end(),
+                                      [](const DutyMode& a, const DutyMode& b) { return a.hours < b.hours; });
+  if (first == duty.others.end() || !(first->hours < hours)) return "";
+  const std::string after = hours_text(first->hours) + " (not validated)";
+  if (first->mode == UnvalidatedMode::rating)
+    return fmt::format(" The maker's rating of {} covers only {}: test or replace it by then.", first->place, after);
+  const std::string of = first->dresspack.empty() ? "" : " of " + first->dresspack;
+  return fmt::format(" The hose{} may {} after {}: inspect it.", of,
+                     first->mode == UnvalidatedMode::wall ? "crack" : "wear through", after);
+}
+
+/// "by abrasion 1 of 10 is worn through after 3,000 h"
+std::string other_words(const DutyMode& mode) {
+  const std::string hours = hours_text(mode.hours), of = mode.dresspack.empty() ? "" : " of " + mode.dresspack;
+  if (mode.mode == UnvalidatedMode::rating) return fmt::format("the maker's rating of {}{} covers {}", mode.place, of, hours);
+  if (mode.mode == UnvalidatedMode::wall) return fmt::format("half of the hoses{} have cracked after {}", of, hours);
+  return fmt::format("1 of 10 hoses{} is worn through after {}", of, hours);
 }
 
 }  // namespace
@@ -59,11 +74,11 @@ std::string percentile_words(const DutyResult& duty) {
 
 std::string caution_words(const DutyResult& duty) {
   std::string text;
-  if (duty.worn_hours_p10 < duty.robot_life_hours)
-    text += wrapped(fmt::format("Abrasion is not validated and not in these hours. By the model 1 of 10 is worn through after {} at the "
-                                "soonest.",
-                                hours_text(duty.worn_hours_p10)),
-                    118, "  ");
+  std::vector<std::string> soon;
+  for (const DutyMode& mode : duty.others)
+    if (mode.hours < duty.robot_life_hours) soon.push_back(other_words(mode));
+  if (!soon.empty())
+    text += wrapped(fmt::format("Not validated and not in these hours, at the soonest: {}.", fmt::join(soon, "; ")), 118, "  ");
   if (!duty.not_evaluated.empty()) text += wrapped(fmt::format("Not evaluated: {}.", duty.not_evaluated), 118, "  ");
   return text;
 }

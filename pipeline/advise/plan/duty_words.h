@@ -17,7 +17,7 @@ std::string percentile_words(const DutyResult& duty);
 /// Hours as the tables of a study show them: beyond the robot's own life only that.
 std::string shown_hours(double robot_life, double hours);
 
-/// What is not in its hours: abrasion, and what is not evaluated. Lines, or empty.
+/// What is not in its hours: modes that no test validates, and what is not evaluated. Lines, or empty.
 std::string caution_words(const DutyResult& duty);
 
 /// One row per duty and program; lives are of the whole duty. Numbers read back exactly, "inf" without damage.

@@ -85,6 +85,12 @@ class Programs {
     return *row;
   }
 
+  std::vector<RankingRow> rows(const Duty& duty) const {
+    std::vector<RankingRow> rows;
+    for (const DutyProgram& program : duty.programs) rows.push_back(row(program));
+    return rows;
+  }
+
  private:
   EvaluatedProgram read(const DutyProgram& program) const {
     const RankingRow& of = row(program);
@@ -150,16 +156,25 @@ void vary_repeats(DutyResult& result, const SamePlace& places) {
   }
 }
 
-/// Wear adds up like damage. The wear rate is the same for all programs, so that percentiles add up, too.
-double worn_hours(const std::vector<DutyPart>& parts, const Duty& duty, const Programs& programs) {
-  double per_hour = 0;
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    if (const UnvalidatedMode* const mode = programs.row(duty.programs[k]).unvalidated_mode(UnvalidatedMode::abrasion))
-      per_hour += parts[k].share_of_time / mode->hours[0];
-  return per_hour > 0 ? 1 / per_hour : std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
+
+std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std::vector<RankingRow>& rows) {
+  std::vector<DutyMode> modes;
+  std::vector<double> per_hour;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (const UnvalidatedMode& mode : rows[k].unvalidated) {
+      if (!is_credible(mode)) continue;
+      const std::string part = mode.mode == UnvalidatedMode::rating ? mode.place : "";
+      const auto found = std::find_if(modes.begin(), modes.end(), [&](const DutyMode& one) {
+        return one.mode == mode.mode && one.dresspack == mode.dresspack && one.place == part;
+      });
+      const auto at = static_cast<std::size_t>(found - modes.begin());
+      if (found == modes.end()) modes.push_back({mode.mode, mode.dresspack, part}), per_hour.push_back(0);
+      per_hour[at] += parts[k].share_of_time / mode.early_hours();
+    }
+  for (std::size_t m = 0; m < modes.size(); ++m) modes[m].hours = 1 / per_hour[m];
+  return modes;
+}
 
 void check_programs(const DutyFile& file, const Study& study) {
   Problems problems;
@@ -191,7 +206,7 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
     result.name = duty.name;
     result.hours_per_week = duty.hours_per_week;
     const std::vector<Rate> rates = rates_of(duty, programs, result.parts);
-    result.worn_hours_p10 = worn_hours(result.parts, duty, programs);
+    result.others = other_modes(result.parts, programs.rows(duty));
     result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
     for (const DutyProgram& program : duty.programs)
       if (const RankingRow& row = programs.row(program); !is_believable(row))

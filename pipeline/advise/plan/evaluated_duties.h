@@ -29,6 +29,12 @@ struct DutyPart {
   std::vector<LifeAtShare> over_share{};  ///< from 0 to all of the time that the others leave; empty: it never runs
 };
 
+/// A mode that no test validates (unvalidated_modes.h), of one dresspack and, of ratings, one cable.
+struct DutyMode {
+  std::string mode, dresspack, place;
+  double hours = 0;  ///< early_hours() at the soonest, if all programs load one place
+};
+
 struct DutyResult {
   std::string name;
   double hours_per_week = 0, robot_life_hours = 0;
@@ -37,10 +43,14 @@ struct DutyResult {
   DutyDamage damage;
   DutyLives lives;
   double past_hours = 0;  ///< 0: no history
-  double worn_hours_p10 = 0;          ///< by then 1 of 10 is worn through at the soonest, if all programs rub one place
+  std::vector<DutyMode> others;       ///< not in the hours above
   std::string not_evaluated;          ///< parts and modes without a life
   std::vector<std::string> doubtful;  ///< "hard (bend radius)": programs with warnings that spoil a plan
 };
+
+/// Modes under a duty. rows: (part) of its programs. Wear and damage add up. Rates and exponents are the same for all
+/// programs, so that percentiles add up, too. A wall whose life is not credible is left out.
+std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std::vector<RankingRow>& rows);
 
 /// Called before the study runs. Errors: InputError for a program that is no job of the study, and for programs on
 /// different dresspacks, routings or settings: their damage does not add up.

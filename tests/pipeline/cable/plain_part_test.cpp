@@ -96,7 +96,7 @@ TEST_CASE("what a part without wires cannot be is refused with its place and a r
                       part + "components=[{name: x, radius_mm: 1, helix_radius_mm: 2, without_wires: {}}]"}),
              Contains("'x' is without wires and lies in 'cable'; leave it out"));
   CHECK_THAT(refusal({free_cables, hose, with("{name: x, radius_mm: 4, helix_radius_mm: 8}")}),
-             Contains("give one of the two, or without_wires: {kind: hose, fibre or filler}"));
+             Contains("give one of the two, or without_wires: {kind: hose, fibre, filler or cable}"));
 }
 
 TEST_CASE("the middle of a hose is told once: by the core's keys or by a component") {

@@ -202,8 +202,37 @@ TEST_CASE("checks: clamps and rings stand in their order on links of the robot, 
   CHECK_FALSE(refused(of));
 }
 
+TEST_CASE("checks: only a cable without described wires has a damage exponent, needs its mass, and a rating that bends or twists") {
+  for (const PlainKind kind : {PlainKind::filler, PlainKind::hose, PlainKind::fibre, PlainKind::cable}) {
+    PlainPart part;
+    part.kind = kind, part.damage_exponent = 4;
+    CHECK(is_refused([&] { check_plain_part(part, 0.004, "part"); }) == (kind != PlainKind::cable));
+    for (const RigKind rig : {RigKind::torsion, RigKind::rolling_flex, RigKind::two_pulley, RigKind::tick_tock, RigKind::swivel,
+                              RigKind::axial})
+      for (const bool has_mass : {false, true}) {
+        Rating rating;
+        rating.rig.kind = rig, rating.cycles = 1e6;
+        if (rig == RigKind::torsion) rating.rig.twist = 3;
+        if (rig == RigKind::rolling_flex) rating.rig.radius = 0.1, rating.rig.travel = 1;
+        if (rig == RigKind::two_pulley) rating.rig.pulley_diameter = 0.2;
+        if (rig == RigKind::tick_tock) rating.rig.radius = 0.1;
+        if (rig == RigKind::swivel) rating.rig.angle = 1, rating.rig.weight = 1;
+        if (rig == RigKind::axial) rating.rig.elongation = 0.1;
+        Dresspack dresspack;
+        dresspack.diameter = 0.05, dresspack.inner_diameter = 0.04;
+        Component& cable = dresspack.components.emplace_back();
+        cable.name = "power cable", cable.radius = 0.004;
+        cable.plain.emplace(), cable.plain->kind = kind;
+        if (has_mass) cable.laying.mass = 0.1;
+        cable.ratings = {rating};
+        const bool fits = kind == PlainKind::cable && has_mass && rig != RigKind::swivel && rig != RigKind::axial;
+        CHECK(is_refused([&] { check_dresspack(dresspack, {Slip::free}); }) == !fits);
+      }
+  }
+}
+
 TEST_CASE("checks: only a hose has a bore or a filling, and its bore is the smaller diameter") {
-  for (const PlainKind kind : {PlainKind::filler, PlainKind::hose, PlainKind::fibre})
+  for (const PlainKind kind : {PlainKind::filler, PlainKind::hose, PlainKind::fibre, PlainKind::cable})
     for (const double bore : {0.0, 0.0079, 0.008, 0.009})
       for (const Medium medium : {Medium::air, Medium::water}) {
         PlainPart part;

@@ -196,7 +196,7 @@ TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are to
   check_case(
       {"routing:\n", "routing: 3\nunused:\n", "3\nunused",
        "routing must be a map of settings; give the clamps and the free length\njob.yaml:45:1: error: unknown key "
-       "'unused'; keys here: motion, robot, dresspack, routing, cell, simulation, strain, fatigue, uncertainty, "
+       "'unused'; keys here: motion, robot, dresspack, routing, cell, simulation, strain, fatigue, inspection, uncertainty, "
        "calibration"});
   check_case({"probes: [{segment_from_tool: 2, component: cable 1/wire 1}]", "probes: all", "all}",
               "strain.probes must be a list; give the wires whose whole strain history is kept"});

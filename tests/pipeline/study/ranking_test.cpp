@@ -332,6 +332,7 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   worn.first_share = 0.43, worn.together_p10 = 280;
   worn.segment_from_tool = 4, worn.position_from_tool = 0.13;
   worn.place = "link_4", worn.time = 2.5, worn.step = "weld\tspot";
+  worn.found_share = 0.97, worn.unseen_share = 0.02, worn.note = "A check finds it.";
   UnvalidatedMode untouched = worn;
   untouched.hours = {infinity, infinity, infinity}, untouched.place = "", untouched.first_share = 0;
   CHECK(unvalidated_from(unvalidated_text({worn, untouched}))[0].step == "weld spot");
@@ -361,7 +362,7 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   CHECK(unvalidated_words(rows[0]) ==
         "Abrasion is not validated and not in the hours above. By the model it wears through after 300 .. 51,000 h (10 .. 90 %), on "
         "link_4, 0.13 m from the tool, most at 2.5 s, during 'weld spot'. It comes before the wires in 43 % of the samples; with "
-        "it 1 of 10 has failed after 280 h.");
+        "it 1 of 10 has failed after 280 h. A check finds it.");
   CHECK(unvalidated_words(rows[1]) == "Abrasion: nothing rubs on the dresspack.");
   const auto table = read_csv(ranking_csv(rows));
   const auto column = [&](const std::string& name) {
@@ -370,8 +371,39 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   CHECK(table[1].at(column("abrasion_life_hours_p50")) == "2400");
   CHECK(table[1].at(column("abrasion_first_share")) == "0.43");
   CHECK(table[1].at(column("abrasion_on")) == "link_4");
+  CHECK(table[1].at(column("abrasion_found_share")) == "0.97");
+  CHECK(table[1].at(column("abrasion_unseen_share")) == "0.02");
   CHECK(table[2].at(column("abrasion_life_hours_p10")) == "inf");
   CHECK(table[1].at(column("not_evaluated")) == "water hose, kinks");
+}
+
+TEST_CASE("ranking: ratings have words and columns, and the first action names a rating that may end first") {
+  const Scratch scratch;
+  UnvalidatedMode rated;
+  rated.mode = UnvalidatedMode::rating;
+  rated.hours = {5000, 9000, 16000}, rated.first_share = 0.9, rated.together_p10 = 5000;
+  rated.place = "power cable", rated.position_from_tool = 0.4, rated.time = 3, rated.note = "20 % of that\tis twist.";
+  SampleLife life = living(12000);
+  life.planned_hours = 1e5, life.robot_life_hours = 40000;
+  life.unvalidated = unvalidated_text({rated});
+  const auto rows = read_ranking({job_with(scratch, "rated", life)});
+  CHECK(action_words(rows[0]) ==
+        "The wires last longer than the robot (40,000 h). The maker's rating of power cable covers only 5,000 .. 16,000 h (not "
+        "validated): test or replace it by then. Not evaluated: water hose, kinks.");
+  CHECK(unvalidated_words(rows[0]) ==
+        "The maker's rating of power cable is a lower bound of its life, is not validated and not in the hours above. It covers 5,000 "
+        ".. 16,000 h (10 .. 90 %), 0.40 m from the tool, most at 3.0 s. 20 % of that is twist.");
+  const auto table = read_csv(ranking_csv(rows));
+  const auto cell = [&](const std::string& name) {
+    return table[1].at(static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), name) - table[0].begin()));
+  };
+  CHECK(cell("rating_hours_p50") == "9000");
+  CHECK(cell("rating_of") == "power cable");
+  CHECK(cell("abrasion_life_hours_p50").empty());
+  rated.hours.fill(infinity), rated.note = "";
+  CHECK(unvalidated_words(rated) ==
+        "The maker's rating of power cable is a lower bound of its life, is not validated and not in the hours above. It covers the "
+        "whole life in more than 9 of 10 cases.");
 }
 
 TEST_CASE("ranking: the relative life of a rated cable has columns and words, empty without a rating") {

@@ -130,4 +130,34 @@ TEST_CASE("a check counts as passed on the far side of its limit, and as kept on
   }
 }
 
+TEST_CASE("modes beside the wires have limits in hours, and a limit of what a job does not evaluate is refused at its place") {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  const auto mode = [](const char* name, double early, double median) {
+    UnvalidatedMode of;
+    of.mode = name, of.hours = {early, median, 10 * median};
+    return of;
+  };
+  RankingRow row;
+  row.job = "hard", row.planned_hours = {1, 2, 3}, row.not_evaluated = "abrasion, kinks";
+  row.unvalidated = {mode(UnvalidatedMode::rating, 500, 2000), mode(UnvalidatedMode::rating, 8000, 9000),
+                     mode(UnvalidatedMode::wall, UnvalidatedMode::unknown, 700)};
+  AskedLimits asked;
+  asked.where = {"study.yaml", 7};
+  CHECK(outcome_of(row, "nowhere", asked).violation() == 0);
+  asked.rating = 1000, asked.wall = 1000;  // the first of several, of the wall the median
+  CHECK(outcome_of(row, "nowhere", asked).violation() == Approx(std::log(2.0) + std::log(1000 / 700.0)));
+  asked.rating = 500, asked.wall = 700;  // just kept
+  CHECK(outcome_of(row, "nowhere", asked).violation() == 0);
+  row.unvalidated[0].hours.fill(endless), row.unvalidated[1].hours.fill(endless);
+  asked.rating = 1e5;
+  CHECK(outcome_of(row, "nowhere", asked).violation() == 0);
+  CHECK_NOTHROW(check_evaluated(asked, row));
+  asked.abrasion = 1000;
+  CHECK_THROWS_WITH(check_evaluated(asked, row),
+                    Catch::StartsWith("study.yaml:7: error: abrasion_life_h is a limit of 'abrasion', which is not evaluated") &&
+                        Catch::Contains("abrasion, kinks"));
+  row.failure = "too short";  // its own reason is told instead
+  CHECK_NOTHROW(check_evaluated(asked, row));
+}
+
 }  // namespace dresslife::pipeline

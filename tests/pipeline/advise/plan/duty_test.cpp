@@ -1,5 +1,11 @@
 #include "pipeline/advise/plan/duty.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/advise/plan/duty_words.h"
+#include "pipeline/advise/plan/evaluated_duties.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
@@ -26,6 +32,13 @@ std::string of_programs(const std::string& programs, const std::string& more = "
   return "study: s\nduties:\n  - name: d\n" + more + "    programs:\n" + programs;
 }
 
+/// Of a wrapped text.
+std::string in_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  for (std::size_t at; (at = text.find("  ")) != std::string::npos;) text.erase(at, 1);
+  return text;
+}
+
 }  // namespace
 
 TEST_CASE("ten repeats an hour in every unit") {
@@ -37,6 +50,55 @@ TEST_CASE("ten repeats an hour in every unit") {
     const Duty& duty = file.duties.front();
     CHECK(duty.programs.front().rate(seconds, duty.shift_hours, duty.repeats_per_hour) == Approx(10).epsilon(1e-12));
   }
+}
+
+TEST_CASE("wear and used ratings of a duty's programs add up by their shares of the time") {
+  const auto mode = [](const char* name, const char* place, double early, double median) {
+    UnvalidatedMode of;
+    of.mode = name, of.place = place, of.hours = {early, median, 10 * median};
+    return of;
+  };
+  std::vector<RankingRow> rows(2);
+  rows[0].unvalidated = {mode(UnvalidatedMode::abrasion, "link_4", 1000, 9000), mode(UnvalidatedMode::rating, "power cable", 500, 600),
+                         mode(UnvalidatedMode::wall, "hose 3", UnvalidatedMode::unknown, 300)};
+  rows[1].unvalidated = {mode(UnvalidatedMode::abrasion, "link_3", 4000, 9000), mode(UnvalidatedMode::rating, "bus cable", 800, 900)};
+  rows[0].unvalidated[2].bends_at_limit = 17e6;
+  std::vector<DutyPart> parts(2);
+  parts[0].share_of_time = 0.5, parts[1].share_of_time = 0.25;
+  std::vector<DutyMode> modes = other_modes(parts, rows);
+  REQUIRE(modes.size() == 4);
+  CHECK(modes[0].hours == Approx(1 / (0.5 / 1000 + 0.25 / 4000)));  // on two links: at the soonest
+  CHECK(modes[1].hours == Approx(1000));                            // each cable by itself
+  CHECK(modes[2].hours == Approx(600));                             // of the wall the median
+  CHECK(modes[3].hours == Approx(3200));
+  rows[0].unvalidated[2].bends_at_limit = 1e6;  // its law contradicts a published hose
+  CHECK(other_modes(parts, rows).size() == 3);
+  parts[0].share_of_time = 0;
+  CHECK(std::isinf(other_modes(parts, rows)[1].hours));
+}
+
+TEST_CASE("a duty names the mode beside the wires that comes first, and all that come within the robot's life") {
+  DutyResult duty;
+  duty.robot_life_hours = 40000, duty.hours_per_week = 80;
+  duty.lives.percentiles = {9000, 20000, 30000};
+  CHECK_THAT(duty_action(duty), Catch::EndsWith("at 80 h per week)."));
+  CHECK(caution_words(duty).empty());
+  duty.others = {{UnvalidatedMode::abrasion, "", "", 20000}, {UnvalidatedMode::rating, "", "power cable", 6000},
+                 {UnvalidatedMode::wall, "upper", "", 7000},
+                 {UnvalidatedMode::rating, "", "bus cable", std::numeric_limits<double>::infinity()}};
+  CHECK_THAT(duty_action(duty),
+             Catch::EndsWith(" The maker's rating of power cable covers only 6,000 h (not validated): test or replace it by then."));
+  const std::string caution = caution_words(duty);
+  for (const char* words : {"1 of 10 hoses is worn through after 20,000 h", "the maker's rating of power cable covers 6,000 h",
+                            "half of the hoses of upper have cracked after 7,000 h"})
+    CHECK_THAT(in_one_line(caution), Catch::Contains(words));
+  CHECK_THAT(caution, !Catch::Contains("bus cable"));
+  duty.others[1].hours = 8000;
+  CHECK_THAT(duty_action(duty), Catch::EndsWith(" The hose of upper may crack after 7,000 h (not validated): inspect it."));
+  duty.others.erase(duty.others.begin() + 1, duty.others.end());
+  CHECK_THAT(duty_action(duty), Catch::EndsWith("at 80 h per week)."));  // after the wires
+  duty.lives.percentiles[0] = 50000;
+  CHECK_THAT(duty_action(duty), Catch::EndsWith(" The hose may wear through after 20,000 h (not validated): inspect it."));
 }
 
 TEST_CASE("a file of duties that contradicts itself is refused at its place") {

@@ -1,0 +1,33 @@
+// Whether visual checks find abrasion before the surface is worn through.
+//
+// A dresspack that fails at the age T is visibly worn from the age v T on. Checks come every tau hours of motion, the first at
+// any phase, and each finds visible wear with the probability p, independently of the others. In W = (1 - v) T there are
+// n = floor(W / tau) checks, and one more with the probability W / tau - n:
+//     found before = 1 - (1 - p)^n [1 - p (W / tau - n)]                                                    (F32)
+// v follows from the depth d h at which wear is visible. The worn area grows evenly, so v = A(d h, b) / A(h, b) with (F28),
+// (F29) at the arc b that is worn through first.
+//
+// Not contained: damage that every check misses at the same place, wear that is seen and left.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/job/fatigue.h"
+#include "pipeline/job/inspection.h"
+
+namespace dresslife::fatigue {
+
+/// (F32). visible: W, interval: tau [h], > 0; found: p.
+double found_before(double visible, double interval, double found);
+
+/// Of one mode, until the end of the robot's life.
+struct Inspected {
+  double failed_share = 0;  ///< of all samples
+  double found_share = 0;   ///< of those that fail, before they do; not a number: none fails
+  double unseen_share = 0;  ///< of all samples: they fail, and no check has found it
+};
+/// lives: (sample) log10 repeats; repeat: duration of one [s]; visible_from: v. Precondition: the interval is not 0.
+Inspected inspected(const std::vector<double>& lives, double repeat, double visible_from, const pipeline::Inspection& inspection,
+                    const pipeline::Fatigue& fatigue);
+
+}  // namespace dresslife::fatigue
