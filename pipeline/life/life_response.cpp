@@ -33,7 +33,7 @@ void sort_once(std::vector<double>& nodes) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
-constexpr double strain_power = 6;  // see together()
+constexpr double strain_power = 5;  // see together()
 
 }  // namespace
 
@@ -114,17 +114,6 @@ double between(const Place& place, const ValueAt& value_at) {
   return place.share == 0 ? first : first + place.share * (value_at(place.below + 1) - first);
 }
 
-/// Of log10 lives; where they fall beyond the nodes, the strain is straight.
-template <class Place, class LifeAt>
-double life_along(const Place& place, const LifeAt& life_at) {
-  const bool before = place.share < 0;
-  const double far = before ? -place.share : place.share - 1;
-  if (far <= 0) return between(place, life_at);
-  const double end = life_at(place.below + (before ? 0 : 1)), inner = life_at(place.below + (before ? 1 : 0));
-  if (end >= inner) return end + far * (end - inner);
-  return end - strain_power * std::log10(1 + far * (1 - std::pow(10.0, (end - inner) / strain_power)));
-}
-
 }  // namespace
 
 double LifeSurface::worst(std::size_t point, const Place& strength, const Place& slope) const {
@@ -138,8 +127,8 @@ double LifeSurface::worst(std::size_t point, const Place& strength, const Place&
 double LifeSurface::core(const Core& of, const ParameterPoint& z, const Place& strength,
                          const Place& slope) const {
   if (!of.grid.empty())
-    return life_along(place_among(of.friction, z[friction]), [&](std::size_t f) {
-      return life_along(place_among(of.slack, z[slack]), [&](std::size_t s) {
+    return between(place_among(of.friction, z[friction]), [&](std::size_t f) {
+      return between(place_among(of.slack, z[slack]), [&](std::size_t s) {
         return worst(of.grid[f * of.slack.size() + s], strength, slope);
       });
     });
@@ -150,7 +139,7 @@ double LifeSurface::core(const Core& of, const ParameterPoint& z, const Place& s
 double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& strength, const Place& slope) const {
   // Rests beyond those of the starts are not known.
   const double at = p == of_rest ? std::clamp(z[p], nodes_[p].front(), nodes_[p].back()) : z[p];
-  return life_along(place_among(nodes_[p], at), [&](std::size_t k) { return worst(alone_[p][k], strength, slope); });
+  return between(place_among(nodes_[p], at), [&](std::size_t k) { return worst(alone_[p][k], strength, slope); });
 }
 
 double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
