@@ -400,7 +400,8 @@ struct OuterLoop {
 }  // namespace
 
 struct DamageCounter::Tables {
-  Tables(const pipeline::Material& m, const pipeline::Fatigue& f, pipeline::InstructionSet set, double longest)
+  Tables(const pipeline::Material& m, const pipeline::Fatigue& f, pipeline::InstructionSet set,
+         double longest)
       : material(m), settings(f), relaxation(m, f), lockstep(lockstep_for(set)) {
     if (m.strain_life_table.empty()) {
       metal.emplace(m, f, longest);

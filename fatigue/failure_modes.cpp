@@ -33,7 +33,8 @@ std::string name_of_mode(const pipeline::Job& job, const PathInJob& place,
 }
 
 double log10_life(double repeats) {
-  return std::isfinite(repeats) ? std::min(std::log10(repeats), LifeResponse::undamaged) : LifeResponse::undamaged;
+  return std::isfinite(repeats) ? std::min(std::log10(repeats), LifeResponse::undamaged)
+                                : LifeResponse::undamaged;
 }
 
 std::array<double, percentiles.size()> logs_of(const Percentiles& lives) {
@@ -161,7 +162,8 @@ class Modes {
     double& bound = response.bound[static_cast<std::size_t>(inside)];
     bound = log10_life(repeats);
     for (std::size_t point = 0; point < response.points.size() && std::isinf(repeats); ++point)
-      if (response.inside[point] == inside && std::ranges::all_of(response.points[point], [](double z) { return z == 0; }))
+      if (response.inside[point] == inside &&
+          std::ranges::all_of(response.points[point], [](double z) { return z == 0; }))
         bound = first_wire_life(response, point);
   }
 

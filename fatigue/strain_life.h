@@ -86,7 +86,8 @@ class StrainLife {
 class StrainLifeTable {
  public:
   /// Precondition: at least two points, strains falling, cycles rising.
-  explicit StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points, double longest = most_reversals);
+  explicit StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points,
+                           double longest = most_reversals);
   double cycles(double strain_amplitude) const;  ///< N; infinity where the load does no damage
   double damage(double strain_amplitude) const { return 1 / cycles(strain_amplitude); }
 

@@ -136,10 +136,12 @@ double LifeSurface::core(const Core& of, const ParameterPoint& z, const Place& s
                   std::array{alone(friction, z, strength, slope), alone(slack, z, strength, slope)});
 }
 
-double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& strength, const Place& slope) const {
+double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& strength,
+                          const Place& slope) const {
   // Rests beyond those of the starts are not known.
   const double at = p == of_rest ? std::clamp(z[p], nodes_[p].front(), nodes_[p].back()) : z[p];
-  return between(place_among(nodes_[p], at), [&](std::size_t k) { return worst(alone_[p][k], strength, slope); });
+  return between(place_among(nodes_[p], at),
+                 [&](std::size_t k) { return worst(alone_[p][k], strength, slope); });
 }
 
 double LifeSurface::change(const ParameterPoint& far, Inside inside) const {

@@ -99,7 +99,8 @@ class LifeSurface {
   double worst(std::size_t point, const Place& strength, const Place& slope) const;
   double core(const Core& of, const ParameterPoint& z, const Place& strength, const Place& slope) const;
   /// W where z of one parameter only is not 0.
-  double alone(std::size_t parameter, const ParameterPoint& z, const Place& strength, const Place& slope) const;
+  double alone(std::size_t parameter, const ParameterPoint& z, const Place& strength,
+               const Place& slope) const;
 
   const LifeResponse& response_;
   std::array<std::vector<double>, strain_parameters> nodes_;        ///< (parameter, node) z of as_is

@@ -201,10 +201,12 @@ std::vector<double> outlived(std::span<const std::vector<double>> lives) {
   std::iota(order.begin(), order.end(), 0);
   const std::size_t samples = lives.front().size();
   for (std::size_t s = 0; s < samples; ++s) {
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return lives[a][s] < lives[b][s]; });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return lives[a][s] < lives[b][s]; });
     for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
       while (end < order.size() && lives[order[end]][s] == lives[order[first]][s]) ++end;
-      for (std::size_t k = first; k < end; ++k) count[order[k]] += double(first + end - 1) / 2 / double(samples);
+      for (std::size_t k = first; k < end; ++k)
+        count[order[k]] += double(first + end - 1) / 2 / double(samples);
     }
   }
   return count;
@@ -214,13 +216,15 @@ std::vector<double> outlived(std::span<const std::vector<double>> lives) {
 /// other as in most of the samples, of which the certainty of the order is a share. lives: (row, sample).
 void order_beyond_robot(std::vector<RankingRow>& rows, std::vector<std::vector<double>>& lives) {
   std::size_t beyond = 0;
-  while (beyond < rows.size() && !lives[beyond].empty() && rows[beyond].headline_hours() > rows[beyond].robot_life_hours)
+  while (beyond < rows.size() && !lives[beyond].empty() &&
+         rows[beyond].headline_hours() > rows[beyond].robot_life_hours)
     ++beyond;
   if (beyond < 2) return;
   const std::vector<double> count = outlived(std::span(lives).first(beyond));
   std::vector<std::size_t> order(beyond);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return count[a] > count[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return count[a] > count[b]; });
   std::vector<RankingRow> sorted_rows;
   std::vector<std::vector<double>> sorted_lives;
   for (const std::size_t k : order)

@@ -66,12 +66,13 @@ Lives lives_of(const fs::path& life, const std::string& name) {
 }  // namespace
 
 TEST_CASE("an order changes with inputs within their uncertainty only if its certainty is small") {
-  const std::map<std::string, std::string> inputs{{"shipped", ""},
-                                                  {"dwell", ""},
-                                                  {"stiffness", "dresspack.core_bending_stiffness_Nm2: 5.5"},
-                                                  {"ramp", "motion.ramp_percent: 50"},
-                                                  {"damping", "dresspack.loss_factor: 0.15"},
-                                                  {"mesh", "simulation.segments: 32, simulation.sample_rate_Hz: 12.5"}};
+  const std::map<std::string, std::string> inputs{
+      {"shipped", ""},
+      {"dwell", ""},
+      {"stiffness", "dresspack.core_bending_stiffness_Nm2: 5.5"},
+      {"ramp", "motion.ramp_percent: 50"},
+      {"damping", "dresspack.loss_factor: 0.15"},
+      {"mesh", "simulation.segments: 32, simulation.sample_rate_Hz: 12.5"}};
   const std::array<std::string, 2> programs{"handling", "rolling"};
   Scratch scratch;
   for (const double dwell : {1.0, 1.06}) {
@@ -82,10 +83,12 @@ TEST_CASE("an order changes with inputs within their uncertainty only if its cer
   std::string study = "base: " + base_job + "\njobs:\n";
   for (const auto& [input, key] : inputs)
     for (const std::string& program : programs)
-      study += "  " + program + "_" + input + ": {simulation.segments: 16, simulation.most_repeats: 2, motion: " + program +
+      study += "  " + program + "_" + input +
+               ": {simulation.segments: 16, simulation.most_repeats: 2, motion: " + program +
                (input == "dwell" ? "_dwell.yaml" : ".yaml") + (key.empty() ? "" : ", " + key) + "}\n";
   study = std::regex_replace(study, std::regex("simulation.segments: 16, (.*simulation.segments: 32)"), "$1");
-  const Outcome outcome = run(scratch, "dresslife", "run '" + scratch.write("order.yaml", study).string() + "'");
+  const Outcome outcome =
+      run(scratch, "dresslife", "run '" + scratch.write("order.yaml", study).string() + "'");
   INFO(outcome.err);
   REQUIRE(outcome.status == 0);
 
@@ -93,7 +96,8 @@ TEST_CASE("an order changes with inputs within their uncertainty only if its cer
   std::map<std::string, std::array<Lives, 2>> lives;
   for (const auto& [input, key] : inputs)
     for (std::size_t k = 0; k < programs.size(); ++k)
-      lives[input][k] = lives_of(scratch / ("runs/order/" + programs[k] + "_" + input + "/life.h5"), programs[k]);
+      lives[input][k] =
+          lives_of(scratch / ("runs/order/" + programs[k] + "_" + input + "/life.h5"), programs[k]);
   const auto certainty = [](const std::array<Lives, 2>& of) {
     const double share = share_outliving(of[0].samples, of[1].samples);
     return std::max(share, 1 - share);

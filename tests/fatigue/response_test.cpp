@@ -76,7 +76,8 @@ TEST_CASE("rests: lives beyond anything physical shorten no other life") {
   response.planned = {{16, 16, 16}};
   response.worst_life = {16, 18.1, 10.7, 4.3};
   response.bound[static_cast<std::size_t>(Inside::glued)] = 4;
-  for (const VariedStrains& at : varied) response.points.push_back(at.z), response.inside.push_back(at.inside);
+  for (const VariedStrains& at : varied)
+    response.points.push_back(at.z), response.inside.push_back(at.inside);
   fatigue::put_rests(response, varied, {3, 1, 1});
   const double most = 5 * std::log10(1 + std::pow(10, (4 - 10.7) / 5));  // by the strain of the worst rest
   pipeline::ParameterPoint z{};

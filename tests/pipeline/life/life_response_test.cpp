@@ -84,11 +84,13 @@ TEST_CASE("how long a life without end is decides nothing about lives that cause
   // 1e-5 and 10^-4.2 are the strains of 1e25 and 1e21 beside 1 at 1e0.
   for (const double shorter : {3.0, 6.0, 9.0})
     for (const double other : {6.0, 9.0, 12.0}) {
-      const double from_far = together(25, std::array{shorter, other}), from_near = together(21, std::array{shorter, other});
+      const double from_far = together(25, std::array{shorter, other}),
+                   from_near = together(21, std::array{shorter, other});
       const double strain = std::pow(10, -shorter / 5) + std::pow(10, -other / 5);
       CHECK(from_far == Approx(from_near).margin(5 / std::log(10.0) * 1e-4 / strain));
       CHECK(from_far <= std::min(shorter, other));
-      CHECK(from_far >= std::min(shorter, other) - 5 * std::log10(2.0));  // two strains are twice the larger at most
+      CHECK(from_far >=
+            std::min(shorter, other) - 5 * std::log10(2.0));  // two strains are twice the larger at most
     }
 }
 
@@ -197,8 +199,10 @@ TEST_CASE(
   for (int k = 0; k < 40; ++k)
     for (const auto& [parameter, values] : table.nodes) {
       ParameterPoint z = table.random_node();
-      if (parameter == play) z[friction] = z[slack] = 0;  // changes of several join as strains
-      else z[play] = 0;
+      if (parameter == play)
+        z[friction] = z[slack] = 0;  // changes of several join as strains
+      else
+        z[play] = 0;
       const auto life = [&](double at) {
         ParameterPoint moved = z;
         moved[parameter] = at;
