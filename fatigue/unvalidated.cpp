@@ -62,7 +62,7 @@ LifeResponse response_of(const Abrasion& worn, const pipeline::Job& job, const s
   response.dresspack = dresspack;
   response.knowledge = pipeline::prior_of(job.uncertainty);
   if (!job.uncertainty.enabled) response.knowledge.covariance.setZero();
-  const double median = std::min(std::log10(worn.repeats), LifeResponse::endless);
+  const double median = std::min(std::log10(worn.repeats), LifeResponse::undamaged);
   response.worst_life = {median};
   response.bound = {median, median, median};
   response.planned.resize(1);
