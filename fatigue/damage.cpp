@@ -251,11 +251,11 @@ auto with_rule(MeanStress rule, const Use& use) {
 
 /// What the loop reads for a metal.
 struct MetalTables {
-  MetalTables(const pipeline::Material& m, const pipeline::Fatigue& f)
-      : life(m, f.mean_stress, f.endurance_strain),
+  MetalTables(const pipeline::Material& m, const pipeline::Fatigue& f, double longest)
+      : life(m, f.mean_stress, f.endurance_strain, longest),
         branch(CyclicCurve(m)),
-        strain_damage(life.coffin_manson(), fewest_reversals / room(f), most_reversals * room(f)),
-        swt_damage(life.swt(), fewest_reversals, most_reversals) {}
+        strain_damage(life.coffin_manson(), fewest_reversals / room(f), longest * room(f)),
+        swt_damage(life.swt(), fewest_reversals, longest) {}
   static double room(const pipeline::Fatigue& f) {
     return with_rule(f.mean_stress, [](auto rule) { return rule.life_room; });
   }
@@ -266,8 +266,8 @@ struct MetalTables {
 };
 
 /// Of a curve whose axis is stretched: within the same lives as the others.
-double within_lives(double damage) {
-  return damage < 2 / most_reversals ? 0 : std::min(damage, 2 / fewest_reversals);
+double within_lives(double damage, double longest) {
+  return damage < 2 / longest ? 0 : std::min(damage, 2 / fewest_reversals);
 }
 
 void hand_over(const CurveTable& table, LockstepTables& to) {
@@ -297,13 +297,13 @@ double Walker::damage(const MetalTables& metal, double amplitude, double stress_
   const double stretch = metal.life.walker_stretch(stress_max, stress_mean);
   if (stretch < 1 / life_room || stretch > life_room)  // beyond the table: solved
     return metal.life.damage({amplitude, stress_max, stress_mean});
-  return within_lives(metal.strain_damage(amplitude) / stretch);
+  return within_lives(metal.strain_damage(amplitude) / stretch, metal.life.longest());
 }
 
 double Morrow::damage(const MetalTables& metal, double amplitude, double, double stress_mean) {
   if (stress_mean >= metal.life.fatigue_strength()) return 2 / fewest_reversals;
   const StrainLife::MorrowScale scale = metal.life.morrow_scale(stress_mean);  // (F8)
-  return within_lives(metal.strain_damage(amplitude / scale.strain) / scale.life);
+  return within_lives(metal.strain_damage(amplitude / scale.strain) / scale.life, metal.life.longest());
 }
 
 /// True if rises and falls take turns strictly, as dresslife-strain writes them. No branch, and whole numbers
@@ -400,12 +400,13 @@ struct OuterLoop {
 }  // namespace
 
 struct DamageCounter::Tables {
-  Tables(const pipeline::Material& m, const pipeline::Fatigue& f, pipeline::InstructionSet set)
+  Tables(const pipeline::Material& m, const pipeline::Fatigue& f, pipeline::InstructionSet set,
+         double longest)
       : material(m), settings(f), relaxation(m, f), lockstep(lockstep_for(set)) {
     if (m.strain_life_table.empty()) {
-      metal.emplace(m, f);
+      metal.emplace(m, f, longest);
     } else {
-      measured.emplace(m.strain_life_table);
+      measured.emplace(m.strain_life_table, longest);
     }
     fill_side_by_side();
   }
@@ -430,8 +431,8 @@ struct DamageCounter::Tables {
 };
 
 DamageCounter::DamageCounter(const pipeline::Material& material, const pipeline::Fatigue& settings,
-                             pipeline::InstructionSet set)
-    : tables_(std::make_unique<Tables>(material, settings, set)) {}
+                             pipeline::InstructionSet set, double longest)
+    : tables_(std::make_unique<Tables>(material, settings, set, longest)) {}
 DamageCounter::~DamageCounter() = default;
 DamageCounter::DamageCounter(DamageCounter&&) noexcept = default;
 

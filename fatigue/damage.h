@@ -59,9 +59,10 @@ std::vector<double> damage_by_step(std::span<const double> damage, std::span<con
 /// Damage of histories that are made of one material; built once, const in use.
 class DamageCounter {
  public:
-  /// set: instructions to count with. @throws pipeline::InputError as pipeline::instruction_set().
+  /// set: instructions to count with. longest: a cycle that the metal would bear more often [reversals] does no
+  /// damage. @throws pipeline::InputError as pipeline::instruction_set().
   DamageCounter(const pipeline::Material& material, const pipeline::Fatigue& settings,
-                pipeline::InstructionSet set = pipeline::instruction_set());
+                pipeline::InstructionSet set = pipeline::instruction_set(), double longest = most_reversals);
   ~DamageCounter();
   DamageCounter(DamageCounter&&) noexcept;
 

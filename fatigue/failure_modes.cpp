@@ -32,13 +32,14 @@ std::string name_of_mode(const pipeline::Job& job, const PathInJob& place,
   return in.empty() ? "wires" : "wires of " + in;
 }
 
-double log10_or_endless(double repeats) {
-  return std::isfinite(repeats) ? std::min(std::log10(repeats), LifeResponse::endless) : LifeResponse::endless;
+double log10_life(double repeats) {
+  return std::isfinite(repeats) ? std::min(std::log10(repeats), LifeResponse::undamaged)
+                                : LifeResponse::undamaged;
 }
 
 std::array<double, percentiles.size()> logs_of(const Percentiles& lives) {
   std::array<double, percentiles.size()> logs;
-  for (std::size_t i = 0; i < logs.size(); ++i) logs[i] = log10_or_endless(lives[i]);
+  for (std::size_t i = 0; i < logs.size(); ++i) logs[i] = log10_life(lives[i]);
   return logs;
 }
 
@@ -61,8 +62,8 @@ class Modes {
     for (std::size_t site = 0; site < counts.size(); ++site) counts[site] = mode_of(site) == mode;
     fill_response(response, own, only(in_.varied, counts), in_.starts, in_.sites, in_.component, in_.job,
                   in_.threads);
-    response.bound[static_cast<std::size_t>(pipeline::Inside::glued)] = log10_or_endless(in_.glued[mode]);
-    response.bound[static_cast<std::size_t>(pipeline::Inside::free)] = log10_or_endless(in_.free[mode]);
+    set_bound(response, pipeline::Inside::glued, in_.glued[mode]);
+    set_bound(response, pipeline::Inside::free, in_.free[mode]);
     add_planned(mode, response);
     return response;
   }
@@ -136,7 +137,7 @@ class Modes {
     const auto here = list_.size() == 1 ? logs_of(in_.planned) : with(0);
     response.planned = {here};
     if (!in_.job.uncertainty.enabled) return;
-    if (!settings.load_sharing && here[0] < LifeResponse::endless) {
+    if (!settings.load_sharing && here[0] < LifeResponse::undamaged) {
       constexpr double reach = 1.5;
       response.scatter = {-reach, 0, reach};
       response.planned = {with(-reach), here, with(reach)};
@@ -146,12 +147,24 @@ class Modes {
       for (double& life : lives) life -= std::max(0.0, excess);
   }
 
-  /// log10 of the worst wire's median life at the medians of all parameters: W(0).
-  static double first_wire_life(const LifeResponse& response) {
+  /// log10 of the worst wire's median life at a point of the strain side; at 0: W(0).
+  static double first_wire_life(const LifeResponse& response, std::size_t point = 0) {
     const auto zero = [](const std::vector<double>& nodes) {
       return static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), 0.0) - nodes.begin());
     };
-    return response.worst_life.at(zero(response.strength) * response.slope.size() + zero(response.slope));
+    const std::size_t slopes = response.slope.size();
+    return response.worst_life.at((point * response.strength.size() + zero(response.strength)) * slopes +
+                                  zero(response.slope));
+  }
+
+  /// Without damage the bound is W there, which counts damage up to longer lives.
+  static void set_bound(LifeResponse& response, pipeline::Inside inside, double repeats) {
+    double& bound = response.bound[static_cast<std::size_t>(inside)];
+    bound = log10_life(repeats);
+    for (std::size_t point = 0; point < response.points.size() && std::isinf(repeats); ++point)
+      if (response.inside[point] == inside &&
+          std::ranges::all_of(response.points[point], [](double z) { return z == 0; }))
+        bound = first_wire_life(response, point);
   }
 
   const ModeList& list_;
@@ -193,7 +206,7 @@ pipeline::FailureModes failure_modes(const ModeList& modes, const ModeInputs& in
     LifeResponse& none = responses.emplace_back();
     none.knowledge = pipeline::prior_of(inputs.job.uncertainty);
     none.planned.resize(1);
-    none.planned[0].fill(LifeResponse::endless);
+    none.planned[0].fill(LifeResponse::undamaged);
   }
   for (std::size_t mode = 0; mode < modes.size(); ++mode) responses.push_back(each.response(mode));
   return responses;

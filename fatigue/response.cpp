@@ -14,14 +14,17 @@
 namespace dresslife::fatigue {
 namespace {
 
+using pipeline::LifeResponse;
+
 constexpr std::size_t likely_wires =
     24;  // at each point by the job's material, judged over all its constants
 constexpr std::size_t settled_wires = 2;  // of them, with mean stress relaxing exactly
 const std::vector<double> strength_nodes{-2, -1, 0, 1, 2}, slope_nodes{-1.5, 0, 1.5};
 
+const double longest = 2 * std::pow(10, LifeResponse::undamaged);  // reversals of one cycle
+
 double log10_life(double damage) {
-  return damage > 0 ? std::min(-std::log10(damage), pipeline::LifeResponse::endless)
-                    : pipeline::LifeResponse::endless;
+  return damage > 0 ? std::min(-std::log10(damage), LifeResponse::undamaged) : LifeResponse::undamaged;
 }
 
 /// Damage of each wire by the loop's rough share (F24).
@@ -58,6 +61,8 @@ double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires
   double worst = 0;
   for (const std::size_t wire : worst_of(wires, rough, settled_wires))
     worst = std::max(worst, counters.of(at.site[wire]).settled_damage(at.strains[wire], workspace));
+  // A mean stress is followed for 2^50 repeats. Beyond them the rough share has to do.
+  if (worst == 0 && !rough.empty()) worst = *std::ranges::max_element(rough);
   return log10_life(worst);
 }
 
@@ -173,10 +178,9 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
   for (std::size_t v = 0; v < varied.size(); ++v) {
     if (varied[v].rest == 0 || is_rest(varied[v])) continue;
     for (std::size_t node = 0; node < nodes; ++node) {
-      constexpr double endless = pipeline::LifeResponse::endless;
       double& of = life(v + 1, node);
       const double there = life(point[varied[v].rest], node), here = life(0, node);
-      if (of < endless) of = std::min(endless, of - there + here);
+      of = std::min(LifeResponse::undamaged, pipeline::together(there, std::array{of, here}));
     }
   }
 }
@@ -193,10 +197,10 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
     response.points.push_back(at.z), response.inside.push_back(at.inside);
   }
   const std::size_t slopes = slope_nodes.size(), nodes = strength_nodes.size() * slopes;
-  response.worst_life.assign(points.size() * nodes, pipeline::LifeResponse::endless);
+  response.worst_life.assign(points.size() * nodes, LifeResponse::undamaged);
   std::vector<std::vector<std::size_t>> likely;  // (point)
   {
-    const SiteCounters counters(sites, component, job);
+    const SiteCounters counters(sites, component, job, longest);
     DamageCounter::Workspace workspace;
     for (const VariedStrains* at : points) {
       std::vector<std::size_t> all(at->strains.size());
@@ -213,7 +217,7 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
           parameters[index_of(pipeline::Uncertain::strength)].value(strength_nodes[node / slopes]);
       moved.fatigue.slope_change +=
           parameters[index_of(pipeline::Uncertain::slope)].value(slope_nodes[node % slopes]);
-      const SiteCounters counters(sites, component, moved);
+      const SiteCounters counters(sites, component, moved, longest);
       for (std::size_t k = 0; k < points.size(); ++k)
         response.worst_life[k * nodes + node] = worst_life(*points[k], likely[k], counters, workspace);
     }

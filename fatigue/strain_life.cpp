@@ -13,8 +13,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double swt_walker_exponent = 0.5;  // for which s_max^(1-gamma) s_a^gamma is SWT's sqrt(s_max s_a)
 
-double bounded(double reversals) {
-  return reversals > most_reversals ? infinity : std::max(reversals, fewest_reversals);
+double bounded(double reversals, double longest) {
+  return reversals > longest ? infinity : std::max(reversals, fewest_reversals);
 }
 
 }  // namespace
@@ -46,10 +46,12 @@ double PowerSum::inverse(double y) const {
   return std::exp(l);
 }
 
-StrainLife::StrainLife(const pipeline::Material& m, pipeline::MeanStress mean_stress, double endurance_strain)
+StrainLife::StrainLife(const pipeline::Material& m, pipeline::MeanStress mean_stress, double endurance_strain,
+                       double longest)
     : material_(m),
       mean_stress_(mean_stress),
       endurance_strain_(endurance_strain),
+      longest_(longest),
       coffin_manson_(m.fatigue_strength / m.youngs_modulus, m.fatigue_strength_exponent, m.fatigue_ductility,
                      m.fatigue_ductility_exponent),
       swt_(m.fatigue_strength * m.fatigue_strength / m.youngs_modulus, 2 * m.fatigue_strength_exponent,
@@ -61,20 +63,21 @@ double StrainLife::reversals(const CycleLoad& load) const {
   if (load.strain_amplitude <= endurance_strain_ || load.strain_amplitude == 0) return infinity;
   switch (mean_stress_) {
     case pipeline::MeanStress::none:
-      return bounded(coffin_manson_.inverse(load.strain_amplitude));
+      return bounded(coffin_manson_.inverse(load.strain_amplitude), longest_);
     case pipeline::MeanStress::swt: {
       const double parameter = load.stress_max * load.strain_amplitude;
-      return parameter > 0 ? bounded(swt_.inverse(parameter)) : infinity;
+      return parameter > 0 ? bounded(swt_.inverse(parameter), longest_) : infinity;
     }
     case pipeline::MeanStress::morrow: {
       if (load.stress_mean >= material_.fatigue_strength) return fewest_reversals;
       const MorrowScale scale = morrow_scale(load.stress_mean);
-      return bounded(scale.life * coffin_manson_.inverse(load.strain_amplitude / scale.strain));
+      return bounded(scale.life * coffin_manson_.inverse(load.strain_amplitude / scale.strain), longest_);
     }
     case pipeline::MeanStress::walker:
       if (load.stress_max <= 0) return infinity;
-      return bounded(walker_stretch(load.stress_max, load.stress_mean) *
-                     coffin_manson_.inverse(load.strain_amplitude));
+      return bounded(
+          walker_stretch(load.stress_max, load.stress_mean) * coffin_manson_.inverse(load.strain_amplitude),
+          longest_);
   }
   throw std::logic_error("no such rule of mean stress");
 }
@@ -93,7 +96,8 @@ double StrainLife::walker_stretch(double stress_max, double stress_mean) const {
   return std::pow((stress_max - stress_mean) / stress_max, walker_power_);
 }
 
-StrainLifeTable::StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points) {
+StrainLifeTable::StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points, double longest)
+    : longest_(longest) {
   assert(points.size() >= 2);
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const double fall = std::log(points[i + 1].strain_amplitude / points[i].strain_amplitude);
@@ -109,7 +113,8 @@ double StrainLifeTable::cycles(double strain_amplitude) const {
   std::size_t i = 0;
   while (i + 1 < pieces_.size() && log_strain < pieces_[i + 1].log_strain) ++i;
   const Piece& piece = pieces_[i];
-  return bounded(2 * std::exp(piece.log_cycles + piece.slope * (log_strain - piece.log_strain))) / 2;
+  return bounded(2 * std::exp(piece.log_cycles + piece.slope * (log_strain - piece.log_strain)), longest_) /
+         2;
 }
 
 }  // namespace dresslife::fatigue

@@ -9,9 +9,9 @@
 // (numbers as in the thesis by S. Backman, 2018; Morrow 1968; Smith, Watson and Topper 1970; Walker 1970 in
 // the strain-life form of Dowling 2009). Damage of a cycle: 1/N.
 //
-// Lives are solved over 1 <= 2N <= 1e15. A load beyond the curve at 2N = 1 breaks the wire on its first
-// reversal: 2N = 1 and a damage of 2 per cycle, whatever the excess; the curve says nothing there. A life
-// beyond 1e15 reversals does no damage.
+// Lives are solved over 1 <= 2N <= `longest`, 1e15 unless the caller needs more. A load beyond the curve at
+// 2N = 1 breaks the wire on its first reversal: 2N = 1 and a damage of 2 per cycle, whatever the excess; the
+// curve says nothing there. A life beyond `longest` does no damage.
 #pragma once
 
 #include <vector>
@@ -46,9 +46,9 @@ struct CycleLoad {
 /// Lives by (8), (9) or (F7), exact to rounding; DamageCounter in damage.h is the fast counterpart.
 class StrainLife {
  public:
-  /// Amplitudes up to `endurance_strain` do no damage.
+  /// Amplitudes up to `endurance_strain` do no damage. longest: 2N.
   StrainLife(const pipeline::Material& material, pipeline::MeanStress mean_stress,
-             double endurance_strain = 0);
+             double endurance_strain = 0, double longest = most_reversals);
 
   double reversals(const CycleLoad& load) const;  ///< 2N; infinity where the load does no damage
   double damage(const CycleLoad& load) const;     ///< 1/N of one full cycle; 0 to 2
@@ -57,6 +57,7 @@ class StrainLife {
   const PowerSum& swt() const { return swt_; }                      ///< (9): s_max eps_a [Pa] of 2N
   pipeline::MeanStress mean_stress() const { return mean_stress_; }
   double endurance_strain() const { return endurance_strain_; }
+  double longest() const { return longest_; }
 
   /// Morrow's curve is (8) on a stretched life axis, so one curve serves every mean stress (F8). With u = 1 -
   /// s_m/sf and 2N = k x, k = u^(1/(c-b)): u sf/E (k x)^b + ef (k x)^c = k^c (sf/E x^b + ef x^c), since u k^b
@@ -74,18 +75,19 @@ class StrainLife {
  private:
   pipeline::Material material_;
   pipeline::MeanStress mean_stress_;
-  double endurance_strain_;
+  double endurance_strain_, longest_;
   PowerSum coffin_manson_, swt_;
   double walker_power_;  // -(1-gamma)/b
 };
 
 /// Life from measured points (eps_a, N), straight between them in log eps_a and log N (F13); beyond the first
-/// and the last the end pieces go on, within the same 1 <= 2N <= 1e15. For polymers, which (8) does not fit.
+/// and the last the end pieces go on, within the same 1 <= 2N <= longest. For polymers, which (8) does not fit.
 /// Mean stress and strain are those of the test: no correction applies.
 class StrainLifeTable {
  public:
   /// Precondition: at least two points, strains falling, cycles rising.
-  explicit StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points);
+  explicit StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points,
+                           double longest = most_reversals);
   double cycles(double strain_amplitude) const;  ///< N; infinity where the load does no damage
   double damage(double strain_amplitude) const { return 1 / cycles(strain_amplitude); }
 
@@ -94,6 +96,7 @@ class StrainLifeTable {
     double log_strain, log_cycles, slope;  // at its larger strain; d ln N / d ln eps
   };
   std::vector<Piece> pieces_;
+  double longest_;
 };
 
 }  // namespace dresslife::fatigue

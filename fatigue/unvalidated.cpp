@@ -70,7 +70,7 @@ LifeResponse response_of(const std::string& name, double repeats, double log10_s
   response.dresspack = dresspack;
   response.knowledge = pipeline::prior_of(job.uncertainty);
   if (!job.uncertainty.enabled) response.knowledge.covariance.setZero();
-  const double median = std::min(std::log10(repeats), LifeResponse::endless);
+  const double median = std::min(std::log10(repeats), LifeResponse::undamaged);
   response.worst_life = {median};
   response.bound = {median, median, median};
   response.planned.resize(1);

@@ -56,14 +56,17 @@ std::size_t SiteDamage::worst_wall() const {
   return worst_by_group(*this, 1, [&](std::size_t site) { return is_wire(site) ? no_site : 0; }).front();
 }
 
-SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job)
+SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job,
+                           double longest)
     : component_(component.index), material_(sites.material().index) {
   sites.check_materials(job);
   std::vector<int> wall_of_dresspack;
   for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
     const bool walled = !mounted.dresspack.hose_material.empty();
     wall_of_dresspack.push_back(walled ? static_cast<int>(wall_.size()) : -1);
-    if (walled) wall_.emplace_back(pipeline::hose_material_of(job, mounted.dresspack), job.fatigue);
+    if (walled)
+      wall_.emplace_back(pipeline::hose_material_of(job, mounted.dresspack), job.fatigue,
+                         pipeline::instruction_set(), longest);
   }
   for (const std::string& path : component.values) {
     const PathInJob place = path_in_job(job, path);
@@ -71,7 +74,8 @@ SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, co
     wall_of_component_.push_back(wall ? wall_of_dresspack[place.dresspack] : -1);
   }
   for (const std::string& name : sites.material().values)
-    by_material_.emplace_back(pipeline::material_of(job, name), job.fatigue);
+    by_material_.emplace_back(pipeline::material_of(job, name), job.fatigue, pipeline::instruction_set(),
+                              longest);
 }
 
 const DamageCounter& SiteCounters::of(std::size_t site) const {

@@ -40,7 +40,9 @@ struct SiteDamage {
 /// another.
 class SiteCounters {
  public:
-  SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job);
+  /// longest: see DamageCounter.
+  SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job,
+               double longest = most_reversals);
   const DamageCounter& of(std::size_t site) const;
   bool is_wall(std::size_t site) const { return wall_of_component_[component_[site]] >= 0; }
   bool settle() const;  ///< whether any of them does (DamageCounter::settles)

@@ -33,7 +33,19 @@ void sort_once(std::vector<double>& nodes) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
+constexpr double strain_power = 5;  // see together()
+
 }  // namespace
+
+double together(double base, std::span<const double> alone) {
+  double factor = 1, added = 0;
+  for (const double life : alone) {
+    if (life == base) continue;
+    const double ratio = std::pow(10.0, (base - life) / strain_power);
+    ratio < 1 ? factor *= ratio : added += ratio - 1;
+  }
+  return base - strain_power * std::log10(factor + added);
+}
 
 // ---- the response -----------------------------------------------------------------------------------------
 
@@ -114,20 +126,22 @@ double LifeSurface::worst(std::size_t point, const Place& strength, const Place&
 
 double LifeSurface::core(const Core& of, const ParameterPoint& z, const Place& strength,
                          const Place& slope) const {
-  const double here = worst(0, strength, slope);
   if (!of.grid.empty())
     return between(place_among(of.friction, z[friction]), [&](std::size_t f) {
       return between(place_among(of.slack, z[slack]), [&](std::size_t s) {
         return worst(of.grid[f * of.slack.size() + s], strength, slope);
       });
     });
-  double sum = here;
-  for (const std::size_t p : {friction, slack})
-    if (nodes_[p].size() > 1)
-      sum += between(place_among(nodes_[p], z[p]),
-                     [&](std::size_t k) { return worst(alone_[p][k], strength, slope); }) -
-             here;
-  return sum;
+  return together(worst(0, strength, slope),
+                  std::array{alone(friction, z, strength, slope), alone(slack, z, strength, slope)});
+}
+
+double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& strength,
+                          const Place& slope) const {
+  // Rests beyond those of the starts are not known.
+  const double at = p == of_rest ? std::clamp(z[p], nodes_[p].front(), nodes_[p].back()) : z[p];
+  return between(place_among(nodes_[p], at),
+                 [&](std::size_t k) { return worst(alone_[p][k], strength, slope); });
 }
 
 double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
@@ -137,18 +151,11 @@ double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
   const Core& of = cores_[number_of(inside)];
   const Place strength = place_among(response_.strength, z[index_of(Uncertain::strength)]);
   const Place slope = place_among(response_.slope, z[index_of(Uncertain::slope)]);
-  const double unmoved = core(of, z, strength, slope);
-  if (unmoved + of.shift >= LifeResponse::endless) return infinity;
-  double sum = unmoved + of.shift - at_zero_;
-  const double here = worst(0, strength, slope);
-  for (std::size_t p = 0; p < strain_parameters; ++p) {
-    if (nodes_[p].size() < 2 || p == friction || p == slack) continue;
-    // Rests beyond those of the starts are not known.
-    const double at = p == of_rest ? std::clamp(z[p], nodes_[p].front(), nodes_[p].back()) : z[p];
-    sum += between(place_among(nodes_[p], at),
-                   [&](std::size_t k) { return worst(alone_[p][k], strength, slope); }) -
-           here;
-  }
+  std::array<double, strain_parameters> lives{core(of, z, strength, slope) + of.shift};
+  std::size_t count = 1;
+  for (std::size_t p = 0; p < strain_parameters; ++p)
+    if (nodes_[p].size() > 1 && p != friction && p != slack) lives[count++] = alone(p, z, strength, slope);
+  double sum = together(worst(0, strength, slope), std::span(lives).first(count)) - at_zero_;
   for (const Uncertain of_lives : {Uncertain::model, Uncertain::motion})
     sum += std::log10(uncertain_parameters()[index_of(of_lives)].value(far[index_of(of_lives)]));
   return sum;

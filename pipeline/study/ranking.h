@@ -121,7 +121,7 @@ struct RankingRow {
   const std::array<double, 3>& by_scatter() const {
     return std::isnan(scatter_hours[0]) ? planned_hours : scatter_hours;
   }
-  /// Sort key: the p10 life; of older files the worst wire's.
+  /// The p10 life; of older files the worst wire's.
   double headline_hours() const { return planned() ? planned_hours[0] : life_hours; }
   double headline_months() const { return planned() ? planned_months : life_months; }
   double headline_repeats() const {
@@ -129,11 +129,13 @@ struct RankingRow {
   }
 };
 
-/// Two jobs have different ranks if one lives longer in this share of the samples: 1 of 10 such comparisons is wrong.
+/// Two jobs have different ranks if the one that stands before the other lives longer in this share of the samples: 1 of
+/// 10 such comparisons is wrong.
 constexpr double separated_share = 0.9;
 
-/// One row per job, longest life first, equal lives by name, failed jobs last. A life file that is missing or cannot be
-/// read gives a failed row with the reason; nothing is thrown.
+/// One row per job, longest p10 first, equal lives by name, failed jobs last. Jobs whose p10 is longer than the robot's
+/// life need no replacement: the first of them outlives most others in most samples. A life file that is missing or
+/// cannot be read gives a failed row with the reason; nothing is thrown.
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results);
 
 /// Of a study: finished jobs, then the last results of stale jobs, then the states of the others.

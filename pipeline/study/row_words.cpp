@@ -260,6 +260,10 @@ std::string order_words(const RankingRow& row) {
   if (!row.outlives_next) return "";
   const double of_100 = 100 * *row.outlives_next;
   const bool clear = *row.outlives_next >= separated_share;
+  if (*row.outlives_next <= 1 - separated_share)
+    return fmt::format(
+        "The next job lives longer in {:.0f} of 100 samples, but 1 of 10 of its dresspacks fails earlier.",
+        100 - of_100);
   return fmt::format("Lives longer than the next job in {:.0f} of 100 samples{}.", of_100,
                      clear ? "" : ": no clear difference");
 }

@@ -944,6 +944,25 @@ TEST_CASE("uncertainty: the response is what the stage tells with the keys that 
   CHECK(longer.number_attribute("life_repeats") == Approx(3 * life).epsilon(1e-4));
 }
 
+TEST_CASE("uncertainty: the response knows lives beyond those that count as damaged") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  job.uncertainty.enabled = true;
+  const auto worst_life = [&](float times) {
+    StrainFile f = example();
+    for (auto& site : f.sites)
+      for (float& strain : site.strain) strain *= times;
+    const FileReader life(run(folder, f, job).file, pipeline::life_format());
+    CHECK(std::isinf(life.number_attribute("life_repeats")));
+    const auto response = pipeline::LifeResponse::from_text(life.text_attribute("life_response"));
+    return response.worst_life[response.worst_life.size() / 2];  // at the medians
+  };
+  // By the elastic line life ~ strain^(1/b). Of a strain of 1e-4 the plastic line adds 3e-6 at 2N = 1e15.
+  constexpr double plastic = 1e-4;
+  const double twice = std::log10(2) / -copper().fatigue_strength_exponent;
+  CHECK(worst_life(0.005f) - worst_life(0.01f) == Approx(twice).margin(plastic));
+}
+
 TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time and the share in which it is first") {
   const Folder folder;
   pipeline::Job job = test_job();

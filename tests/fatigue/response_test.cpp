@@ -60,9 +60,32 @@ TEST_CASE("rests: a variation that went on from another rest counts by what it c
   const Rests of(5, 8);
   pipeline::ParameterPoint z{};
   z[slack] = -1.5;
-  CHECK(of.response.change(z) == Approx(-2));
+  // From rest 2, life 1e8, to the job's own, 1e6, the strain grows by f - 1; slack makes it f or g times as large.
+  const double f = std::pow(10, 2. / 5), g = std::pow(10, -1. / 5);
+  CHECK(of.response.change(z) == Approx(2 - 5 * std::log10(f + f - 1)));
   z[slack] = 1.5;
-  CHECK(of.response.change(z) == Approx(1));
+  CHECK(of.response.change(z) == Approx(2 - 5 * std::log10(f + g - 1)));
+}
+
+TEST_CASE("rests: lives beyond anything physical shorten no other life") {
+  // As a job of two_robots was: hardly damaged at two of its three rests, and 1e4 repeats if everything is glued.
+  std::vector<VariedStrains> varied(3);
+  varied[0].rest = varied[2].rest = 1, varied[1].rest = 2, varied[2].inside = Inside::glued;
+  LifeResponse response;
+  response.knowledge = pipeline::prior_of({});
+  response.planned = {{16, 16, 16}};
+  response.worst_life = {16, 18.1, 10.7, 4.3};
+  response.bound[static_cast<std::size_t>(Inside::glued)] = 4;
+  for (const VariedStrains& at : varied)
+    response.points.push_back(at.z), response.inside.push_back(at.inside);
+  fatigue::put_rests(response, varied, {3, 1, 1});
+  const double most = 5 * std::log10(1 + std::pow(10, (4 - 10.7) / 5));  // by the strain of the worst rest
+  pipeline::ParameterPoint z{};
+  for (const double at : {-3.0, -1.0, 0.0, 1.0, 3.0}) {
+    z[rest] = at;
+    CHECK(response.log10_life(z, 0, Inside::glued) == Approx(4).margin(most));
+    CHECK(response.log10_life(z, 0) > 10);
+  }
 }
 
 TEST_CASE("rests: they have a share in the causes when starts differ, and none when they agree") {

@@ -255,8 +255,8 @@ TEST_CASE("what is installed apart is sampled apart, also when it was learned to
 
 TEST_CASE("what is never damaged lives without end in every sample") {
   LifeResponse response = straight(0.6, 0, 0);
-  response.planned = {{LifeResponse::endless, LifeResponse::endless, LifeResponse::endless}};
-  for (double& life : response.worst_life) life = LifeResponse::endless;
+  response.planned = {{LifeResponse::undamaged, LifeResponse::undamaged, LifeResponse::undamaged}};
+  for (double& life : response.worst_life) life = LifeResponse::undamaged;
   const FirstFailures lives = summary_of({response}, "job");
   CHECK(std::isinf(lives.percentiles[0]));
   CHECK(sum(lives.share) == 0);

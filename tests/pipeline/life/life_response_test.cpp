@@ -67,14 +67,41 @@ TEST_CASE("each side of the median has the spread of its own percentile") {
     CHECK(response.log10_life({}, tenths * 1.2815515655446004) == Approx(life));
 }
 
-TEST_CASE("a parameter by itself adds to the crossed ones, whatever they are") {
+TEST_CASE("one cause changes a life as it does by itself, and the order of causes does not matter") {
+  for (const double life : {-1.0, 4.0, 9.0, 25.0}) {
+    CHECK(together(9, std::array{life}) == Approx(life));
+    CHECK(together(9, std::array{9.0, life, 9.0}) == Approx(life));
+  }
+  CHECK(together(9, {}) == 9);
+  CHECK(together(9, std::array{7.0, 12.0, 8.5}) == Approx(together(9, std::array{8.5, 7.0, 12.0})));
+  // Lengthening causes are factors of the strain: their decades add up. Equal shortening ones add equal strains.
+  CHECK(together(9, std::array{10.0, 12.0}) == Approx(13));
+  const double threefold = 5 * std::log10(3.0), twofold = 5 * std::log10(2.0);
+  CHECK(together(9, std::array{9 - twofold, 9 - twofold}) == Approx(9 - threefold));
+}
+
+TEST_CASE("how long a life without end is decides nothing about lives that causes shorten") {
+  // 1e-5 and 10^-4.2 are the strains of 1e25 and 1e21 beside 1 at 1e0.
+  for (const double shorter : {3.0, 6.0, 9.0})
+    for (const double other : {6.0, 9.0, 12.0}) {
+      const double from_far = together(25, std::array{shorter, other}),
+                   from_near = together(21, std::array{shorter, other});
+      const double strain = std::pow(10, -shorter / 5) + std::pow(10, -other / 5);
+      CHECK(from_far == Approx(from_near).margin(5 / std::log(10.0) * 1e-4 / strain));
+      CHECK(from_far <= std::min(shorter, other));
+      CHECK(from_far >=
+            std::min(shorter, other) - 5 * std::log10(2.0));  // two strains are twice the larger at most
+    }
+}
+
+TEST_CASE("a parameter by itself joins the crossed ones, whatever they are") {
   LifeResponse response = straight(0.6, 0.2, 0);
   response.points.push_back({}), response.points.back()[index_of(Uncertain::play)] = 1.5;
   response.inside.push_back(Inside::as_is);
   response.worst_life.insert(response.worst_life.end(), 3, 5.3 + 0.3);
   ParameterPoint z = at(friction, 1);
   z[slack] = -1, z[index_of(Uncertain::play)] = 0.5;
-  CHECK(response.change(z) == Approx(-0.6 + 0.2 + 0.1));
+  CHECK(response.change(z) == Approx(-5 * std::log10(std::pow(10, 0.4 / 5) + std::pow(10, -0.1 / 5) - 1)));
 }
 
 namespace {
@@ -107,7 +134,7 @@ struct RandomTable {
     for (double& life : response.worst_life) life = random();
     response.planned.resize(3);
     for (auto& lives : response.planned) lives = {random() - 3, random(), random() + 3};
-    response.bound = {LifeResponse::endless, 3.7, 8};
+    response.bound = {LifeResponse::undamaged, 3.7, 8};
   }
   /// W at nodes.
   double worst(Inside inside, double f, double s, double p, double of_strength, double of_slope) const {
@@ -138,31 +165,30 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
     const auto worst = [&](Inside inside, double f, double s, double p) {
       return table.worst(inside, f, s, p, z[strength], z[slope]);
     };
-    const double alone = worst(Inside::as_is, 0, 0, z[play]) - worst(Inside::as_is, 0, 0, 0);
+    const double here = worst(Inside::as_is, 0, 0, 0), alone = worst(Inside::as_is, 0, 0, z[play]);
     const double at_zero = table.worst(Inside::as_is, 0, 0, 0, 0, 0),
                  glued_at_zero = table.worst(Inside::glued, 0, 0, 0, 0, 0);
-    const double change = worst(Inside::as_is, z[friction], z[slack], 0) + alone - at_zero;
+    const auto with_play = [&](double core) { return together(here, std::array{core, alone}) - at_zero; };
+    const double change = with_play(worst(Inside::as_is, z[friction], z[slack], 0));
     CHECK(of.change(z) == Approx(change).margin(rounding));
     CHECK(of.change(z, Inside::glued) ==
-          Approx(3.7 + worst(Inside::glued, 0, z[slack], 0) - glued_at_zero + alone - at_zero)
-              .margin(rounding));
+          Approx(with_play(3.7 + worst(Inside::glued, 0, z[slack], 0) - glued_at_zero)).margin(rounding));
     // Where nothing was computed without friction, it is the job's own, shifted.
     CHECK(of.change(z, Inside::free) ==
-          Approx(8 - at_zero + worst(Inside::as_is, 0, z[slack], 0) + alone - at_zero).margin(rounding));
+          Approx(with_play(8 - at_zero + worst(Inside::as_is, 0, z[slack], 0))).margin(rounding));
     const auto scatter_at = std::size_t(z[scatter] < 0 ? 0 : z[scatter] > 0 ? 2 : 1);
     for (const int tenths : {-1, 0, 1})
       CHECK(of.log10_life(z, tenths * 1.2815515655446004) ==
             Approx(of.planned[scatter_at][std::size_t(tenths + 1)] + change));
   }
-  // Without the combinations, friction and slack add.
+  // Without the combinations, friction and slack join like others.
   RandomTable apart(false);
   for (const double f : {-1.5, 1.0})
     for (const double s : {-2.0, 1.0}) {
       ParameterPoint z = at(friction, f);
       z[slack] = s;
-      CHECK(apart.response.change(z) ==
-            Approx(apart.response.change(at(friction, f)) + apart.response.change(at(slack, s)))
-                .margin(rounding));
+      const std::array alone{apart.response.change(at(friction, f)), apart.response.change(at(slack, s))};
+      CHECK(apart.response.change(z) == Approx(together(0, alone)).margin(rounding));
     }
 }
 
@@ -172,7 +198,11 @@ TEST_CASE(
   const LifeResponse& of = table.response;
   for (int k = 0; k < 40; ++k)
     for (const auto& [parameter, values] : table.nodes) {
-      const ParameterPoint z = table.random_node();
+      ParameterPoint z = table.random_node();
+      if (parameter == play)
+        z[friction] = z[slack] = 0;  // changes of several join as strains
+      else
+        z[play] = 0;
       const auto life = [&, &parameter = parameter](double at) {
         ParameterPoint moved = z;
         moved[parameter] = at;
@@ -216,8 +246,8 @@ TEST_CASE(
 
 TEST_CASE("what is never damaged lives without end, whatever the model's factor is") {
   LifeResponse response = straight(0.6, 0, 0);
-  response.planned = {{LifeResponse::endless, LifeResponse::endless, LifeResponse::endless}};
-  for (double& life : response.worst_life) life = LifeResponse::endless;
+  response.planned = {{LifeResponse::undamaged, LifeResponse::undamaged, LifeResponse::undamaged}};
+  for (double& life : response.worst_life) life = LifeResponse::undamaged;
   CHECK(std::isinf(response.log10_life({}, -2)));
   CHECK(std::isinf(response.log10_life(at(model, -2), -2)));
 }

@@ -616,6 +616,29 @@ TEST_CASE("ranking: more than a thousand jobs are ranked with certainty, too") {
   CHECK(rows[half].rank == half + 1);
 }
 
+TEST_CASE("ranking: p10 orders the jobs within the robot's life, shares of the samples those beyond it") {
+  const Scratch scratch;
+  SampleLife early = living(20000), late = living(20000);
+  early.life_response = response_of(4.5), late.life_response = response_of(4);
+  early.planned_hours = 50000, late.planned_hours = 60000;  // late: the better p10, the shorter samples
+  const auto ranked = [&](double robot_life) {
+    early.robot_life_hours = late.robot_life_hours = robot_life;
+    return read_ranking({job_with(scratch, "early", early), job_with(scratch, "late", late)});
+  };
+  const auto within = ranked(100000), beyond = ranked(40000), between = ranked(55000);
+  CHECK(names(beyond) == std::vector<std::string>{"early", "late"});
+  CHECK(beyond[0].outlives_next == 1);
+  CHECK(beyond[1].rank == 2);
+  CHECK(order_words(beyond[0]) == "Lives longer than the next job in 100 of 100 samples.");
+  for (const auto& rows : {within, between}) {
+    CHECK(names(rows) == std::vector<std::string>{"late", "early"});
+    CHECK(rows[0].outlives_next == 0);
+    CHECK(rows[1].rank == 1);  // the two statements contradict each other
+    CHECK(order_words(rows[0]) ==
+          "The next job lives longer in 100 of 100 samples, but 1 of 10 of its dresspacks fails earlier.");
+  }
+}
+
 TEST_CASE("ranking: of one job the first words say what to do, forces that cannot be stop a plan") {
   const Scratch scratch;
   SampleLife life = living(20000);
