@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pipeline/base/warning_words.h"
+#include "pipeline/cable/stiffness.h"
 #include "pipeline/job/parts_room.h"
 
 namespace dresslife::pipeline {
@@ -32,6 +33,8 @@ constexpr double largest_bend_radius = 40;  // diameters: makers' limits are 3 t
 constexpr double least_torsion = 0.01, most_torsion = 100;  // G J over E I: a solid bar has 0.77, corrugated hoses to 10
 constexpr double largest_friction = 1.5;   // rubber on steel has 1
 constexpr double largest_slack = 0.05;     // dresspacks are laid with 1 to 2 %
+constexpr double heaviest_filling = 2500;  // [kg/m3]: hydraulic hoses with four layers of steel wire have 1500 to 2000
+constexpr double least_grams = 50;         // [kg/m]: more is g/m; less may be the mass of a whole dresspack
 constexpr double largest_grip = 1e5;       // [N]: ten times what tears a power cable
 
 /// Of all wires in a metre of the part, lays along: as if of aluminium [kg/m].
@@ -141,13 +144,17 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
   Judge judge(warnings);
   const double mass = dresspack.mass_per_length, section = pi / 4 * dresspack.diameter * dresspack.diameter;
   const double least = least_wire_mass(dresspack.components);
-  if (mass > copper * section)
+  // Beside what its parts have, a hose is filled at most with steel braid and rubber. Without parts it may be anything.
+  const double built = dresspack.components.empty() ? 0 : mass_of_construction(dresspack);
+  const double most = built > 0 ? built + heaviest_filling * section : copper * section;
+  if (mass > most)
     judge.add(dresspack.where,
-              fmt::format("mass_kg_per_m is {:.4g} (limit {:.3g}: solid copper of diameter_mm)", mass,
-                          copper * section),
-              "grams instead of kilograms, or diameter_mm in another unit",
-              fmt::format("mass_kg_per_m: {:.4g} if that was g/m; or check diameter_mm: {:.4g}", mass / 1000,
-                          1e3 * dresspack.diameter));
+              fmt::format("mass_kg_per_m is {:.4g} (limit {:.3g}: {})", mass, most,
+                          built > 0 ? "its parts, and diameter_mm filled with rubber and steel braid" : "solid copper of diameter_mm"),
+              mass < least_grams ? "the mass of the whole dresspack, or diameter_mm in another unit"
+                                 : "grams instead of kilograms, or diameter_mm in another unit",
+              fmt::format("mass_kg_per_m: {:.4g} if that was g/m{}; or check diameter_mm: {:.4g}", mass / 1000,
+                          built > 0 ? fmt::format(", {:.3g} by its parts and wall", built) : "", 1e3 * dresspack.diameter));
   if (mass > 0 && mass < least)
     judge.add(dresspack.where,
               fmt::format("mass_kg_per_m is {:.3g} (limit {:.3g}: its wires, if they were of aluminium)",
@@ -177,12 +184,13 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
   beyond_solid("torsional_stiffness_Nm2", dresspack.torsional_stiffness, shear * 2 * second_moment, "N m2");
   beyond_solid("axial_stiffness_N", dresspack.axial_stiffness, stiffest * section, "N");
   constexpr double gravity = 9.81;
-  if (dresspack.axial_stiffness > 0 && mass * gravity > most_stretch * dresspack.axial_stiffness)
+  const double weight = std::min(mass, most) * gravity;  // a mass that is doubtful does not make the stiffness doubtful
+  if (dresspack.axial_stiffness > 0 && weight > most_stretch * dresspack.axial_stiffness)
     judge.add(
         dresspack.where,
         fmt::format(
             "axial_stiffness_N is {:.3g} (limit {:.3g} or more: {:g} % of stretch by the weight of a metre)",
-            dresspack.axial_stiffness, mass * gravity / most_stretch, 100 * most_stretch),
+            dresspack.axial_stiffness, weight / most_stretch, 100 * most_stretch),
         "kilonewtons instead of newtons",
         fmt::format("axial_stiffness_N: {:.3g} if that was kN, or from_construction",
                     1000 * dresspack.axial_stiffness));

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "pipeline/advise/calibrate/doubtful_rows.h"
 #include "pipeline/advise/calibrate/learning.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 int calibrate(const RunOptions& options) {
   const fs::path file = named_file(options.study, "observations");
   const std::vector<ObservedTest> tests = read_observed_tests(file);
+  for (const Warning& warning : doubtful_rows(tests)) tell(shown(warning.line() + "\n"));
   const StudyPlaces places{fs::path(options.out) / ("calibrate_" + file.stem().string()), program_folder()};
   const FolderLock lock(places.folder);
   const Learned learned = learn(tests, options.sets, places,

@@ -222,8 +222,8 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "{}{}{}"
       "<p class=\"soft\">Replace after: in so many hours of motion 1 of 10 such dresspacks has failed (p10), over everything "
       "that is uncertain and the scatter of wires. A dresspack has failed when a conductor has lost its share of wires "
-      "(fatigue.failed_wires_percent) at one place. The calendar counts the job's operating hours per week. Jobs that "
-      "cannot be separated share a rank: one lives longer in fewer than 90 of 100 samples. "
+      "(fatigue.failed_wires_percent) at one place. The calendar counts the job's operating hours per week. Two jobs "
+      "share a rank unless one outlives the other in 90 of 100 samples. "
       "Parts inside a cable rub on each other. Glued .. free: the same p10 if they could not slip, and if they slipped "
       "without friction. First wire: by then a first single wire has broken, by the scatter of wires alone, in 10 .. 90 % "
       "of such dresspacks. Abrasion and the hose's wall are not in these hours: their laws have not been compared with a test.</p>\n",
