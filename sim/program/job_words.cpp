@@ -40,7 +40,7 @@ std::string in_words_of_a_job(std::string text) {
   static const std::regex quoted(R"(--value '([^'=]+)=([^']*)')"), bare(R"(--value ([^\s='-][^\s=]*)=([^\s;)]*[^\s;),])(?: or \1=(\w+))?)"),
       assume(R"(--assume ([^\s=]+)=([^\s,;)]+))");
   const auto value = [](const std::smatch& found) {
-    return fmt::format("motion.values: [{{name: {}, value: {}}}]{}", yaml_word(found[1]), yaml_word(found[2]),
+    return fmt::format("motion.values: [{{name: {}, value: {}}}]{}", yaml_word(found[1]), found[2] == "..." ? "VALUE" : yaml_word(found[2]),
                        found.size() > 3 && found[3].matched ? " or value: " + found[3].str() : "");
   };
   text = replaced(replaced(text, quoted, value), bare, value);
