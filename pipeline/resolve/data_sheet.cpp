@@ -285,12 +285,19 @@ class Expansion {
     for (const Slip& slip : {Slip{0.1, "a decimal point was lost"}, Slip{10, "that was centimetres"}, Slip{1e3, "that was metres"},
                              Slip{0.01, "two zeros are too many"}}) {
       const double outer = slip.factor * outer_, inside = outer - 2 * sheet_.jacket_thickness.value_or(0);
-      if (!(inside > 0)) continue;
-      const double core = core_in(inside);
-      if (core > conductor_ && core <= thickest_insulation * conductor_)
-        return fmt::format("give outer_diameter_mm: {:.4g} if {}; ", 1e3 * outer, slip.cause);
+      if (inside > 0 && holds_cores(inside)) return fmt::format("give outer_diameter_mm: {:.4g} if {}; ", 1e3 * outer, slip.cause);
     }
     return "";
+  }
+
+  /// Whether cores that fill this width have a usual insulation.
+  bool holds_cores(double inside) const {
+    try {
+      const double core = core_in(inside);
+      return core > conductor_ && core <= thickest_insulation * conductor_;
+    } catch (const InputError&) {  // they do not lie beside each other on their lay
+      return false;
+    }
   }
 
   /// "give cross_section_mm2: 0.519 if 20 is an AWG; " where the section of that gauge fits the core; else nothing.

@@ -34,6 +34,7 @@ constexpr double largest_factor = 30;      // 100 is per cent; trials take 0.1 t
 constexpr double largest_tolerance = 0.05;  // [m] between the starts of two repeats: a hose's width
 constexpr double longest_spot = 10;        // [s]: a weld takes 0.3 to 2
 constexpr double widest_zone = 30 * degree;
+constexpr int most_repeats = 1000;          // of steps within a program: a pallet has some hundred places
 constexpr double slowest_tool = 1e-3;       // [m/s]: arc welding moves at 5 to 20 mm/s
 constexpr double slowest_move = 0.2 * degree;  // [rad/s] of the fastest axis in one move
 constexpr double slowest_axis = 5 * degree, fastest_axis = 3000 * degree;  // [rad/s]: positioners 30, wrists of small robots 1000 deg/s
@@ -64,7 +65,7 @@ struct Doubted {
 struct Seen {
   const MotionStep* first = nullptr;
   std::vector<double> low, high;  ///< (axis) of all joint targets
-  Doubted slow, fast, waits, creeping, turning;
+  Doubted slow, fast, waits, creeping, turning, repeats;
   std::vector<double> last;  ///< (axis) of the latest joint target
   double fastest = 0;        ///< of any axis, where moves have durations [rad/s]
   int moves = 0;
@@ -77,6 +78,7 @@ void look_at(const std::vector<MotionStep>& steps, Seen& seen) {
     look_at(step.steps, seen);
     if (step.speed_percent && *step.speed_percent < least_percent) seen.slow.add(step);
     if (step.tool_speed.value_or(0) > fastest_tool) seen.fast.add(step);
+    if (step.repeat > most_repeats) seen.repeats.add(step);
     if (step.tool_speed.value_or(1) < slowest_tool) seen.creeping.add(step);
     if (step.speed.value_or(1) < slowest_move) seen.turning.add(step);
     if (step.dwell > longest_dwell) seen.waits.add(step);
@@ -109,6 +111,10 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
     warnings.push_back(seen.fast.warning(
         fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool),
         "a speed in another unit, such as mm/s instead of m/s", "the speed in the program's unit"));
+  if (const MotionStep* step = seen.repeats.first)
+    warnings.push_back(seen.repeats.warning(fmt::format("repeat is {} (limit {} or less)", step->repeat, most_repeats),
+                                            "the repeats of the whole program, which goes round by itself",
+                                            "no repeat; hours of operation are fatigue.operating_hours_per_week"));
   if (const MotionStep* step = seen.creeping.first)
     warnings.push_back(seen.creeping.warning(
         fmt::format("the tool's speed is {:.4g} mm/s (limit {:g} or more)", 1e3 * *step->tool_speed, 1e3 * slowest_tool),

@@ -375,6 +375,7 @@ const Doubtful doubtful[] = {
     setting("uncertainty: {friction_inside: 60}", "uncertainty.friction_inside is 60 (limit 20", "uncertainty.friction_inside: 1.6 if that was per cent"),
     setting("cell: {boxes: [{position_m: [50, 0, 0], sides_m: [1, 1, 1]}]}", "cell.boxes[1] lies 48.27 m from the origin (limit 20)", "position_m in metres"),
     setting("cell: {capsules: [{from_m: [3, 0, 0], to_m: [3, 0, 1], radius_mm: 0.05}]}", "radius_mm of cell.capsules[1] is 0.05 (limit 1 or more)", "radius_mm: 50 if that was metres"),
+    {"job.yaml", "{text: wait, dwell_s: 0.5}", "{text: wait, repeat: 1200, steps: [{text: pause, dwell_s: 0.01}]}", "job.yaml:8:7", "repeat is 1200 (limit 1000 or less)", "no repeat"},
     {"job.yaml", "speed_percent: 50", "speed_deg_per_s: 0.1", "job.yaml:7:7", "speed_deg_per_s is 0.1 (limit 0.2 or more)", "speed_deg_per_s: 5.73 if that was rad/s"},
     {"job.yaml", "speed_percent: 50", "speed_mm_per_s: 0.5", "job.yaml:7:7", "the tool's speed is 0.5 mm/s (limit 1 or more)", "speed_mm_per_s: 500 if that was m/s"},
     {"job.yaml", "direction: [1, 0, -0.35]", "direction: [-1, 0, 0.35]", "", "smallest bend radius at rest: 52.2 mm", "direction"},
