@@ -44,12 +44,14 @@ bool is_shipped(const Where& where) {
 }
 
 /// Of a deformation that needs no simulation: dresslife-sim writes it in less than a second.
-std::vector<Warning> warnings_of_prescribed(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+std::vector<Warning> warnings_of_prescribed(const std::filesystem::path& file,
+                                            const std::vector<std::string>& sets) {
   const PassingFile motion("motion.h5");
   std::vector<std::string> arguments{file.string(), "-o", motion.path().string(), "--quiet"};
   for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
   if (run_stage_program("dresslife-sim", arguments) != 0) fail_motion(file);
-  return warnings_from(FileReader(motion.path(), motion_format(), FileReader::Scope::attributes).text_attribute("warnings"));
+  return warnings_from(
+      FileReader(motion.path(), motion_format(), FileReader::Scope::attributes).text_attribute("warnings"));
 }
 
 }  // namespace

@@ -89,7 +89,8 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
   const std::string near = nearest_entry(fs::path(name).filename().string(), entries);
   throw InputError({name},
                    fmt::format("is no file, and {} holds no {}", shipped_catalogue().string(), looked_for),
-                   near.empty() ? "write the path of a YAML file" : fmt::format("did you mean '{}'? Else write the path of a YAML file", near));
+                   near.empty() ? "write the path of a YAML file"
+                                : fmt::format("did you mean '{}'? Else write the path of a YAML file", near));
 }
 
 /// What a file of another kind is, and what to do with it.

@@ -38,9 +38,12 @@ Day day_of(const std::string& text) {
 std::vector<Warning> doubts_of(std::optional<double> risk_percent) {
   constexpr double least = 1, most = 50;  // per cent in one interval
   if (!risk_percent || (*risk_percent >= least && *risk_percent <= most)) return {};
-  return {warning_of(WarningKind::motion, "--risk", fmt::format("the risk is {:g} % (limit {:g} .. {:g})", *risk_percent, least, most),
-                     *risk_percent < least ? "a share instead of per cent" : "a dresspack is hardly ever replaced",
-                     *risk_percent < least ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent) : "--risk 10")};
+  return {warning_of(
+      WarningKind::motion, "--risk",
+      fmt::format("the risk is {:g} % (limit {:g} .. {:g})", *risk_percent, least, most),
+      *risk_percent < least ? "a share instead of per cent" : "a dresspack is hardly ever replaced",
+      *risk_percent < least ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
+                            : "--risk 10")};
 }
 
 /// Duties whose programs have warnings that spoil a plan.
@@ -72,7 +75,8 @@ int plan(const Options& options) {
   const DutyFile file = read_duties(named_file(options.study, "duties"));
   std::set<std::string> needed;
   for (const Installed& row : fleet.rows) needed.insert(duty_named(file, row.duty, row.where).name);
-  for (const Warning& warning : joined(doubts_of(options.risk_percent), joined(doubtful_fleet(fleet, day), doubtful_duties(file))))
+  for (const Warning& warning :
+       joined(doubts_of(options.risk_percent), joined(doubtful_fleet(fleet, day), doubtful_duties(file))))
     tell(shown(warning.line() + "\n"));
   const DutiesRun made = run_duties(file, options);
   const std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed);

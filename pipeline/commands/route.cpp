@@ -178,11 +178,13 @@ Trial tried(const Draft& draft, const Options& options, double factor, const Stu
   const std::size_t found = trial.start.value_or(trial.outcomes.size());
   std::vector<std::size_t> to_run;
   for (std::size_t k = 0; k < found; ++k)
-    if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0) to_run.push_back(k);
+    if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
+      to_run.push_back(k);
   if (trial.start) to_run.push_back(*trial.start);
   Options without_progress = options;
   without_progress.quiet = true;
-  Progress progress(fmt::format("{} at {:.0f} % of the dresspack's size", draft.name, 100 * factor), options.quiet);
+  Progress progress(fmt::format("{} at {:.0f} % of the dresspack's size", draft.name, 100 * factor),
+                    options.quiet);
   for (std::size_t n = 0; n < to_run.size(); ++n) {
     if (to_run[n] != trial.start && !tolerance && trial.feasible()) continue;
     progress.show(static_cast<double>(n) / static_cast<double>(to_run.size()),

@@ -185,7 +185,8 @@ void check_slopes(const Job& job, const Where& where) {
       if (material.strain_life_table.empty() && material.has_strain_life() &&
           !(material.fatigue_strength_exponent + job.fatigue.slope_change <= -0.02))
         throw InputError(
-            job.fatigue.slope_change > 0 && material.fatigue_strength_exponent <= -0.02 ? where : material.where,
+            job.fatigue.slope_change > 0 && material.fatigue_strength_exponent <= -0.02 ? where
+                                                                                        : material.where,
             fmt::format("fatigue.slope_change {} leaves '{}' a slope b of {} (must be -0.02 or less)",
                         job.fatigue.slope_change, material.name,
                         material.fatigue_strength_exponent + job.fatigue.slope_change),

@@ -47,8 +47,10 @@ std::string decimal_comma_words(std::string text) {
 
 /// "write 0.5189 for AWG 20; " where a section is a wire gauge; else nothing.
 std::string gauge_words(const std::string& text, Fields::Key key) {
-  const bool is_gauge = unit_of_key(key).suffix == "mm2" && (text.starts_with("AWG") || text.starts_with("awg"));
-  const std::optional<double> gauge = is_gauge ? parse_number(std::string_view(text).substr(std::min(text.size(), text.find_first_of("0123456789"))))
+  const bool is_gauge =
+      unit_of_key(key).suffix == "mm2" && (text.starts_with("AWG") || text.starts_with("awg"));
+  const std::optional<double> gauge = is_gauge ? parse_number(std::string_view(text).substr(
+                                                     std::min(text.size(), text.find_first_of("0123456789"))))
                                                : std::nullopt;
   return gauge ? fmt::format("write {:.4g} for AWG {:g}; ", square_mm_of_awg(*gauge), *gauge) : "";
 }
@@ -291,12 +293,13 @@ class FieldReader final : public Fields {
         node.is_scalar() && !node.quoted ? parse_number(node.text) : std::nullopt;
     if (!value) {
       const std::string unit = unit_note(key);
-      throw InputError(node.where,
-                       fmt::format("{} is {} (must be a number{}{})", name_of(key),
-                                   node.is_scalar() ? fmt::format("'{}'", node.text) : "not one value",
-                                   word.empty() ? "" : fmt::format(" or {}", word),
-                                   unit.empty() ? "" : fmt::format(", the unit is in the key:{}", unit)),
-                       decimal_comma_words(node.text) + gauge_words(node.text, key) + "give " + named(meaning));
+      throw InputError(
+          node.where,
+          fmt::format("{} is {} (must be a number{}{})", name_of(key),
+                      node.is_scalar() ? fmt::format("'{}'", node.text) : "not one value",
+                      word.empty() ? "" : fmt::format(" or {}", word),
+                      unit.empty() ? "" : fmt::format(", the unit is in the key:{}", unit)),
+          decimal_comma_words(node.text) + gauge_words(node.text, key) + "give " + named(meaning));
     }
     if (!std::isfinite(*value))
       throw InputError(node.where, fmt::format("{} is {} (must be finite)", name_of(key), node.text),
@@ -334,9 +337,11 @@ class FieldReader final : public Fields {
 
   /// The key that is meant by an unknown one; empty: none is near.
   std::string likely_key(const Level& level, const Entry& unknown, std::string& remedy) const {
-    const std::optional<double> value = unknown.value.is_scalar() ? parse_number(unknown.value.text) : std::nullopt;
+    const std::optional<double> value =
+        unknown.value.is_scalar() ? parse_number(unknown.value.text) : std::nullopt;
     for (const std::string& known : level.known)
-      if (const std::string converted = value ? converted_text(unknown.key, *value, known) : ""; !converted.empty()) {
+      if (const std::string converted = value ? converted_text(unknown.key, *value, known) : "";
+          !converted.empty()) {
         remedy = fmt::format("its unit is {}, write '{}'", unit_of_key(known).name, converted);
         return known;
       }

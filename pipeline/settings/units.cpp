@@ -12,6 +12,7 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
+
 /// A unit that no key has, and the value of one of it in a unit of keys.
 struct ForeignUnit {
   std::string_view suffix, known;

@@ -221,8 +221,9 @@ TEST_CASE("calibrate: rows that cannot be used are named at their place") {
       "o.yaml:2:5: error: 'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending)"));
   CHECK(has(refused("observations:\n" + row("d", "    decrement: 0.1\n    decrement_without_slip: 0.1\n")),
             "o.yaml:2:5: error: 'd': nothing of decrement is left for slip; give"));
-  CHECK(has(refused("observations:\n" + row("e", "    cycles: 5\n    decrement_without_slip: 0.1\n")),
-            "o.yaml:8:5: error: 'e': decrement_without_slip has no effect on a row with cycles; leave it out"));
+  CHECK(
+      has(refused("observations:\n" + row("e", "    cycles: 5\n    decrement_without_slip: 0.1\n")),
+          "o.yaml:8:5: error: 'e': decrement_without_slip has no effect on a row with cycles; leave it out"));
   std::string job = wire_job;
   job.insert(job.size() - 1, ", fatigue: {strength_factor: 2}");
   CHECK(has(refused("observations:\n" + row("ok", "    cycles: 5\n") + row("y", "    cycles: 5\n", job)),

@@ -32,8 +32,10 @@ TEST_CASE("check: a job without faults, one whose slip is a bound, one that is t
 TEST_CASE("check: a rig that bends a cable tighter than allowed is warned of without a run") {
   const fs::path rig = fs::path(DRESSLIFE_SOURCE_DIR) / "config/rigs/two_pulley.yaml";
   const auto warned = [&](const std::string& limit) {
-    const JobCheck check = check_of(rig, {"dresspack={cable: control_cable}", "dresspack.least_bend_radius_mm=" + limit});
-    return std::any_of(check.warnings.begin(), check.warnings.end(), [](const Warning& w) { return w.kind == WarningKind::bend_radius; });
+    const JobCheck check =
+        check_of(rig, {"dresspack={cable: control_cable}", "dresspack.least_bend_radius_mm=" + limit});
+    return std::any_of(check.warnings.begin(), check.warnings.end(),
+                       [](const Warning& w) { return w.kind == WarningKind::bend_radius; });
   };
   CHECK(warned("200"));
   CHECK_FALSE(warned("10"));

@@ -57,17 +57,20 @@ const std::map<std::string, std::string> instead{
     {"dresslife route ROBOT_OR_JOB",
      "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 100 --rehearsals 40" + quick},
     {"dresslife run JOB.yaml", "dresslife run irb6640_spot_welding" + quick},
-    {"dresslife improve JOB_OR_STUDY", "dresslife improve side_panel --trials 2 --rehearsals 0 --off 0" + quick},
+    {"dresslife improve JOB_OR_STUDY",
+     "dresslife improve side_panel --trials 2 --rehearsals 0 --off 0" + quick},
     {"dresslife duty FILE", "dresslife duty two_robots" + quick},
     {"dresslife duty DUTIES.yaml", "dresslife duty two_robots" + quick},
     {"dresslife plan FLEET.csv --duties DUTIES.yaml --windows 2027-07-12..2027-08-01,2027-12-20..2028-01-02",
      "dresslife plan CONFIG/duties/fleet.csv --duties two_robots --today 2026-11-23 --windows "
-     "2027-07-12..2027-08-01,2027-12-20..2028-01-02" + quick},
+     "2027-07-12..2027-08-01,2027-12-20..2028-01-02" +
+         quick},
     {"dresslife reprogram JOB_OR_STUDY", "dresslife reprogram irb6640_spot_welding --lines 1" + quick},
     {"dresslife-sim JOB.yaml -o motion.h5",
      "dresslife-sim CONFIG/jobs/irb6640_spot_welding.yaml -o motion.h5" + quick},
     {"dresslife-strain motion.h5 -o strain.h5", "dresslife-strain motion.h5 -o strain.h5"},
-    {"dresslife-fatigue strain.h5 -o life.h5", "not run"},  // its page comes before the one that makes strain.h5
+    {"dresslife-fatigue strain.h5 -o life.h5",
+     "not run"},  // its page comes before the one that makes strain.h5
     {"dresslife validate config/observations/published.yaml", "dresslife validate two_published.yaml"},
     {"dresslife validate config/observations/ratings.yaml", "not run"},  // as the file before
     {"dresslife rate control_cable --set calibration=config/observations/typical_cables.yaml",
@@ -89,10 +92,11 @@ const std::map<std::string, std::string> instead{
      "dresslife preview irb6640_spot_welding --set routing.free_length_m=1.6 -o short.html"},
     {"dresslife draw NAME -o FILE.svg", "dresslife draw handling -o handling.svg"},
     {"dresslife show JOB.yaml", "dresslife show irb6640_spot_welding"},
-    {"dresslife import PROGRAM -o motion.yaml", "dresslife import CONFIG/programs/pick_and_place.src -o motion.yaml"},
+    {"dresslife import PROGRAM -o motion.yaml",
+     "dresslife import CONFIG/programs/pick_and_place.src -o motion.yaml"},
     {"dresslife export runs/two_robots/hard --paraview hard.xdmf", "not run"},  // tests/cli/paraview_test
     {"dresslife show FILE.h5", "dresslife show motion.h5"},
-    {"dresslife submit STUDY", "not run"},                          // needs a cluster: tests/pipeline/study
+    {"dresslife submit STUDY", "not run"},  // needs a cluster: tests/pipeline/study
     {"dresslife run --launcher WORDS", "not run"},
     {"dresslife clean STUDY", "not run"},  // tests/cli/study_test
     {"dresslife route ROBOT", "not run"},  // as above

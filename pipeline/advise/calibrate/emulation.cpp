@@ -186,9 +186,10 @@ class RoundEmulation {
       if (!strain.has("/bending/moment"))
         throw InputError(
             test.where,
-            fmt::format("'{}': its job gives no curve of moment over curvature (this needs one cable alone, in which parts "
-                        "rub and none lies straight beside the axis)",
-                        test.observation.name),
+            fmt::format(
+                "'{}': its job gives no curve of moment over curvature (this needs one cable alone, in which parts "
+                "rub and none lies straight beside the axis)",
+                test.observation.name),
             "write dresspack: {cable: NAME}, and strain.slip: friction or no strain.slip");
       return said(strain.read<double>("/bending/curvature"), strain.read<double>("/bending/moment"));
     };

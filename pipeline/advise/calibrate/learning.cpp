@@ -43,19 +43,22 @@ Posterior posterior_of(std::vector<LogLikelihood> terms, const Axes& axes, const
 }
 
 /// Errors: InputError at the row that differs most from its prediction, if the likeliest parameters lie beyond `farthest`.
-void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vector<LearnedTest>& learned, const VectorXd& there) {
+void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vector<LearnedTest>& learned,
+                          const VectorXd& there) {
   Index worst = 0;
   if (there.cwiseAbs().maxCoeff(&worst) <= farthest) return;
   std::size_t row = 0;
   for (std::size_t t = 1; t < tests.size(); ++t)
     if (surprise(learned[t]) > surprise(learned[row])) row = t;
   const Observation& observation = tests[row].observation;
-  throw InputError(tests[row].where,
-                   fmt::format("'{}': the observation ({}) contradicts the prediction ({}): the likeliest {} would lie {:.1f} deviations "
-                               "from its prior (limit {:g})",
-                               observation.name, observed_text(observation), words_of(learned[row].before),
-                               uncertain_parameters()[static_cast<std::size_t>(worst)].name, std::abs(there[worst]), farthest),
-                   "correct the unit of the observation, or its job; else leave the row out");
+  throw InputError(
+      tests[row].where,
+      fmt::format(
+          "'{}': the observation ({}) contradicts the prediction ({}): the likeliest {} would lie {:.1f} deviations "
+          "from its prior (limit {:g})",
+          observation.name, observed_text(observation), words_of(learned[row].before),
+          uncertain_parameters()[static_cast<std::size_t>(worst)].name, std::abs(there[worst]), farthest),
+      "correct the unit of the observation, or its job; else leave the row out");
 }
 
 /// Predicts each test from all others. A model that a test contradicts shows here, and not in a prediction that the test

@@ -68,8 +68,9 @@ double number_of(const CsvReader& table, const CsvCell& cell) {
   std::string with_point = cell.text;
   std::replace(with_point.begin(), with_point.end(), ',', '.');
   throw InputError(table.where(cell), fmt::format("'{}' is not a number", cell.text),
-                   number_in(with_point) ? fmt::format("write {} with a point", with_point)
-                                         : "write curvature and moment as numbers with a decimal point, one pair per line");
+                   number_in(with_point)
+                       ? fmt::format("write {} with a point", with_point)
+                       : "write curvature and moment as numbers with a decimal point, one pair per line");
 }
 
 /// Integral of M1 from 0 to a curvature [N m x 1/m]: between two values of the table M1 is a power, before
@@ -100,17 +101,19 @@ std::vector<BendingPoint> read_bending(const std::filesystem::path& file) {
   CsvReader table(read_text(file), file.string());
   const CsvRow titles = table.next();
   const auto column = [&](std::string_view title) {
-    const auto found = std::find_if(titles.begin(), titles.end(), [&](const CsvCell& cell) { return cell.text == title; });
+    const auto found =
+        std::find_if(titles.begin(), titles.end(), [&](const CsvCell& cell) { return cell.text == title; });
     if (titles.size() != 2 || found == titles.end())
-      throw InputError(titles.empty() ? Where{file.string(), 1, 1} : table.where(titles.front()), "is not the header of a bending test",
-                       "begin with 'curvature_1_per_m,moment_Nm'");
+      throw InputError(titles.empty() ? Where{file.string(), 1, 1} : table.where(titles.front()),
+                       "is not the header of a bending test", "begin with 'curvature_1_per_m,moment_Nm'");
     return static_cast<std::size_t>(found - titles.begin());
   };
   const std::size_t curvature = column("curvature_1_per_m"), moment = column("moment_Nm");
   std::vector<BendingPoint> points;
   for (CsvRow row = table.next(); !row.empty(); row = table.next()) {
     if (row.size() != 2)
-      throw InputError(table.where(row.front()), fmt::format("has {} columns (a bending test has 2)", row.size()),
+      throw InputError(table.where(row.front()),
+                       fmt::format("has {} columns (a bending test has 2)", row.size()),
                        "write curvature and moment, with the separator of the first line between them");
     points.push_back({number_of(table, row[curvature]), number_of(table, row[moment])});
   }
@@ -119,9 +122,11 @@ std::vector<BendingPoint> read_bending(const std::filesystem::path& file) {
   if (!bent)
     throw InputError({file.string()}, "holds no moment of a bent cable", "write a line per measured point");
   // Friction resists: over a loop the work is positive, and a first bend has the sign of its curvature.
-  const BendingPoint& first = *std::find_if(points.begin(), points.end(), [](const BendingPoint& p) { return p.curvature != 0; });
+  const BendingPoint& first =
+      *std::find_if(points.begin(), points.end(), [](const BendingPoint& p) { return p.curvature != 0; });
   if (first.curvature * first.moment < 0)
-    throw InputError({file.string()}, "the first moment has another sign than its curvature", "turn the sign of one column");
+    throw InputError({file.string()}, "the first moment has another sign than its curvature",
+                     "turn the sign of one column");
   return points;
 }
 

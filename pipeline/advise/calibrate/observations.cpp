@@ -28,34 +28,43 @@ void describe(Fields& f, Observation& observation) {
   f.text("source", observation.source, Need::required, "The source of the observation.");
   f.text("note", observation.note, Need::optional, "What is not known, and how it is varied.");
   f.maybe_number("cycles", observation.cycles, above(0), "The life in cycles.");
-  f.maybe_number("hours", observation.hours, Range{0, most_hours, true}, "The life in hours of motion, instead of cycles.");
-  f.maybe_number("stiffness_Nm2", observation.stiffness, above(0),
-                 "The moment over curvature of the cable, bent from straight to at_curvature_1_per_m. It replaces a life.");
-  f.number("at_curvature_1_per_m", observation.at_curvature, Need::optional, between(1e-3, 100),
-           "The curvature of stiffness_Nm2. Of decrement: the curvature beside the clamp at the end of a swing, 3.5 x deflection / "
-           "length^2.");
-  f.maybe_number("decrement", observation.decrement, between(1e-3, 5),
-                 "The logarithm of the ratio of two successive swings to one side, of a piece that stands out from a clamp. It "
-                 "replaces a life.");
+  f.maybe_number("hours", observation.hours, Range{0, most_hours, true},
+                 "The life in hours of motion, instead of cycles.");
+  f.maybe_number(
+      "stiffness_Nm2", observation.stiffness, above(0),
+      "The moment over curvature of the cable, bent from straight to at_curvature_1_per_m. It replaces a life.");
+  f.number(
+      "at_curvature_1_per_m", observation.at_curvature, Need::optional, between(1e-3, 100),
+      "The curvature of stiffness_Nm2. Of decrement: the curvature beside the clamp at the end of a swing, 3.5 x deflection / "
+      "length^2.");
+  f.maybe_number(
+      "decrement", observation.decrement, between(1e-3, 5),
+      "The logarithm of the ratio of two successive swings to one side, of a piece that stands out from a clamp. It "
+      "replaces a life.");
   f.number("decrement_without_slip", observation.decrement_without_slip, Need::optional, between(0, 5),
            "The part of decrement by the jacket's polymer and the air, as the smallest swings show it.");
-  f.path("bending", observation.bending, Need::optional,
-         "A CSV of a bending test with the columns curvature_1_per_m and moment_Nm, from straight, in the order of the test. It "
-         "replaces a life.");
+  f.path(
+      "bending", observation.bending, Need::optional,
+      "A CSV of a bending test with the columns curvature_1_per_m and moment_Nm, from straight, in the order of the test. It "
+      "replaces a life.");
   f.number("noise_percent", observation.noise_percent, Need::optional, between(0.1, 100),
            "The standard deviation of a measured moment, stiffness or decrement.");
-  f.number("cycles_per_repeat", observation.cycles_per_repeat, Need::optional, above(0),
-           "The number of cycles that the observer counts in one repeat of the job's motion: 2 if single strokes are counted.");
-  f.choice("outcome", observation.outcome,
-           "The end: broken (it failed then), broken_by (no specimen lived longer), run_out (it had not failed then) or rating (its "
-           "maker promises this life).");
-  f.choice("criterion", observation.criterion,
-           "The criterion of failure: first_wire, or conductor (a share of its wires at one place, fatigue.failed_wires_percent).");
+  f.number(
+      "cycles_per_repeat", observation.cycles_per_repeat, Need::optional, above(0),
+      "The number of cycles that the observer counts in one repeat of the job's motion: 2 if single strokes are counted.");
+  f.choice(
+      "outcome", observation.outcome,
+      "The end: broken (it failed then), broken_by (no specimen lived longer), run_out (it had not failed then) or rating (its "
+      "maker promises this life).");
+  f.choice(
+      "criterion", observation.criterion,
+      "The criterion of failure: first_wire, or conductor (a share of its wires at one place, fatigue.failed_wires_percent).");
   f.integer("specimens", observation.specimens, Need::optional, between(1, 1e6),
             "The number of specimens. Of several broken ones, cycles or hours are the geometric mean.");
-  f.number("unshared_log10", observation.unshared_log10, Need::optional, between(0, 3),
-           "The standard deviation of log10 of the life that only this test has. It is smaller for the user's own cable in the user's "
-           "own test.");
+  f.number(
+      "unshared_log10", observation.unshared_log10, Need::optional, between(0, 3),
+      "The standard deviation of log10 of the life that only this test has. It is smaller for the user's own cable in the user's "
+      "own test.");
 }
 
 namespace {
@@ -121,7 +130,8 @@ void refuse_idle_keys(const Node& row, const Observation& observation) {
     if (!always.contains(entry.key) && !used.contains(entry.key))
       throw InputError(entry.where,
                        fmt::format("'{}': {} has no effect on {}", observation.name, entry.key,
-                                   entry.key == "specimens" ? "a rating, which is a promise of one specimen" : "a row with " + kind),
+                                   entry.key == "specimens" ? "a rating, which is a promise of one specimen"
+                                                            : "a row with " + kind),
                        "leave it out");
 }
 
@@ -178,8 +188,9 @@ std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file)
   const Node* list = document.is_map() ? document.find("observations") : nullptr;
   if (!list) refuse_other_kind(document, DocumentKind::observations);
   if (!list || !list->is_list() || list->items.empty())
-    throw InputError(document.where, "holds no observations",
-                     "write 'observations:' and a list of rows with name, what, source, job, and cycles or hours");
+    throw InputError(
+        document.where, "holds no observations",
+        "write 'observations:' and a list of rows with name, what, source, job, and cycles or hours");
   for (const Entry& entry : document.entries)
     if (entry.key != "observations" && entry.key != "cables")
       throw InputError(entry.where, fmt::format("unknown key '{}' beside observations", entry.key),

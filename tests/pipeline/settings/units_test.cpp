@@ -27,11 +27,11 @@ TEST_CASE("units: a value in another unit is converted into that of the key") {
   CHECK(converted_text("cross_section_awg", 20, "cross_section_mm2") == "cross_section_mm2: 0.5176");
   CHECK(converted_text("awg", 20, "cross_section_mm2") == "cross_section_mm2: 0.5176");
   CHECK(converted_text("awg", 20, "radius_mm").empty());
-  CHECK(converted_text("diameter_s", 5, "diameter_mm").empty());   // another kind
-  CHECK(converted_text("length_m", 5, "diameter_mm").empty());     // another stem
+  CHECK(converted_text("diameter_s", 5, "diameter_mm").empty());  // another kind
+  CHECK(converted_text("length_m", 5, "diameter_mm").empty());    // another stem
   CHECK(converted_text("segments_mm", 5, "segments").empty());
-  CHECK(square_mm_of_awg(36) == Approx(0.01267).epsilon(1e-3));    // 0.127 mm by definition
-  CHECK(square_mm_of_awg(0) == Approx(53.49).epsilon(1e-3));       // 8.252 mm
+  CHECK(square_mm_of_awg(36) == Approx(0.01267).epsilon(1e-3));  // 0.127 mm by definition
+  CHECK(square_mm_of_awg(0) == Approx(53.49).epsilon(1e-3));     // 8.252 mm
 }
 
 TEST_CASE("units: the unit of a key is its longest ending that is one") {

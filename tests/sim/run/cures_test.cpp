@@ -47,7 +47,8 @@ pipeline::Job swinging_job(double free_length) {
 TEST_CASE("a short run of a long program ends after its share of work, with the checks until then") {
   pipeline::Job job = simple_job();
   job.simulation.segments = 60;
-  job.motion.steps = {move_to(0), move_to(0.5), dwell_for(900), move_to(0)};  // 180,000 steps of 60 segments: 1.1e7
+  job.motion.steps = {move_to(0), move_to(0.5), dwell_for(900),
+                      move_to(0)};  // 180,000 steps of 60 segments: 1.1e7
   const ShortRun run = short_run(job, short_run_segments);
   INFO(run.refusal);
   REQUIRE(run.stopped_at);
