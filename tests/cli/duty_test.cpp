@@ -104,6 +104,10 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   CHECK(number(cell(table, "new one", "fails_before_first_window")) > 0);
   CHECK(content(scratch / "runs/study/plan_fleet.ics").find("DTSTART;VALUE=DATE:20261221") != std::string::npos);
   CHECK(run(scratch, "dresslife", plan + "2026-11-22").status == 1);
+  CHECK(outcome.err.find("duties.yaml:2:") != std::string::npos);
+  CHECK(outcome.err.find("percent_of_time of 'one' is 0.1 (limit 1 or more)") != std::string::npos);
+  const Outcome share = run(scratch, "dresslife", plan + "2026-12-21 --risk 0.1");
+  CHECK(share.err.find("--risk: warning: the risk is 0.1 % (limit 1 .. 50)") != std::string::npos);
   scratch.write("fleet.csv", "name,duty,installed\none,dd,\n");
   const Outcome unknown = run(scratch, "dresslife", plan + "2026-11-25");
   CHECK(unknown.status == 1);
