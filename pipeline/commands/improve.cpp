@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -33,8 +32,8 @@ void show(Progress& progress, const Improvement& so_far, int trials) {
   const std::optional<std::size_t> best = so_far.best();
   const std::string best_words = best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits";
   const std::size_t done = so_far.trials.size();
-  if (done <= 1)
-    progress.show(std::min(1.0, static_cast<double>(so_far.rehearsals) / std::max(1, so_far.most_rehearsals)),
+  if (done <= 1 && so_far.rehearsals < so_far.most_rehearsals)
+    progress.show(static_cast<double>(so_far.rehearsals) / so_far.most_rehearsals,
                   fmt::format("short run {} of about {} before the first of {} trials", so_far.rehearsals,
                               so_far.most_rehearsals, trials));
   else
