@@ -239,7 +239,7 @@ TEST_CASE("calibrate: rows that cannot be used are named at their place") {
   CHECK(has(refused("observations:\n" + row("m", "    cycles: 5\n", job)), "'m': its job cannot be made"));
   const std::string far = refused("observations:\n" + row("far", "    cycles: 1e+11\n"));
   INFO(far);
-  CHECK(has(far, "o.yaml:2:5: error: 'far': the observation (100,000,000,000) contradicts the prediction ("));
+  CHECK(has(far, "o.yaml:2:5: error: 'far': the observation (1.00e+11) contradicts the prediction ("));
   CHECK(has(far, "correct the unit of the observation, or its job"));
   for (const char* command : {"calibrate", "validate"}) {
     scratch.write("o.yaml", "observations:\n" + row("few", "    cycles: 50\n    outcome: run_out\n"));
