@@ -39,7 +39,8 @@ void Progress::show(double share, const std::string& words) {
   last_permille_ = permille;
   last_words_ = words;
   const Clock::time_point now = Clock::now();
-  if (!first_) first_ = Mark{share, now};
+  if (!first_ || share < last_share_) first_ = Mark{share, now};
+  last_share_ = share;
   const std::string left =
       remaining_words(std::chrono::duration<double>(now - first_->time).count(), first_->share, share);
   draw(fmt::format("{:5.1f} %{}{}{}{}", permille / 10.0, left.empty() ? "" : ", ", left, words.empty() ? "" : "  ", words));

@@ -17,7 +17,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// share: of the work done, 0..1; the remaining time follows from what was done since the first call.
+  /// share: of the work done, 0..1; the remaining time follows from what was done since the first call. A smaller share begins
+  /// another piece of work.
   void show(double share, const std::string& words = "");
   void show(const std::string& words);  ///< of work whose share is not known
   void note(const std::string& line);   ///< a lasting line; also where there is no terminal, unless quiet
@@ -34,6 +35,7 @@ class Progress {
   bool quiet_, terminal_;
   std::string last_words_;
   int last_permille_ = -1;
+  double last_share_ = 0;
   bool drawn_ = false;
   std::optional<Mark> first_;
   Clock::time_point next_line_;

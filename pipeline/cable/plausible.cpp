@@ -8,6 +8,7 @@
 
 #include "pipeline/cable/believable.h"
 #include "pipeline/base/warning_words.h"
+#include "pipeline/cable/stiffness.h"
 #include "pipeline/job/parts_room.h"
 
 namespace dresslife::pipeline {
@@ -32,6 +33,22 @@ constexpr double thinnest_wall = 0.1e-3;   // [m]: corrugated hoses have 0.3 mm 
 constexpr double largest_bend_radius = 40;  // diameters: makers' limits are 3 to 15
 constexpr double least_torsion = 0.01, most_torsion = 100;  // G J over E I: a solid bar has 0.77, corrugated hoses to 10
 constexpr double largest_friction = 1.5;   // rubber on steel has 1
+constexpr double least_most_twist = 5, largest_most_twist = 3600;     // [deg/m]: makers allow 50 to 360
+constexpr double least_most_tension = 5, largest_most_tension = 1e5;  // [N]
+constexpr double least_grip = 1;                       // [N]: a cable's weight in half a metre of hose
+constexpr double largest_construction_curvature = 50;  // [1/m]: a radius of 20 mm
+constexpr double thinnest_sleeve = 0.05e-3, thickest_sleeve = 0.25;  // [m], and of the diameter
+constexpr double strongest_part =
+    200e6;  // [Pa] over the whole section of a part: a cable is half metal and tears at 400 MPa
+constexpr double fewest_rated = 100;                          // cycles
+constexpr double softest_wire = 10e9, stiffest_wire = 450e9;  // [Pa]: magnesium 45, tungsten 400
+constexpr double weakest_wire = 30e6, strongest_wire = 10e9;  // [Pa]: soft aluminium 50 MPa, steel cord 4 GPa
+constexpr double largest_ductility = 10;                      // copper of the thesis 2.4
+constexpr double steepest_strength = -0.3, steepest_ductility = -1.2,
+                 flattest_ductility = -0.3;  // b -0.05 to -0.15, c -0.5 to -0.8
+constexpr double heaviest_filling =
+    2500;  // [kg/m3]: hydraulic hoses with four layers of steel wire have 1500 to 2000
+constexpr double least_grams = 50;         // [kg/m]: more is g/m; less may be the mass of a whole dresspack
 constexpr double largest_grip = 1e5;       // [N]: ten times what tears a power cable
 
 /// Of all wires in a metre of the part, lays along: as if of aluminium [kg/m].
@@ -80,6 +97,30 @@ class Judge {
         add(of.where, fmt::format("friction_coefficient of '{}' is {:.3g} (limit {:g})", of.name, *of.friction, largest_friction),
             "per cent instead of a share",
             fmt::format("friction_coefficient: {:.3g} if that was per cent", *of.friction / 100));
+      if (of.tension / (pi * of.radius * of.radius) > strongest_part)
+        add(of.where,
+            fmt::format("tension_N of '{}' is {:.4g} (limit {:.3g}: {:g} MPa on its section)", of.name,
+                        of.tension, strongest_part * pi * of.radius * of.radius, strongest_part / 1e6),
+            "another unit", "no tension_N, or the pull with which it was laid");
+      if (const double section = pi * of.radius * of.radius;
+          of.laying.mass && *of.laying.mass > copper * section)
+        add(of.where,
+            fmt::format("mass_kg_per_m of '{}' is {:.4g} (limit {:.3g}: solid copper)", of.name,
+                        *of.laying.mass, copper * section),
+            "grams instead of kilograms",
+            fmt::format("mass_kg_per_m: {:.4g} if that was g/m, or no key", *of.laying.mass / 1000));
+      if (const double least = least_wire_mass(of.components); of.laying.mass && *of.laying.mass < least)
+        add(of.where,
+            fmt::format(
+                "mass_kg_per_m of '{}' is {:.3g} (limit {:.3g}: its wires, if they were of aluminium)",
+                of.name, *of.laying.mass, least),
+            "another unit", "mass_kg_per_m from the data sheet (kg/km over 1000), or no key");
+      for (const Rating& rating : of.ratings)
+        if (rating.cycles < fewest_rated)
+          add(of.where,
+              fmt::format("cycles of a rating of '{}' is {:g} (limit {:g} or more)", of.name, rating.cycles,
+                          fewest_rated),
+              "millions of cycles", fmt::format("cycles: {:g} if that was millions", 1e6 * rating.cycles));
       for (std::size_t other = 0; other < k; ++other)
         if (components[other].name == of.name && components[other].layer == of.layer)
           add(of.where,
@@ -93,6 +134,100 @@ class Judge {
  private:
   std::vector<Warning>& warnings_;
 };
+
+/// Whether a wire is made of this material.
+bool has_wire_of(const std::vector<Component>& components, const std::string& material) {
+  return std::any_of(components.begin(), components.end(), [&](const Component& of) {
+    return is_wire(of) ? of.material == material : has_wire_of(of.components, material);
+  });
+}
+
+/// Constants of metals that wires are made of.
+void plausible_metal(const Material& of, Judge& judge) {
+  const auto beyond = [&](const char* key, double value, double low, double high, double unit,
+                          const std::string& cause, const std::string& remedy) {
+    if (value < low || value > high)
+      judge.add(of.where,
+                fmt::format("{} of the wires' material '{}' is {:.4g} (limits {:g} .. {:g})", key, of.name,
+                            value / unit, low / unit, high / unit),
+                cause, remedy);
+  };
+  beyond("youngs_modulus_GPa", of.youngs_modulus, softest_wire, stiffest_wire, 1e9,
+         "another unit, or no metal",
+         of.youngs_modulus < softest_wire
+             ? fmt::format("youngs_modulus_GPa: {:.4g} if that was TPa", of.youngs_modulus / 1e6)
+             : fmt::format("youngs_modulus_GPa: {:.4g} if that was MPa", of.youngs_modulus / 1e12));
+  for (const auto& [key, value] : {std::pair{"tensile_strength_MPa", of.tensile_strength},
+                                   {"fatigue_strength_MPa", std::optional(of.fatigue_strength)}})
+    if (value && *value > 0)
+      beyond(key, *value, weakest_wire, strongest_wire, 1e6,
+             *value < weakest_wire ? "GPa instead of MPa" : "kPa instead of MPa",
+             fmt::format("{}: {:.4g} if so", key, *value < weakest_wire ? *value / 1e3 : *value / 1e9));
+  if (of.fatigue_strength <= 0) return;
+  if (of.fatigue_strength_exponent < of.fatigue_ductility_exponent)
+    judge.add(
+        of.where,
+        fmt::format(
+            "fatigue_strength_exponent of '{}' is {:g}, and fatigue_ductility_exponent {:g} (limit: the second is the steeper one)",
+            of.name, of.fatigue_strength_exponent, of.fatigue_ductility_exponent),
+        "exchanged exponents",
+        fmt::format("fatigue_strength_exponent: {:g} and fatigue_ductility_exponent: {:g}",
+                    of.fatigue_ductility_exponent, of.fatigue_strength_exponent));
+  else {
+    beyond("fatigue_strength_exponent", of.fatigue_strength_exponent, steepest_strength, 0, 1,
+           "a slope of another curve", "-0.05 to -0.15 for metals");
+    beyond("fatigue_ductility_exponent", of.fatigue_ductility_exponent, steepest_ductility,
+           flattest_ductility, 1, "a slope of another curve", "-0.5 to -0.8 for metals");
+  }
+  beyond("fatigue_ductility", of.fatigue_ductility, 0, largest_ductility, 1, "per cent instead of a share",
+         fmt::format("fatigue_ductility: {:g} if that was per cent", of.fatigue_ductility / 100));
+}
+
+/// Limits that a maker states, and what lies around the hose.
+void plausible_limits(const Dresspack& dresspack, Judge& judge) {
+  if (const double twist = dresspack.most_twist.value_or(degree * least_most_twist) / degree;
+      twist < least_most_twist * (1 - 1e-9) || twist > largest_most_twist)
+    judge.add(dresspack.where,
+              fmt::format("most_twist_deg_per_m is {:.4g} (limits {:g} .. {:g})", twist, least_most_twist,
+                          largest_most_twist),
+              twist < least_most_twist ? "radians or turns per metre" : "another unit",
+              twist < least_most_twist
+                  ? fmt::format("most_twist_deg_per_m: {:.3g} if that was rad/m, {:.4g} if turns",
+                                twist / degree, 360 * twist)
+                  : "most_twist_deg_per_m: 180, or the maker's limit");
+  if (const double tension = dresspack.most_tension.value_or(least_most_tension);
+      tension < least_most_tension || tension > largest_most_tension)
+    judge.add(dresspack.where,
+              fmt::format("most_tension_N is {:.4g} (limits {:g} .. {:g})", tension, least_most_tension,
+                          largest_most_tension),
+              tension < least_most_tension ? "kilonewtons instead of newtons" : "another unit",
+              tension < least_most_tension
+                  ? fmt::format("most_tension_N: {:g} if that was kN", 1e3 * tension)
+                  : fmt::format("most_tension_N: {:g} if that was mN", tension / 1e3));
+  if (dresspack.friction > largest_friction)
+    judge.add(
+        dresspack.where,
+        fmt::format("friction_coefficient is {:.3g} (limit {:g})", dresspack.friction, largest_friction),
+        "a guess that is too high", "friction_coefficient: 0.5");
+  if (dresspack.construction_curvature > largest_construction_curvature)
+    judge.add(dresspack.where,
+              fmt::format("construction_curvature_1_per_m is {:g} (limit {:g})",
+                          dresspack.construction_curvature, largest_construction_curvature),
+              "a bend radius in mm",
+              fmt::format("construction_curvature_1_per_m: {:.3g} if that was a radius in mm",
+                          1e3 / dresspack.construction_curvature));
+  if (dresspack.sleeve && (dresspack.sleeve->thickness < thinnest_sleeve ||
+                           dresspack.sleeve->thickness > thickest_sleeve * dresspack.diameter))
+    judge.add(dresspack.where,
+              fmt::format("thickness_mm of the sleeve is {:.4g} (limits {:g} .. {:.3g})",
+                          1e3 * dresspack.sleeve->thickness, 1e3 * thinnest_sleeve,
+                          1e3 * thickest_sleeve * dresspack.diameter),
+              dresspack.sleeve->thickness < thinnest_sleeve ? "metres instead of millimetres"
+                                                            : "the diameter instead of the thickness",
+              dresspack.sleeve->thickness < thinnest_sleeve
+                  ? fmt::format("thickness_mm: {:.4g} if that was metres", 1e6 * dresspack.sleeve->thickness)
+                  : "thickness_mm of one wall");
+}
 
 /// Diameters, bend radius and torsion beside each other, and what parts have.
 void plausible_size(const Dresspack& dresspack, Judge& judge) {
@@ -128,7 +263,11 @@ void plausible_size(const Dresspack& dresspack, Judge& judge) {
       judge.add(of.where, fmt::format("slack_percent of '{}' is {:.3g} (limit {:g})", of.name, of.laying.slack, 100 * largest_slack),
                 "millimetres in a metre instead of per cent", fmt::format("slack_percent: {:.3g} if that was mm in a metre", of.laying.slack / 10));
     for (const auto& [key, grip] : {std::pair{"base_grip_N", of.laying.base_grip}, {"tool_grip_N", of.laying.tool_grip}})
-      if (grip && *grip > largest_grip)
+      if (grip && *grip < least_grip)
+        judge.add(of.where,
+                  fmt::format("{} of '{}' is {:.3g} (limit {:g} or more)", key, of.name, *grip, least_grip),
+                  "kilonewtons instead of newtons", fmt::format("{}: {:g} if that was kN", key, 1e3 * *grip));
+      else if (grip && *grip > largest_grip)
         judge.add(of.where, fmt::format("{} of '{}' is {:.3g} (limit {:g})", key, of.name, *grip, largest_grip), "another unit",
                   fmt::format("no {}: then the clamp holds the cable", key));
   }
@@ -141,12 +280,18 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
   Judge judge(warnings);
   const double mass = dresspack.mass_per_length, section = pi / 4 * dresspack.diameter * dresspack.diameter;
   const double least = least_wire_mass(dresspack.components);
-  if (mass > copper * section)
+  // Beside what its parts have, a hose is filled at most with steel braid and rubber. Without parts it may be anything.
+  const double built = dresspack.components.empty() ? 0 : mass_of_construction(dresspack);
+  const double most = built > 0 ? built + heaviest_filling * section : copper * section;
+  if (mass > most)
     judge.add(dresspack.where,
-              fmt::format("mass_kg_per_m is {:.4g} (limit {:.3g}: solid copper of diameter_mm)", mass,
-                          copper * section),
-              "grams instead of kilograms, or diameter_mm in another unit",
-              fmt::format("mass_kg_per_m: {:.4g} if that was g/m; or check diameter_mm: {:.4g}", mass / 1000,
+              fmt::format("mass_kg_per_m is {:.4g} (limit {:.3g}: {})", mass, most,
+                          built > 0 ? "its parts, and diameter_mm filled with rubber and steel braid"
+                                    : "solid copper of diameter_mm"),
+              mass < least_grams ? "the mass of the whole dresspack, or diameter_mm in another unit"
+                                 : "grams instead of kilograms, or diameter_mm in another unit",
+              fmt::format("mass_kg_per_m: {:.4g} if that was g/m{}; or check diameter_mm: {:.4g}",
+                          mass / 1000, built > 0 ? fmt::format(", {:.3g} by its parts and wall", built) : "",
                           1e3 * dresspack.diameter));
   if (mass > 0 && mass < least)
     judge.add(dresspack.where,
@@ -177,12 +322,14 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
   beyond_solid("torsional_stiffness_Nm2", dresspack.torsional_stiffness, shear * 2 * second_moment, "N m2");
   beyond_solid("axial_stiffness_N", dresspack.axial_stiffness, stiffest * section, "N");
   constexpr double gravity = 9.81;
-  if (dresspack.axial_stiffness > 0 && mass * gravity > most_stretch * dresspack.axial_stiffness)
+  const double weight =
+      std::min(mass, most) * gravity;  // a mass that is doubtful does not make the stiffness doubtful
+  if (dresspack.axial_stiffness > 0 && weight > most_stretch * dresspack.axial_stiffness)
     judge.add(
         dresspack.where,
         fmt::format(
             "axial_stiffness_N is {:.3g} (limit {:.3g} or more: {:g} % of stretch by the weight of a metre)",
-            dresspack.axial_stiffness, mass * gravity / most_stretch, 100 * most_stretch),
+            dresspack.axial_stiffness, weight / most_stretch, 100 * most_stretch),
         "kilonewtons instead of newtons",
         fmt::format("axial_stiffness_N: {:.3g} if that was kN, or from_construction",
                     1000 * dresspack.axial_stiffness));
@@ -194,6 +341,9 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
         "metres instead of millimetres",
         fmt::format("least_bend_radius_mm: {:.3g} if that was metres", 1e6 * *dresspack.least_bend_radius));
   plausible_size(dresspack, judge);
+  plausible_limits(dresspack, judge);
+  for (const Material& of : dresspack.materials)
+    if (has_wire_of(dresspack.components, of.name)) plausible_metal(of, judge);
   for (const Component& of : dresspack.components)
     if (of.laying.play.value_or(0) > dresspack.diameter / 2)
       judge.add(of.where,

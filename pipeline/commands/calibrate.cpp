@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "pipeline/advise/calibrate/doubtful_rows.h"
 #include "pipeline/advise/calibrate/learning.h"
 #include "pipeline/advise/calibrate/service_records.h"
 #include "pipeline/base/installation.h"
@@ -47,6 +48,7 @@ ServiceTests tests_of(const Options& options, const fs::path& file) {
 int calibrate(const Options& options) {
   const fs::path file = named_file(options.study, "observations");
   const auto [tests, words] = tests_of(options, file);
+  for (const Warning& warning : doubtful_rows(tests)) tell(shown(warning.line() + "\n"));
   const StudyPlaces places{fs::path(options.out) / ("calibrate_" + file.stem().string()), program_folder()};
   const FolderLock lock(places.folder);
   const Learned learned = learn(tests, options.sets, places,

@@ -39,6 +39,21 @@ bool is_shipped(const Where& where) {
   return !as_seen_from(catalogue, where.file).string().starts_with("..");
 }
 
+[[noreturn]] void fail_motion(const std::filesystem::path& file) {
+  throw StageFailed({file.string()}, "its motion cannot be computed (see above)", "mend what is named there");
+}
+
+/// Of a deformation that needs no simulation: dresslife-sim writes it in less than a second.
+std::vector<Warning> warnings_of_prescribed(const std::filesystem::path& file,
+                                            const std::vector<std::string>& sets) {
+  const PassingFile motion("motion.h5");
+  std::vector<std::string> arguments{file.string(), "-o", motion.path().string(), "--quiet"};
+  for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
+  if (run_stage_program("dresslife-sim", arguments) != 0) fail_motion(file);
+  return warnings_from(
+      FileReader(motion.path(), motion_format(), FileReader::Scope::attributes).text_attribute("warnings"));
+}
+
 }  // namespace
 
 JobCheck check_of(const std::filesystem::path& file, const std::vector<std::string>& sets,
@@ -56,16 +71,15 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
       check.warnings = joined(std::move(check.warnings), tight_warnings(line_key(job, d, "dresspack"), job.dresspacks[d]));
   }
   add_slip(job, check.warnings);
-  check.limits = "Not checked: limits of the deformation, strains and forces of the cables. A run may also warn of them.";
   if (job.motion.is_prescribed()) {
-    check.warnings = joined(std::move(check.warnings), job.motion.left_out);
+    check.limits = "Not checked: strains and forces of the cables. A run may also warn of them.";
+    check.warnings = joined(std::move(check.warnings), warnings_of_prescribed(file, sets));
     return check;
   }
   check.limits =
       "The dresspack was checked at rest and in a short run. A run may also warn of tension, and of strains and forces of its "
       "cables.";
-  if (tell_preview(file, sets, {}, preview_file) != 0)
-    throw StageFailed({file.string()}, "its motion cannot be computed (see above)", "mend what is named there");
+  if (tell_preview(file, sets, {}, preview_file) != 0) fail_motion(file);
   try {
     check.refusal = refusal_of(preview_file);
     const FileReader preview(preview_file, preview_format(), FileReader::Scope::attributes);

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "pipeline/advise/plan/doubtful_plan.h"
 #include "pipeline/advise/plan/duty.h"
 #include "pipeline/advise/plan/duty_words.h"
 #include "pipeline/advise/plan/evaluated_duties.h"
@@ -20,6 +21,7 @@ namespace fs = std::filesystem;
 int duty(const RunOptions& options) {
   const fs::path name = named_file(options.study, "duties");
   const DutyFile file = read_duties(name);
+  for (const Warning& warning : doubtful_duties(file)) tell(shown(warning.line() + "\n"));
   const DutiesRun made = run_duties(file, options);
   const std::vector<DutyResult> results = evaluated(file, made.study, made.rows);
   const std::string csv = duty_csv(results);

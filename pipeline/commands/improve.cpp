@@ -27,13 +27,14 @@ struct Options : RunOptions {
   std::optional<double> bracket_mm;
 };
 
-/// Short runs come before the first trial; the remaining time is told of trials.
+/// Short runs come before the first trial. The remaining time is that of the short runs, then that of the trials.
 void show(Progress& progress, const Improvement& so_far, int trials) {
   const std::optional<std::size_t> best = so_far.best();
   const std::string best_words = best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits";
   const std::size_t done = so_far.trials.size();
-  if (done <= 1)
-    progress.show(fmt::format("short run {} of about {} before the first of {} trials", so_far.rehearsals,
+  if (done <= 1 && so_far.rehearsals < so_far.most_rehearsals)
+    progress.show(static_cast<double>(so_far.rehearsals) / so_far.most_rehearsals,
+                  fmt::format("short run {} of about {} before the first of {} trials", so_far.rehearsals,
                               so_far.most_rehearsals, trials));
   else
     progress.show(static_cast<double>(done) / trials, fmt::format("trial {} of {}, best {}", done, trials, best_words));

@@ -13,6 +13,7 @@
 #include "pipeline/base/installation.h"
 #include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/resolve/catalogue.h"
 #include "pipeline/stage/stage.h"
 
 namespace dresslife::pipeline {
@@ -78,9 +79,18 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
     }
     looked_for += (looked_for.empty() ? "" : " or ") + entry.string() + ".yaml";
   }
+  std::vector<std::string> entries;
+  for (const std::string& shelf : shelves) {
+    std::error_code failure;
+    for (const fs::directory_entry& entry : fs::directory_iterator(shipped_catalogue() / shelf, failure))
+      if (entry.path().extension() == ".yaml") entries.push_back(entry.path().stem().string());
+  }
+  std::sort(entries.begin(), entries.end());
+  const std::string near = nearest_entry(fs::path(name).filename().string(), entries);
   throw InputError({name},
                    fmt::format("is no file, and {} holds no {}", shipped_catalogue().string(), looked_for),
-                   "write the path of a YAML file");
+                   near.empty() ? "write the path of a YAML file"
+                                : fmt::format("did you mean '{}'? Else write the path of a YAML file", near));
 }
 
 /// What a file of another kind is, and what to do with it.

@@ -7,10 +7,12 @@
 #include <memory>
 #include <set>
 
+#include "pipeline/advise/plan/doubtful_plan.h"
 #include "pipeline/advise/plan/duty_words.h"
 #include "pipeline/advise/plan/evaluated_duties.h"
 #include "pipeline/advise/plan/plan_words.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/as_json.h"
 #include "pipeline/commands/command.h"
@@ -34,6 +36,17 @@ Day day_of(const std::string& text) {
   if (text.empty()) return today();
   if (const std::optional<Day> day = day_from(text)) return *day;
   throw InputError({"--today"}, fmt::format("'{}' is no date", text), "write YYYY-MM-DD");
+}
+
+std::vector<Warning> doubts_of(std::optional<double> risk_percent) {
+  constexpr double least = 1, most = 50;  // per cent in one interval
+  if (!risk_percent || (*risk_percent >= least && *risk_percent <= most)) return {};
+  return {warning_of(
+      WarningKind::motion, "--risk",
+      fmt::format("the risk is {:g} % (limit {:g} .. {:g})", *risk_percent, least, most),
+      *risk_percent < least ? "a share instead of per cent" : "a dresspack is hardly ever replaced",
+      *risk_percent < least ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
+                            : "--risk 10")};
 }
 
 /// Duties whose programs have warnings that spoil a plan.
@@ -81,6 +94,9 @@ int plan(const Options& options) {
     for (const Installed& row : changed->rows) needed.insert(duty_named(file, row.duty, row.where).name);
   }
   for (const Installed& row : fleet.rows) needed.insert(duty_named(file, row.duty, row.where).name);
+  for (const Warning& warning :
+       joined(doubts_of(options.risk_percent), joined(doubtful_fleet(fleet, day), doubtful_duties(file))))
+    tell(shown(warning.line() + "\n"));
   const DutiesRun made = run_duties(file, options);
   std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed);
   for (const auto& [name, table] : tables)

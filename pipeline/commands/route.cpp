@@ -19,6 +19,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/progress.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/stage_failed.h"
 #include "pipeline/base/whole_file.h"
@@ -176,10 +177,22 @@ Trial tried(const Draft& draft, const Options& options, double factor, const Stu
   trial.rows.resize(trial.proposals.candidates.size());
   const bool tolerance = options.off_mm > 0;
   const std::size_t found = trial.start.value_or(trial.outcomes.size());
-  for (std::size_t k = 0; k < found && (tolerance || !trial.feasible()); ++k)
+  std::vector<std::size_t> to_run;
+  for (std::size_t k = 0; k < found; ++k)
     if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
-      run(trial, k, draft, options, places);
-  if (trial.start) run(trial, *trial.start, draft, options, places);
+      to_run.push_back(k);
+  if (trial.start) to_run.push_back(*trial.start);
+  Options without_progress = options;
+  without_progress.quiet = true;
+  Progress progress(fmt::format("{} at {:.0f} % of the dresspack's size", draft.name, 100 * factor),
+                    options.quiet);
+  for (std::size_t n = 0; n < to_run.size(); ++n) {
+    if (to_run[n] != trial.start && !tolerance && trial.feasible()) continue;
+    progress.show(static_cast<double>(n) / static_cast<double>(to_run.size()),
+                  fmt::format("run {} of {}{}", n + 1, tolerance ? "" : "at most ", to_run.size()));
+    run(trial, to_run[n], draft, without_progress, places);
+  }
+  progress.clear();
   if (tolerance && trial.feasible()) judge(trial, draft, options, places);
   return trial;
 }

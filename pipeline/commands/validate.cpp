@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 int validate(const RunOptions& options) {
   const ValidationStudy validation =
       read_observations(named_file(options.study, "observations"), options.sets);
+  for (const Warning& warning : validation.doubts) tell(shown(warning.line() + "\n"));
   const StudyPlaces places{fs::path(options.out) / validation.study.name, program_folder()};
   const FolderLock lock(places.folder);
   const std::vector<RankingRow> rows = made_rows(validation.study, places, options);

@@ -346,7 +346,7 @@ void check_laying(const Dresspack& dresspack, const Component& component, bool f
 /// The space in a hose holds what is said to lie in it.
 void check_room(const Dresspack& dresspack) {
   const auto inner = inner_radius(dresspack);
-  if (!inner) return;
+  if (!inner || !(dresspack.diameter > 0)) return;  // a missing diameter is a problem of its own
   if (2 * *inner > dresspack.diameter || *inner <= 0)
     throw InputError(dresspack.where,
                      fmt::format("inner_diameter_mm is {:.4g} (diameter_mm is {:.4g})", 2e3 * *inner,

@@ -125,21 +125,6 @@ void read_urdf(Node& entry) {
   entry = std::move(robot);
 }
 
-/// The entry that people mean who write a type as its maker does: "KR 16-2" is kuka_kr16_2; else the nearest by spelling.
-std::string nearest_entry(const std::string& name, const std::vector<std::string>& entries) {
-  const auto bare = [](const std::string& text) {
-    std::string letters;
-    for (const unsigned char c : text)
-      if (std::isalnum(c)) letters += static_cast<char>(std::tolower(c));
-    return letters;
-  };
-  const std::string wanted = bare(name);
-  constexpr std::size_t telling = 4;  // shorter pieces are in many names
-  for (const std::string& entry : entries)
-    if (wanted.size() >= telling && bare(entry).find(wanted) != std::string::npos) return entry;
-  return nearest_word(name, entries);
-}
-
 /// A robot's program in its own language, or joints as columns.
 bool is_program_file(const fs::path& file) {
   std::string end = file.extension();
@@ -305,6 +290,20 @@ Node* step_into(Node& node, const std::string& word, const Where& where, const s
 }
 
 }  // namespace
+
+std::string nearest_entry(const std::string& name, const std::vector<std::string>& entries) {
+  const auto bare = [](const std::string& text) {
+    std::string letters;
+    for (const unsigned char c : text)
+      if (std::isalnum(c)) letters += static_cast<char>(std::tolower(c));
+    return letters;
+  };
+  const std::string wanted = bare(name);
+  constexpr std::size_t telling = 4;  // shorter pieces are in many names
+  for (const std::string& entry : entries)
+    if (wanted.size() >= telling && bare(entry).find(wanted) != std::string::npos) return entry;
+  return nearest_word(name, entries);
+}
 
 Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
                      const Where& job) {

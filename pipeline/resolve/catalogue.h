@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "pipeline/settings/document.h"
 #include "pipeline/settings/problems.h"
@@ -15,6 +16,9 @@ namespace dresslife::pipeline {
 /// InputError with the near names.
 Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
                      const Where& job);
+
+/// The entry that a name probably means: "KR 16-2" is kuka_kr16_2, else the nearest by spelling. Empty: none is near.
+std::string nearest_entry(const std::string& name, const std::vector<std::string>& entries);
 
 /// Writes out every entry that a job names, the cables that it gives by data sheets, and the materials that
 /// its dresspacks name. What cannot be is added to the problems, with the key that stays as it was written.

@@ -185,11 +185,12 @@ void check_slopes(const Job& job, const Where& where) {
       if (material.strain_life_table.empty() && material.has_strain_life() &&
           !(material.fatigue_strength_exponent + job.fatigue.slope_change <= -0.02))
         throw InputError(
-            where,
+            job.fatigue.slope_change > 0 && material.fatigue_strength_exponent <= -0.02 ? where
+                                                                                        : material.where,
             fmt::format("fatigue.slope_change {} leaves '{}' a slope b of {} (must be -0.02 or less)",
                         job.fatigue.slope_change, material.name,
                         material.fatigue_strength_exponent + job.fatigue.slope_change),
-            "give a smaller one");
+            "give a smaller fatigue.slope_change, or fatigue_strength_exponent: -0.05 to -0.15, as metals have");
 }
 
 }  // namespace

@@ -263,23 +263,69 @@ class Expansion {
           sheet_.where,
           fmt::format("{} wires of {:.4g} mm are a conductor {:.4g} mm wide (the core has {:.4g} mm)",
                       wire_count(), 1e3 * wire_, 1e3 * conductor_, 1e3 * core_diameter_),
-          "check cross_section_mm2, of one core, the jacket's thickness and the diameters");
+          (fitting_gauge().empty() ? fitting_diameter() : fitting_gauge()) +
+              "check cross_section_mm2, of one core, the jacket's thickness and the diameters");
     if (!sheet_.core_diameter && core_diameter_ > thickest_insulation * conductor_)
       throw InputError(
           sheet_.where,
-          fmt::format("by the outer diameter and the jacket a core is {:.3g} mm wide, {:.2g} times its conductor of {:.3g} mm (limit {:g} "
-                      "times)",
-                      1e3 * core_diameter_, core_diameter_ / conductor_, 1e3 * conductor_, thickest_insulation),
-          fmt::format("check outer_diameter_mm: {:.4g} and cross_section_mm2, of one core, or give core_diameter_mm if the rest is filler",
-                      1e3 * outer_));
+          fmt::format(
+              "by the outer diameter and the jacket a core is {:.3g} mm wide, {:.2g} times its conductor of {:.3g} mm (limit {:g} "
+              "times)",
+              1e3 * core_diameter_, core_diameter_ / conductor_, 1e3 * conductor_, thickest_insulation),
+          fmt::format(
+              "{}check outer_diameter_mm: {:.4g} and cross_section_mm2, of one core, or give core_diameter_mm if the rest is filler",
+              fitting_diameter(), 1e3 * outer_));
+  }
+
+  /// "give outer_diameter_mm: 8.2 if the decimal point was lost; " for 82 or 0.82, and for 0.0082 in metres: the diameter times a
+  /// power of ten that fits the cores; else nothing.
+  std::string fitting_diameter() const {
+    if (!sheet_.outer_diameter || sheet_.core_diameter) return "";
+    struct Slip {
+      double factor;
+      const char* cause;
+    };
+    for (const Slip& slip : {Slip{0.1, "a decimal point was lost"}, Slip{10, "that was centimetres"},
+                             Slip{1e3, "that was metres"}, Slip{0.01, "two zeros are too many"}}) {
+      const double outer = slip.factor * outer_, inside = outer - 2 * sheet_.jacket_thickness.value_or(0);
+      if (inside > 0 && holds_cores(inside))
+        return fmt::format("give outer_diameter_mm: {:.4g} if {}; ", 1e3 * outer, slip.cause);
+    }
+    return "";
+  }
+
+  /// Whether cores that fill this width have a usual insulation.
+  bool holds_cores(double inside) const {
+    try {
+      const double core = core_in(inside);
+      return core > conductor_ && core <= thickest_insulation * conductor_;
+    } catch (const InputError&) {  // they do not lie beside each other on their lay
+      return false;
+    }
+  }
+
+  /// "give cross_section_mm2: 0.519 if 20 is an AWG; " where the section of that gauge fits the core; else nothing.
+  std::string fitting_gauge() const {
+    const double number = 1e6 * sheet_.cross_section;  // [mm2]
+    constexpr double coarsest = 4, finest = 36;        // gauges of cables
+    if (number != std::floor(number) || number < coarsest || number > finest) return "";
+    const double share = square_mm_of_awg(number) / number, conductor = conductor_ * std::sqrt(share);
+    return conductor < core_diameter_ && core_diameter_ <= thickest_insulation * conductor
+               ? fmt::format("give cross_section_mm2: {:.3g} if {:g} is a wire gauge (AWG); ",
+                             square_mm_of_awg(number), number)
+               : "";
   }
 
   /// The bundle's width grows with that of a core, almost in proportion.
   double widest_core(double inside) const {
     if (!(inside > 0))
-      throw InputError(sheet_.where,
-                       fmt::format("the jacket of {:.4g} mm leaves no room in {:.4g} mm", 1e3 * jacket_, 1e3 * outer_),
-                       "check jacket_thickness_mm");
+      throw InputError(
+          sheet_.where,
+          fmt::format("the jacket of {:.4g} mm leaves no room in {:.4g} mm", 1e3 * jacket_, 1e3 * outer_),
+          fitting_diameter() + "check jacket_thickness_mm");
+    return core_in(inside);
+  }
+  double core_in(double inside) const {
     double core = inside / (sheet_.cores * sheet_.cores_per_group);
     for (int round = 0; round < rounds; ++round) core *= inside / cabled_width(core);
     return core;
@@ -339,6 +385,21 @@ std::string plain(std::string text) {
 constexpr const char* example_line =
     "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket PUR 1.1 mm";
 
+/// "write '7 x 0.518 mm2' for AWG 20" for 7 x AWG 20, "write '7 x 0.5 mm2'" for 7G0.5 and 7 x 0.5 qmm; else empty.
+std::string meant_section(const std::string& phrase) {
+  static const std::regex gauge(R"((\d+) *[x*]? *(?:awg *(\d+)|(\d+) *awg))"),
+      section(R"((\d+) *[x*g] *([\d.]+) *(?:qmm|sqmm|mm)?)");
+  std::smatch found;
+  if (std::regex_match(phrase, found, gauge)) {
+    const std::string number = found[2].matched ? found[2] : found[3];
+    return fmt::format("write '{} x {:.3g} mm2' for AWG {}", found[1].str(),
+                       square_mm_of_awg(std::stod(number)), number);
+  }
+  return std::regex_match(phrase, found, section)
+             ? fmt::format("write '{} x {} mm2'", found[1].str(), found[2].str())
+             : "";
+}
+
 /// The keys that one phrase of a sheet's line stands for.
 std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase,
                                                                 const Where& where) {
@@ -363,9 +424,12 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
   if (std::regex_match(phrase, found, length))
     for (const auto& [words, key] : lengths)
       if (std::regex_match(found[1].str(), words)) return {{key, found[2]}};
+  const std::string meant = meant_section(phrase);
   throw InputError(
       where, fmt::format("'{}' of a data sheet is not understood", phrase),
-      fmt::format("write phrases as in '{}', lengths in mm, or the keys of a data sheet", example_line));
+      meant.empty()
+          ? fmt::format("write phrases as in '{}', lengths in mm, or the keys of a data sheet", example_line)
+          : meant);
 }
 
 }  // namespace

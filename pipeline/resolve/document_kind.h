@@ -7,7 +7,7 @@
 
 namespace dresslife::pipeline {
 
-enum class DocumentKind { job, study, dresspack, robot, motion, observations, material, unknown };
+enum class DocumentKind { job, study, dresspack, robot, motion, observations, duties, material, unknown };
 
 /// By the keys that only this kind has.
 DocumentKind kind_of_document(const Node& document);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "pipeline/base/warning_words.h"
@@ -33,6 +34,20 @@ constexpr double largest_factor = 30;      // 100 is per cent; trials take 0.1 t
 constexpr double largest_tolerance = 0.05;  // [m] between the starts of two repeats: a hose's width
 constexpr double longest_spot = 10;        // [s]: a weld takes 0.3 to 2
 constexpr double widest_zone = 30 * degree;
+constexpr int most_repeats = 1000;             // of steps within a program: a pallet has some hundred places
+constexpr double slowest_tool = 1e-3;          // [m/s]: arc welding moves at 5 to 20 mm/s
+constexpr double slowest_move = 0.2 * degree;  // [rad/s] of the fastest axis in one move
+constexpr double slowest_axis = 5 * degree,
+                 fastest_axis = 3000 * degree;  // [rad/s]: positioners 30, wrists of small robots 1000 deg/s
+constexpr double longest_ramp = 5,
+                 shortest_ramp = 0.005;  // [s] from rest to full speed: robots take 0.1 to 1
+constexpr double farthest = 20;          // [m] from the origin: a cell
+constexpr double widest_spread = 20;  // a factor in one deviation: friction of seven published cables has 2.2
+constexpr double least_pre_twist = 6.2832 * degree, largest_pre_twist = 3600 * degree;
+constexpr double shortest_bracket = 1e-3, longest_built = 2;  // [m]
+constexpr double widest_ring = 10;                            // of the dresspack's diameter
+constexpr double longest_stroke = 5, largest_pull = 2000, stiffest_spring = 1e4,
+                 heaviest_slider = 50;  // [m], [N], [N/m], [kg]
 
 /// Steps with one fault: the first, and how many more.
 struct Doubted {
@@ -53,7 +68,7 @@ struct Doubted {
 struct Seen {
   const MotionStep* first = nullptr;
   std::vector<double> low, high;  ///< (axis) of all joint targets
-  Doubted slow, fast, waits;
+  Doubted slow, fast, waits, creeping, turning, repeats;
   std::vector<double> last;  ///< (axis) of the latest joint target
   double fastest = 0;        ///< of any axis, where moves have durations [rad/s]
   int moves = 0;
@@ -66,6 +81,9 @@ void look_at(const std::vector<MotionStep>& steps, Seen& seen) {
     look_at(step.steps, seen);
     if (step.speed_percent && *step.speed_percent < least_percent) seen.slow.add(step);
     if (step.tool_speed.value_or(0) > fastest_tool) seen.fast.add(step);
+    if (step.repeat > most_repeats) seen.repeats.add(step);
+    if (step.tool_speed.value_or(1) < slowest_tool) seen.creeping.add(step);
+    if (step.speed.value_or(1) < slowest_move) seen.turning.add(step);
     if (step.dwell > longest_dwell) seen.waits.add(step);
     seen.moves += step.is_move();
     if (step.is_move() && step.joints.empty()) seen.all_joints = false;
@@ -96,6 +114,22 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
     warnings.push_back(seen.fast.warning(
         fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool),
         "a speed in another unit, such as mm/s instead of m/s", "the speed in the program's unit"));
+  if (const MotionStep* step = seen.repeats.first)
+    warnings.push_back(
+        seen.repeats.warning(fmt::format("repeat is {} (limit {} or less)", step->repeat, most_repeats),
+                             "the repeats of the whole program, which goes round by itself",
+                             "no repeat; hours of operation are fatigue.operating_hours_per_week"));
+  if (const MotionStep* step = seen.creeping.first)
+    warnings.push_back(seen.creeping.warning(
+        fmt::format("the tool's speed is {:.4g} mm/s (limit {:g} or more)", 1e3 * *step->tool_speed,
+                    1e3 * slowest_tool),
+        "m/s instead of mm/s", fmt::format("speed_mm_per_s: {:g} if that was m/s", 1e6 * *step->tool_speed)));
+  if (const MotionStep* step = seen.turning.first)
+    warnings.push_back(seen.turning.warning(
+        fmt::format("speed_deg_per_s is {:.4g} (limit {:g} or more)", *step->speed / degree,
+                    slowest_move / degree),
+        "radians per second instead of degrees",
+        fmt::format("speed_deg_per_s: {:.3g} if that was rad/s", *step->speed / degree / degree)));
   if (const MotionStep* step = seen.waits.first)
     warnings.push_back(seen.waits.warning(fmt::format("dwell_s is {:g} (limit {:g} or less)", step->dwell, longest_dwell),
                                           "milliseconds instead of seconds",
@@ -125,6 +159,116 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
 }
 
 namespace {
+
+using AddDoubt = std::function<void(const Where&, const std::string& what, const std::string& cause,
+                                    const std::string& remedy)>;
+
+void doubt_robot(const Robot& robot, const AddDoubt& add) {
+  if (const double far = robot.base_position.norm(); far > farthest)
+    add({}, fmt::format("robot.base_position_m lies {:.4g} m from the origin (limit {:g})", far, farthest),
+        "millimetres instead of metres",
+        fmt::format("robot.base_position_m: [{:g}, {:g}, {:g}]", robot.base_position.x() / 1e3,
+                    robot.base_position.y() / 1e3, robot.base_position.z() / 1e3));
+  for (const Joint& joint : robot.joints) {
+    if (!joint.follows.empty() || !(joint.speed > 0) || !(joint.acceleration > 0)) continue;
+    const double speed = joint.speed / degree, ramp = joint.speed / joint.acceleration;
+    if (joint.speed < slowest_axis || joint.speed > fastest_axis)
+      add(joint.where,
+          fmt::format("speed_deg_per_s of {} is {:.4g} (limits {:g} .. {:g})", joint.name, speed,
+                      slowest_axis / degree, fastest_axis / degree),
+          joint.speed < slowest_axis ? "radians per second instead of degrees" : "degrees per minute",
+          joint.speed < slowest_axis
+              ? fmt::format("speed_deg_per_s: {:.4g} if that was rad/s", speed / degree)
+              : fmt::format("speed_deg_per_s: {:.4g} if that was deg/min", speed / 60));
+    else if (ramp > longest_ramp || ramp < shortest_ramp)
+      add(joint.where,
+          fmt::format(
+              "{} takes {:.3g} s from rest to its full speed by acceleration_deg_per_s2 {:.4g} (limits {:g} .. {:g} s)",
+              joint.name, ramp, joint.acceleration / degree, shortest_ramp, longest_ramp),
+          ramp > longest_ramp ? "radians instead of degrees" : "another unit",
+          ramp > longest_ramp
+              ? fmt::format("acceleration_deg_per_s2: {:.4g} if that was rad/s2",
+                            joint.acceleration / degree / degree)
+              : fmt::format("acceleration_deg_per_s2: {:.4g}, full speed in half a second", 2 * speed));
+  }
+}
+
+void doubt_cell(const Cell& cell, const AddDoubt& add) {
+  for (std::size_t k = 0; k < cell.boxes.size(); ++k)
+    if (const double far = cell.boxes[k].position.norm() - cell.boxes[k].sides.norm(); far > farthest)
+      add({}, fmt::format("cell.boxes[{}] lies {:.4g} m from the origin (limit {:g})", k + 1, far, farthest),
+          "another unit", "position_m in metres, or no box: the dresspack does not reach it");
+  for (std::size_t k = 0; k < cell.capsules.size(); ++k)
+    if (cell.capsules[k].radius < 1e-3)
+      add({},
+          fmt::format("radius_mm of cell.capsules[{}] is {:.4g} (limit 1 or more)", k + 1,
+                      1e3 * cell.capsules[k].radius),
+          "metres instead of millimetres",
+          fmt::format("radius_mm: {:g} if that was metres", 1e6 * cell.capsules[k].radius));
+}
+
+void doubt_routing(const Routing& routing, const Dresspack& dresspack, const AddDoubt& add) {
+  if (const double twist = std::abs(routing.pre_twist);
+      (twist > 0 && twist < least_pre_twist) || twist > largest_pre_twist)
+    add(routing.where,
+        fmt::format("routing.pre_twist_deg is {:.4g} (limits {:.3g} .. {:g})", routing.pre_twist / degree,
+                    least_pre_twist / degree, largest_pre_twist / degree),
+        twist < least_pre_twist ? "radians or turns instead of degrees" : "another unit",
+        twist < least_pre_twist ? fmt::format("routing.pre_twist_deg: {:.4g} if that was radians",
+                                              routing.pre_twist / degree / degree)
+                                : "routing.pre_twist_deg: -180 .. 180");
+  if (const double bracket = routing.longest_bracket.value_or(shortest_bracket);
+      (bracket > 0 && bracket < shortest_bracket) || bracket > longest_built)
+    add(routing.where,
+        fmt::format("routing.longest_bracket_mm is {:.4g} (limits {:g} .. {:g}, or 0)", 1e3 * bracket,
+                    1e3 * shortest_bracket, 1e3 * longest_built),
+        bracket < shortest_bracket ? "metres instead of millimetres" : "another unit",
+        bracket < shortest_bracket
+            ? fmt::format("routing.longest_bracket_mm: {:g} if that was metres", 1e6 * bracket)
+            : "routing.longest_bracket_mm: 150");
+  for (const GuideRing& ring : routing.rings)
+    if (2 * ring.radius > widest_ring * dresspack.diameter)
+      add(ring.where,
+          fmt::format("radius_mm of a ring is {:.4g} (limit {:.4g}: {:g} diameters of the dresspack wide)",
+                      1e3 * ring.radius, 5e2 * widest_ring * dresspack.diameter, widest_ring),
+          "another unit",
+          fmt::format("radius_mm: {:.3g}, a little more than the dresspack's", 6e2 * dresspack.diameter));
+  if (!routing.retraction) return;
+  const Retraction& unit = *routing.retraction;
+  if (unit.stroke > longest_stroke)
+    add(unit.where,
+        fmt::format("stroke_m of the retraction unit is {:.4g} (limit {:g})", unit.stroke, longest_stroke),
+        "millimetres instead of metres",
+        fmt::format("stroke_m: {:g} if that was millimetres", unit.stroke / 1e3));
+  if (unit.force > largest_pull)
+    add(unit.where,
+        fmt::format("force_N of the retraction unit is {:.4g} (limit {:g})", unit.force, largest_pull),
+        "another unit", fmt::format("force_N: {:g} if that was mN", unit.force / 1e3));
+  if (unit.force == 0 && unit.spring == 0)
+    add(unit.where, "force_N of the retraction unit is 0, and it has no spring: it pulls nothing back",
+        "a force that is not known", "force_N: 20 to 100 N, as its maker states");
+  if (unit.spring > stiffest_spring)
+    add(unit.where,
+        fmt::format("spring_N_per_m of the retraction unit is {:.4g} (limit {:g})", unit.spring,
+                    stiffest_spring),
+        "another unit", fmt::format("spring_N_per_m: {:g} if that was N/km", unit.spring / 1e3));
+  if (unit.mass > heaviest_slider)
+    add(unit.where,
+        fmt::format("mass_kg of the retraction unit is {:.4g} (limit {:g})", unit.mass, heaviest_slider),
+        "grams instead of kilograms", fmt::format("mass_kg: {:g} if that was grams", unit.mass / 1e3));
+}
+
+/// Factors of one deviation, but for the slope, which is an addend.
+void doubt_spreads(const Job& job, const AddDoubt& add) {
+  for (std::size_t p = 0; p < uncertain_count; ++p)
+    if (job.uncertainty.spread[p] > widest_spread)
+      add({},
+          fmt::format("uncertainty.{} is {:g} (limit {:g}: a factor in one standard deviation)",
+                      uncertain_parameters()[p].name, job.uncertainty.spread[p], widest_spread),
+          "per cent instead of a factor",
+          fmt::format("uncertainty.{}: {:g} if that was per cent", uncertain_parameters()[p].name,
+                      1 + job.uncertainty.spread[p] / 100));
+}
 
 std::vector<Warning> plausibility_of_settings(const Job& job) {
   std::vector<Warning> warnings;
@@ -159,7 +303,16 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
       add(WarningKind::material, key, value, fmt::format("{:.2g} .. {:g}", 1 / largest_factor, largest_factor),
           "per cent instead of a factor, or a factor for a trial",
           value > 1 ? fmt::format("{}: {:g} if that was per cent", key, value / 100) : fmt::format("{}: 1", key));
+  const AddDoubt doubt = [&](const Where& where, const std::string& what, const std::string& cause,
+                             const std::string& remedy) {
+    warnings.push_back(warning_of(WarningKind::motion, where.text(), what, cause, remedy));
+  };
+  doubt_spreads(job, doubt);
   if (job.motion.is_prescribed()) return warnings;
+  doubt_robot(job.robot, doubt);
+  doubt_cell(job.cell, doubt);
+  for (const MountedDresspack& mounted : job.dresspacks)
+    doubt_routing(mounted.routing, mounted.dresspack, doubt);
   if (job.simulation.periodic_tolerance > largest_tolerance)
     add(WarningKind::periodic, "simulation.periodic_tolerance_mm", 1e3 * job.simulation.periodic_tolerance,
         fmt::format("{:g} or less", 1e3 * largest_tolerance), "another unit: every motion counts as periodic",

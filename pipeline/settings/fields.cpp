@@ -45,6 +45,16 @@ std::string decimal_comma_words(std::string text) {
   return parse_number(text) ? fmt::format("write {} with a point; ", text) : "";
 }
 
+/// "write 0.5189 for AWG 20; " where a section is a wire gauge; else nothing.
+std::string gauge_words(const std::string& text, Fields::Key key) {
+  const bool is_gauge =
+      unit_of_key(key).suffix == "mm2" && (text.starts_with("AWG") || text.starts_with("awg"));
+  const std::optional<double> gauge = is_gauge ? parse_number(std::string_view(text).substr(
+                                                     std::min(text.size(), text.find_first_of("0123456789"))))
+                                               : std::nullopt;
+  return gauge ? fmt::format("write {:.4g} for AWG {:g}; ", square_mm_of_awg(*gauge), *gauge) : "";
+}
+
 std::string unit_note(Fields::Key key) {
   const Unit& unit = unit_of_key(key);
   return unit.name.empty() ? "" : fmt::format(" {}", unit.name);
@@ -283,12 +293,13 @@ class FieldReader final : public Fields {
         node.is_scalar() && !node.quoted ? parse_number(node.text) : std::nullopt;
     if (!value) {
       const std::string unit = unit_note(key);
-      throw InputError(node.where,
-                       fmt::format("{} is {} (must be a number{}{})", name_of(key),
-                                   node.is_scalar() ? fmt::format("'{}'", node.text) : "not one value",
-                                   word.empty() ? "" : fmt::format(" or {}", word),
-                                   unit.empty() ? "" : fmt::format(", the unit is in the key:{}", unit)),
-                       decimal_comma_words(node.text) + "give " + named(meaning));
+      throw InputError(
+          node.where,
+          fmt::format("{} is {} (must be a number{}{})", name_of(key),
+                      node.is_scalar() ? fmt::format("'{}'", node.text) : "not one value",
+                      word.empty() ? "" : fmt::format(" or {}", word),
+                      unit.empty() ? "" : fmt::format(", the unit is in the key:{}", unit)),
+          decimal_comma_words(node.text) + gauge_words(node.text, key) + "give " + named(meaning));
     }
     if (!std::isfinite(*value))
       throw InputError(node.where, fmt::format("{} is {} (must be finite)", name_of(key), node.text),
@@ -324,15 +335,24 @@ class FieldReader final : public Fields {
                      "give " + named(meaning));
   }
 
-  std::string likely_key(const Level& level, const std::string& unknown, std::string& remedy) const {
+  /// The key that is meant by an unknown one; empty: none is near.
+  std::string likely_key(const Level& level, const Entry& unknown, std::string& remedy) const {
+    const std::optional<double> value =
+        unknown.value.is_scalar() ? parse_number(unknown.value.text) : std::nullopt;
+    for (const std::string& known : level.known)
+      if (const std::string converted = value ? converted_text(unknown.key, *value, known) : "";
+          !converted.empty()) {
+        remedy = fmt::format("its unit is {}, write '{}'", unit_of_key(known).name, converted);
+        return known;
+      }
     for (const std::string& known : level.known) {
-      if (stem_of_key(known) != stem_of_key(unknown)) continue;
+      if (stem_of_key(known) != stem_of_key(unknown.key)) continue;
       const std::string_view unit = unit_of_key(known).name;
       remedy = unit.empty() ? fmt::format("this key carries no unit, write '{}'", known)
                             : fmt::format("its unit is {}, write '{}'", unit, known);
       return known;
     }
-    const std::string nearest = nearest_word(unknown, level.known);
+    const std::string nearest = nearest_word(unknown.key, level.known);
     remedy = nearest.empty() ? fmt::format("keys here: {}", fmt::join(level.known, ", "))
                              : fmt::format("did you mean '{}'?", nearest);
     return nearest;
@@ -348,7 +368,7 @@ class FieldReader final : public Fields {
     for (const Entry& entry : level.map->entries) {
       if (std::find(level.known.begin(), level.known.end(), entry.key) != level.known.end()) continue;
       std::string remedy;
-      const std::string likely = likely_key(level, entry.key, remedy);
+      const std::string likely = likely_key(level, entry, remedy);
       misnamed.push_back(likely);
       problems_.add(entry.where, fmt::format("unknown key '{}'", path_of(entry.key)), remedy,
                     likely.empty() ? "" : path_of(likely));

@@ -12,6 +12,34 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
+
+/// A unit that no key has, and the value of one of it in a unit of keys.
+struct ForeignUnit {
+  std::string_view suffix, known;
+  double factor;
+};
+constexpr double inch = 25.4;  // [mm]
+constexpr ForeignUnit foreign_units[] = {
+    {"cm", "mm", 10},       {"um", "mm", 1e-3},        {"inch", "mm", inch},      {"in", "mm", inch},
+    {"ft", "m", 0.3048},    {"cm2", "mm2", 100},       {"rad", "deg", 1 / degree}, {"rad_per_s", "deg_per_s", 1 / degree},
+    {"rad_per_m", "deg_per_m", 1 / degree},            {"min", "s", 60},          {"us", "ms", 1e-3},
+    {"m_per_s", "mm_per_s", 1e3},                      {"kHz", "Hz", 1e3},        {"g", "kg", 1e-3},
+    {"g_per_m", "kg_per_m", 1e-3},                     {"kg_per_km", "kg_per_m", 1e-3}, {"kN", "N", 1e3},
+    {"N_per_mm", "N_per_m", 1e3},                      {"Nmm2", "Nm2", 1e-6},     {"bar", "MPa", 0.1},
+    {"N_per_mm2", "MPa", 1}, {"1_per_mm", "1_per_m", 1e3},
+    {"days", "hours", 24},  {"years", "hours", 8760}};
+
+/// Length, time, ...: units of one kind have the same base. Empty: of a kind of its own.
+std::string_view base_of(std::string_view suffix) {
+  struct Kind {
+    std::string_view suffix, base;
+  };
+  for (const Kind& kind : {Kind{"mm", "m"}, Kind{"ms", "s"}, Kind{"mm_per_s", "m_per_s"}, Kind{"mm_per_s2", "m_per_s2"}, Kind{"GPa", "MPa"},
+                           Kind{"N_per_m2", "MPa"}})
+    if (kind.suffix == suffix) return kind.base;
+  return suffix;
+}
+
 constexpr Unit dimensionless{"", "", 1, 1e12};
 constexpr std::array units{
     Unit{"m", "m", 1, 1e3},  // a hall
@@ -59,6 +87,28 @@ const Unit& unit_of_key(std::string_view key) {
 std::string_view stem_of_key(std::string_view key) {
   const Unit& unit = unit_of_key(key);
   return unit.suffix.empty() ? key : key.substr(0, key.size() - unit.suffix.size() - 1);
+}
+
+double square_mm_of_awg(double gauge) {
+  const double diameter = 0.127 * std::pow(92.0, (36 - gauge) / 39);  // [mm], by the definition of the gauge (ASTM B258)
+  return std::numbers::pi / 4 * diameter * diameter;
+}
+
+std::string converted_text(std::string_view written, double value, std::string_view known) {
+  const Unit& to = unit_of_key(known);
+  if (to.suffix.empty()) return "";
+  const std::string stem(stem_of_key(known));
+  const auto text = [&](double converted) { return fmt::format("{}: {:.4g}", known, converted); };
+  if (written == "awg" || written == stem + "_awg") return to.suffix == "mm2" ? text(square_mm_of_awg(value)) : "";
+  if (!written.starts_with(stem + "_")) return "";
+  const std::string_view suffix = written.substr(stem.size() + 1);
+  for (const ForeignUnit& unit : foreign_units)
+    if (unit.suffix == suffix)
+      for (const Unit& of : units)
+        if (of.suffix == unit.known && base_of(of.suffix) == base_of(to.suffix)) return text(value * unit.factor * of.to_si / to.to_si);
+  for (const Unit& of : units)
+    if (of.suffix == suffix && base_of(suffix) == base_of(to.suffix)) return text(value * of.to_si / to.to_si);
+  return "";
 }
 
 std::string shortest_text(double value) { return fmt::format("{}", value); }

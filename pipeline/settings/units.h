@@ -21,6 +21,14 @@ const Unit& unit_of_key(std::string_view key);
 /// The key without its unit: `radius_mm` -> `radius`.
 std::string_view stem_of_key(std::string_view key);
 
+/// "diameter_mm: 50" for `diameter_m: 0.05`: a key that has the same stem and a unit of the same kind, with the value in the
+/// unit of `known`. Knows the units of keys and common others (cm, inch, rad, g_per_m, awg, ...). Empty: the unit of `written` is
+/// not known, or is of another kind.
+std::string converted_text(std::string_view written, double value, std::string_view known);
+
+/// The section of a round wire of this American wire gauge [mm2].
+double square_mm_of_awg(double gauge);
+
 /// Shortest decimal text that, read back and multiplied by the unit's factor, gives exactly `si`.
 std::string text_in_unit(double si, const Unit& unit);
 

@@ -245,6 +245,7 @@ std::string own_values_words(const RankingRow& row) {
   const std::string words = fmt::format("With the job's own values, by the scatter of wires alone, a first wire breaks after {} (10 .. 90 %).",
                                         range_text(row.first_wire_hours[0], row.first_wire_hours[2]));
   constexpr double decade = 10;
+  if (std::isinf(row.scatter_hours[1])) return words;  // a tenth of a conductor's wires is not damaged: nothing to compare with
   const double times = row.planned_hours[1] / row.scatter_hours[1];
   if (std::isinf(times)) return words + " Half of the samples are not damaged: most other values damage the wires less.";
   if (times > decade)

@@ -18,7 +18,8 @@ namespace {
 // Contacts are sought this many steps of the fastest relative motion ahead, and at least least_margin.
 constexpr double margin_steps = 1.5, least_margin = 1e-3;  // [1], [m]
 constexpr int most_points = 4;                             // of one pair of shapes
-constexpr double contact_work = 0.2;  // of a contact and a segment or another contact, over a segment's: measured
+constexpr double contact_work =
+    0.2;  // of a contact and a segment or another contact, over a segment's: ESTIMATE
 
 // ODE takes its memory without a look at what it gets.
 void* memory_or_throw(std::size_t bytes) {

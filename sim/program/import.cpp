@@ -13,6 +13,7 @@
 #include "sim/program/fanuc.h"
 #include "sim/program/fanuc_backup.h"
 #include "sim/program/inform.h"
+#include "sim/program/job_words.h"
 #include "sim/program/krl.h"
 #include "sim/program/rapid.h"
 #include "sim/program/rapid_types.h"
@@ -416,8 +417,14 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
 
 RunMotion run_motion_of(const pipeline::Motion& motion) {
   if (motion.program.empty()) return {motion, ""};
-  const Program program = read_program(motion);
-  return {motion_of(program, motion), waits_note(program)};
+  try {
+    const Program program = read_program(motion);
+    RunMotion run{motion_of(program, motion), waits_note(program)};
+    for (pipeline::Warning& warning : run.motion.left_out) warning.words = in_words_of_a_job(warning.words);
+    return run;
+  } catch (const pipeline::InputError& error) {
+    throw pipeline::InputError(in_words_of_a_job(error.what()));
+  }
 }
 
 namespace {

@@ -17,7 +17,8 @@ constexpr int most_saddles = 10;
 constexpr double least_gain = 1e-4;        // a step must free this share of the work it promises
 constexpr double shift_factor = 4;         // by which the shift grows and shrinks
 constexpr double smallest_step = 1e-13;    // of the length: rounding of positions
-constexpr double settling_work = 5;  // of a step without contact, for each step: usual contacts take 3
+constexpr double settling_work =
+    5;  // ESTIMATE: of a step without contact, for each step; a search with more contacts ends earlier
 constexpr double energy_rounding = 1e-12;  // of the energies summed over some hundred links
 
 /// The tangent stiffness and the unbalanced forces of one state, and the Newton step from it.

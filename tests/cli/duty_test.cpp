@@ -130,6 +130,10 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   CHECK(survivors("2026-04-13").status == 0);
   CHECK(survivors("2023-11-20").err.find("of 4000 samples explain them; learn from them first") != std::string::npos);
   CHECK(run(scratch, "dresslife", plan + "2026-11-22").status == 1);
+  CHECK(outcome.err.find("duties.yaml:2:") != std::string::npos);
+  CHECK(outcome.err.find("percent_of_time of 'one' is 0.1 (limit 1 or more)") != std::string::npos);
+  const Outcome share = run(scratch, "dresslife", plan + "2026-12-21 --risk 0.1");
+  CHECK(share.err.find("--risk: warning: the risk is 0.1 % (limit 1 .. 50)") != std::string::npos);
   scratch.write("fleet.csv", "name,duty,installed\none,dd,\n");
   const Outcome unknown = run(scratch, "dresslife", plan + "2026-11-25");
   CHECK(unknown.status == 1);

@@ -47,22 +47,30 @@ const std::map<std::string, std::string> instead{
     {"dresslife new", "dresslife new"},
     {"dresslife run STUDY", "not run"},
     {"dresslife report STUDY", "not run"},
+    {"dresslife new --robot abb_irb6640_185_280 --program door.mod --dresspack spot_welding job.yaml",
+     "dresslife new --robot abb_irb6640_185_280 --program door.mod --dresspack spot_welding job.yaml"},
+    {"dresslife check job.yaml", "dresslife check job.yaml"},
+    {"dresslife run cell.yaml", "dresslife run cell.yaml" + quick},
+    {"dresslife duty shifts.yaml", "dresslife duty shifts.yaml" + quick},
     {"dresslife check JOB.yaml", "dresslife check irb6640_spot_welding"},
     {"dresslife preview JOB.yaml", "dresslife preview irb6640_spot_welding"},
     {"dresslife route ROBOT_OR_JOB",
      "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 100 --rehearsals 40" + quick},
     {"dresslife run JOB.yaml", "dresslife run irb6640_spot_welding" + quick},
-    {"dresslife improve JOB_OR_STUDY", "dresslife improve side_panel --trials 2 --rehearsals 0 --off 0" + quick},
+    {"dresslife improve JOB_OR_STUDY",
+     "dresslife improve side_panel --trials 2 --rehearsals 0 --off 0" + quick},
     {"dresslife duty FILE", "dresslife duty two_robots" + quick},
     {"dresslife duty DUTIES.yaml", "dresslife duty two_robots" + quick},
     {"dresslife plan FLEET.csv --duties DUTIES.yaml --windows 2027-07-12..2027-08-01,2027-12-20..2028-01-02",
      "dresslife plan CONFIG/duties/fleet.csv --duties two_robots --today 2026-11-23 --windows "
-     "2027-07-12..2027-08-01,2027-12-20..2028-01-02" + quick},
+     "2027-07-12..2027-08-01,2027-12-20..2028-01-02" +
+         quick},
     {"dresslife reprogram JOB_OR_STUDY", "dresslife reprogram irb6640_spot_welding --lines 1" + quick},
     {"dresslife-sim JOB.yaml -o motion.h5",
      "dresslife-sim CONFIG/jobs/irb6640_spot_welding.yaml -o motion.h5" + quick},
     {"dresslife-strain motion.h5 -o strain.h5", "dresslife-strain motion.h5 -o strain.h5"},
-    {"dresslife-fatigue strain.h5 -o life.h5", "not run"},  // its page comes before the one that makes strain.h5
+    {"dresslife-fatigue strain.h5 -o life.h5",
+     "not run"},  // its page comes before the one that makes strain.h5
     {"dresslife validate config/observations/published.yaml", "dresslife validate two_published.yaml"},
     {"dresslife validate config/observations/ratings.yaml", "not run"},  // as the file before
     {"dresslife rate control_cable --set calibration=config/observations/typical_cables.yaml",
@@ -84,10 +92,11 @@ const std::map<std::string, std::string> instead{
      "dresslife preview irb6640_spot_welding --set routing.free_length_m=1.6 -o short.html"},
     {"dresslife draw NAME -o FILE.svg", "dresslife draw handling -o handling.svg"},
     {"dresslife show JOB.yaml", "dresslife show irb6640_spot_welding"},
-    {"dresslife import PROGRAM -o motion.yaml", "dresslife import CONFIG/programs/pick_and_place.src -o motion.yaml"},
+    {"dresslife import PROGRAM -o motion.yaml",
+     "dresslife import CONFIG/programs/pick_and_place.src -o motion.yaml"},
     {"dresslife export runs/two_robots/hard --paraview hard.xdmf", "not run"},  // tests/cli/paraview_test
     {"dresslife show FILE.h5", "dresslife show motion.h5"},
-    {"dresslife submit STUDY", "not run"},                          // needs a cluster: tests/pipeline/study
+    {"dresslife submit STUDY", "not run"},  // needs a cluster: tests/pipeline/study
     {"dresslife run --launcher WORDS", "not run"},
     {"dresslife clean STUDY", "not run"},  // tests/cli/study_test
     {"dresslife route ROBOT", "not run"},  // as above
@@ -175,6 +184,23 @@ void write_two_published(const Scratch& scratch) {
   scratch.write("two_published.yaml", all.substr(0, end + 1));
 }
 
+/// The programs that config/own_programs.md takes for the user's own.
+void write_own_programs(const Scratch& scratch) {
+  const auto module = [](const std::string& name, const std::string& there) {
+    const std::string home = "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]", rest = ", v1000, fine, tool0;\n";
+    return "MODULE " + name + "\n  PROC main()\n    MoveAbsJ " + home + rest + "    MoveAbsJ [[" + there +
+           "],[9E9,9E9,9E9,9E9,9E9,9E9]]" + rest + "    MoveAbsJ " + home + rest + "  ENDPROC\nENDMODULE\n";
+  };
+  scratch.write("door.mod", module("door", "20,10,0,0,60,60"));
+  scratch.write("roof.mod", module("roof", "-30,0,10,0,60,-90"));
+}
+
+/// Examples that begin with "# NAME.yaml" are files of the commands behind them.
+void write_named_example(const Scratch& scratch, const std::string& text) {
+  std::smatch found;
+  if (std::regex_search(text, found, std::regex("^# ([a-z_]+\\.yaml)\n"))) scratch.write(found[1], text);
+}
+
 /// Checks that the program of a command that is not run is there, with this command of its own.
 void check_program(const std::string& command) {
   std::istringstream words(command);
@@ -219,10 +245,12 @@ TEST_CASE("every YAML example of every page is read, and every command runs") {
   std::set<std::string> done;
   Scratch scratch;  // one for all pages: commands use files of those before them
   write_two_published(scratch);
+  write_own_programs(scratch);
   for (const fs::path& page : pages()) {
     for (const Piece& piece : pieces_of(page)) {
       INFO(fs::relative(page, source).string() << ":" << piece.line << ": " << piece.text);
       if (piece.yaml) {
+        write_named_example(scratch, piece.text);
         read_example(piece.text, scratch / "example.yaml");
       } else if (done.insert(piece.text).second) {
         try_command(scratch, piece.text);

@@ -203,10 +203,11 @@ class RoundEmulation {
       if (!strain.has("/bending/moment"))
         throw InputError(
             test.where,
-            fmt::format("'{}': nothing is told of how its cable bends (that needs one cable, in which "
-                        "strain.slip lets something rub and no part lies straight beside the axis)",
-                        test.observation.name),
-            "give dresspack.cable, and strain.slip such as [free, friction, friction]");
+            fmt::format(
+                "'{}': its job gives no curve of moment over curvature (this needs one cable alone, in which parts "
+                "rub and none lies straight beside the axis)",
+                test.observation.name),
+            "write dresspack: {cable: NAME}, and strain.slip: friction or no strain.slip");
       return said(strain.read<double>("/bending/curvature"), strain.read<double>("/bending/moment"));
     };
     const VectorXd middle = of_job(runs.centre);

@@ -15,20 +15,6 @@ using Eigen::Index;
 
 constexpr double decile = 1.2815515655446004;  // of a normal distribution, in its deviations
 
-/// How many of its deviations a prediction lies short of what was seen, or beyond it; 0 where it agrees.
-double surprise(const LearnedTest& test) {
-  const Observation& observation = test.observation;
-  if (!observation.service.empty()) return 0;  // many lives are no single one
-  const double seen = observation.is_life() ? observed_life(observation) : test.measured;
-  const auto off = [&](double side) {
-    return std::log(seen / test.before[1]) / (std::log(side / test.before[1]) / decile);
-  };
-  if (!(seen > 0) || !std::isfinite(test.before[2])) return 0;
-  const bool both = !observation.is_life() || observation.outcome == ObservedEnd::broken;
-  if (seen > test.before[1]) return both || bounds_below(observation.outcome) ? off(test.before[2]) : 0;
-  return both || bounds_above(observation.outcome) ? off(test.before[0]) : 0;
-}
-
 std::string parameter_lines(const Learned& learned) {
   std::string text =
       fmt::format("{:<17} {:>24} {:>24}  {}\n", "parameter", "before (80 %)", "after (80 %)", "spread left");
@@ -45,6 +31,19 @@ std::string parameter_lines(const Learned& learned) {
 }
 
 }  // namespace
+
+double surprise(const LearnedTest& test) {
+  const Observation& observation = test.observation;
+  if (!observation.service.empty()) return 0;  // many lives are no single one
+  const double seen = observation.is_life() ? observed_life(observation) : test.measured;
+  const auto off = [&](double side) {
+    return std::log(seen / test.before[1]) / (std::log(side / test.before[1]) / decile);
+  };
+  if (!(seen > 0) || !std::isfinite(test.before[2])) return 0;
+  const bool both = !observation.is_life() || observation.outcome == ObservedEnd::broken;
+  if (seen > test.before[1]) return both || bounds_below(observation.outcome) ? off(test.before[2]) : 0;
+  return both || bounds_above(observation.outcome) ? off(test.before[0]) : 0;
+}
 
 std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes) {
   std::vector<LearnedAxis> learned(uncertain_count);

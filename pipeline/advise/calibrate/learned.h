@@ -38,6 +38,9 @@ struct Learned {
 
 std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes);
 
+/// The standard deviations by which a prediction lies on the wrong side of what was observed; 0 if it agrees.
+double surprise(const LearnedTest& test);
+
 /// Notes on limits of the result.
 void add_doubts(Learned& learned, const Axes& axes);
 

@@ -1,5 +1,7 @@
 #include "pipeline/advise/calibrate/learning.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +15,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int most_rounds = 5;
+// Deviations from the prior. One of ten parameters lies beyond in one of 1,600 cases; beyond 4.8, keys leave their allowed range.
+constexpr double farthest = 4;
 constexpr double still = 0.25;  // of what is left to know: the centre of bending tests moves no more
 // Of a deviation: half of the way to the outermost runs behind a life's response (W38). Within it lives are interpolated.
 constexpr double within_response = 0.7;
@@ -36,6 +40,25 @@ Posterior posterior_of(std::vector<LogLikelihood> terms, const Axes& axes, const
   Posterior posterior = posterior_of(terms, start, settings);
   if (typical) add_own_deviations(posterior, axes.places());
   return posterior;
+}
+
+/// Errors: InputError at the row that differs most from its prediction, if the likeliest parameters lie beyond `farthest`.
+void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vector<LearnedTest>& learned,
+                          const VectorXd& there) {
+  Index worst = 0;
+  if (there.cwiseAbs().maxCoeff(&worst) <= farthest) return;
+  std::size_t row = 0;
+  for (std::size_t t = 1; t < tests.size(); ++t)
+    if (surprise(learned[t]) > surprise(learned[row])) row = t;
+  const Observation& observation = tests[row].observation;
+  throw InputError(
+      tests[row].where,
+      fmt::format(
+          "'{}': the observation ({}) contradicts the prediction ({}): the likeliest {} would lie {:.1f} deviations "
+          "from its prior (limit {:g})",
+          observation.name, observed_text(observation), words_of(learned[row].before),
+          uncertain_parameters()[static_cast<std::size_t>(worst)].name, std::abs(there[worst]), farthest),
+      "correct the unit of the observation, or its job; else leave the row out");
 }
 
 /// Predicts each test from all others. A model that a test contradicts shows here, and not in a prediction that the test
@@ -76,7 +99,6 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
       if (std::abs(there[p] - centre[p]) > (has_arms(round, p) ? still * left : within_response)) learned.settled = false;
       step[p] = std::clamp(2 * left, 0.25, 1.0);
     }
-    centre = there;
     for (std::size_t t = 0; t < tests.size(); ++t) {
       const EmulatedTest& emulated = emulated_tests[t];
       if (learned.rounds == 1) learned.tests[t].before = predicted_deciles(emulated, prior_draws(), false);
@@ -86,6 +108,8 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
       if (!emulated.life)
         learned.tests[t].measured = emulated.bending[0].numbers[emulated.shown].value / emulated.per_shown;
     }
+    refuse_contradiction(tests, learned.tests, there);
+    centre = there;
     if (!learned.settled && learned.rounds < most_rounds) continue;
     learned.axes = learned_axes(learned.posterior, axes);
     predict_by_others(emulated_tests, axes, learned.posterior.laplace.most_likely, typical, learned.tests);

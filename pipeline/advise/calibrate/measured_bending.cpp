@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
-#include <sstream>
+#include <optional>
+
+#include "pipeline/base/csv_rows.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -60,23 +61,16 @@ class Path {
   std::vector<Turn> turns_;
 };
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream parts(line);
-  for (std::string cell; std::getline(parts, cell, ',');) {
-    std::erase_if(cell, [](unsigned char letter) { return std::isspace(letter); });
-    cells.push_back(cell);
-  }
-  return cells;
-}
-
-double number_of(const std::string& cell, const Where& where) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-    throw InputError(where, fmt::format("'{}' is not a number", cell),
-                     "write curvature and moment with decimal points");
-  return value;
+/// Errors: InputError; for a decimal comma with the number that was meant.
+double number_of(const CsvReader& table, const CsvCell& cell) {
+  const std::optional<double> value = number_in(cell.text);
+  if (value && std::isfinite(*value)) return *value;
+  std::string with_point = cell.text;
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  throw InputError(table.where(cell), fmt::format("'{}' is not a number", cell.text),
+                   number_in(with_point)
+                       ? fmt::format("write {} with a point", with_point)
+                       : "write curvature and moment as numbers with a decimal point, one pair per line");
 }
 
 /// Integral of M1 from 0 to a curvature [N m x 1/m]: between two values of the table M1 is a power, before
@@ -104,25 +98,35 @@ double first_form(double x) {
 }  // namespace
 
 std::vector<BendingPoint> read_bending(const std::filesystem::path& file) {
-  std::istringstream lines(read_text(file));
+  CsvReader table(read_text(file), file.string());
+  const CsvRow titles = table.next();
+  const auto column = [&](std::string_view title) {
+    const auto found =
+        std::find_if(titles.begin(), titles.end(), [&](const CsvCell& cell) { return cell.text == title; });
+    if (titles.size() != 2 || found == titles.end())
+      throw InputError(titles.empty() ? Where{file.string(), 1, 1} : table.where(titles.front()),
+                       "is not the header of a bending test", "begin with 'curvature_1_per_m,moment_Nm'");
+    return static_cast<std::size_t>(found - titles.begin());
+  };
+  const std::size_t curvature = column("curvature_1_per_m"), moment = column("moment_Nm");
   std::vector<BendingPoint> points;
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const Where where{file.string(), number, 1};
-    const std::vector<std::string> cells = cells_of(line);
-    if (number == 1 && (cells.size() != 2 || cells[0] != "curvature_1_per_m" || cells[1] != "moment_Nm"))
-      throw InputError(where, "is not the header of a bending test",
-                       "begin with 'curvature_1_per_m,moment_Nm'");
-    if (number == 1 || (cells.size() == 1 && cells[0].empty()) || cells.empty()) continue;
-    if (cells.size() != 2)
-      throw InputError(where, fmt::format("has {} columns (a bending test has 2)", cells.size()),
-                       "write curvature and moment, with a comma between");
-    points.push_back({number_of(cells[0], where), number_of(cells[1], where)});
+  for (CsvRow row = table.next(); !row.empty(); row = table.next()) {
+    if (row.size() != 2)
+      throw InputError(table.where(row.front()),
+                       fmt::format("has {} columns (a bending test has 2)", row.size()),
+                       "write curvature and moment, with the separator of the first line between them");
+    points.push_back({number_of(table, row[curvature]), number_of(table, row[moment])});
   }
   const bool bent = std::any_of(points.begin(), points.end(),
                                 [](const BendingPoint& p) { return p.curvature != 0 && p.moment != 0; });
   if (!bent)
     throw InputError({file.string()}, "holds no moment of a bent cable", "write a line per measured point");
+  // Friction resists: over a loop the work is positive, and a first bend has the sign of its curvature.
+  const BendingPoint& first =
+      *std::find_if(points.begin(), points.end(), [](const BendingPoint& p) { return p.curvature != 0; });
+  if (first.curvature * first.moment < 0)
+    throw InputError({file.string()}, "the first moment has another sign than its curvature",
+                     "turn the sign of one column");
   return points;
 }
 

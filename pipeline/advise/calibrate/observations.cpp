@@ -7,57 +7,65 @@
 #include <limits>
 #include <set>
 
+#include "pipeline/advise/calibrate/doubtful_rows.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/learned_settings.h"
 #include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
+namespace {
+
+constexpr double most_hours = 1e6;  // a century day and night
+
+}  // namespace
 
 void describe(Fields& f, Observation& observation) {
-  f.text("name", observation.name, Need::required, "short, fit for a folder");
-  f.text("what", observation.what, Need::required, "what was done to what, in words");
-  f.text("source", observation.source, Need::required, "where it was observed");
-  f.text("note", observation.note, Need::optional, "what is not known, and how it is varied");
-  f.maybe_number("cycles", observation.cycles, above(0), "that it lived");
-  f.maybe_number("hours", observation.hours, above(0), "of motion that it lived, instead of cycles");
+  f.text("name", observation.name, Need::required, "A short name of letters, digits and _.");
+  f.text("what", observation.what, Need::required, "What was done to what, in words.");
+  f.text("source", observation.source, Need::required, "The source of the observation.");
+  f.text("note", observation.note, Need::optional, "What is not known, and how it is varied.");
+  f.maybe_number("cycles", observation.cycles, above(0), "The life in cycles.");
+  f.maybe_number("hours", observation.hours, Range{0, most_hours, true},
+                 "The life in hours of motion, instead of cycles.");
   f.maybe_number(
       "stiffness_Nm2", observation.stiffness, above(0),
-      "instead of a life: moment over curvature of the cable, bent from straight to at_curvature_1_per_m");
+      "The moment over curvature of the cable, bent from straight to at_curvature_1_per_m. It replaces a life.");
   f.number(
       "at_curvature_1_per_m", observation.at_curvature, Need::optional, between(1e-3, 100),
-      "of stiffness_Nm2; of decrement the curvature beside the clamp at the end of a swing, 3.5 x deflection "
-      "/ length^2");
+      "The curvature of stiffness_Nm2. Of decrement: the curvature beside the clamp at the end of a swing, 3.5 x deflection / "
+      "length^2.");
   f.maybe_number(
       "decrement", observation.decrement, between(1e-3, 5),
-      "instead of a life: ln of the ratio of two swings to one side that follow each other, of a piece that "
-      "stands out from a clamp");
+      "The logarithm of the ratio of two successive swings to one side, of a piece that stands out from a clamp. It "
+      "replaces a life.");
   f.number("decrement_without_slip", observation.decrement_without_slip, Need::optional, between(0, 5),
-           "what of decrement the jacket's polymer and the air have, as the smallest swings show it");
+           "The part of decrement by the jacket's polymer and the air, as the smallest swings show it.");
   f.path(
       "bending", observation.bending, Need::optional,
-      "instead of a life: a CSV of a bending test, columns curvature_1_per_m and moment_Nm, from straight, "
-      "loops as they were bent");
+      "A CSV of a bending test with the columns curvature_1_per_m and moment_Nm, from straight, in the order of the test. It "
+      "replaces a life.");
   f.number("noise_percent", observation.noise_percent, Need::optional, between(0.1, 100),
-           "standard deviation of a measured moment, stiffness or decrement");
-  f.number("cycles_per_repeat", observation.cycles_per_repeat, Need::optional, above(0),
-           "that the observer counts in one repeat of the job's motion: 2 where single strokes are counted");
+           "The standard deviation of a measured moment, stiffness or decrement.");
+  f.number(
+      "cycles_per_repeat", observation.cycles_per_repeat, Need::optional, above(0),
+      "The number of cycles that the observer counts in one repeat of the job's motion: 2 if single strokes are counted.");
   f.choice(
       "outcome", observation.outcome,
-      "broken: so long it lived; broken_by: no specimen lived longer; run_out: it had not failed then; rating: "
-      "its maker promises so much");
+      "The end: broken (it failed then), broken_by (no specimen lived longer), run_out (it had not failed then) or rating (its "
+      "maker promises this life).");
   f.choice(
       "criterion", observation.criterion,
-      "what counted as failed: first_wire, or conductor (a share of its wires at one place, "
-      "fatigue.failed_wires_percent)");
+      "The criterion of failure: first_wire, or conductor (a share of its wires at one place, fatigue.failed_wires_percent).");
   f.integer("specimens", observation.specimens, Need::optional, between(1, 1e6),
-            "that were tried; of several that broke, cycles or hours are their geometric mean");
+            "The number of specimens. Of several broken ones, cycles or hours are the geometric mean.");
   f.number(
       "unshared_log10", observation.unshared_log10, Need::optional, between(0, 3),
-      "standard deviation of log10 of life that this test has of its own, for dresslife calibrate; smaller for the cable "
-      "that is calibrated for in its own test");
+      "The standard deviation of log10 of the life that only this test has. It is smaller for the user's own cable in the user's "
+      "own test.");
 }
 
 namespace {
@@ -96,9 +104,43 @@ std::vector<Variant> combinations(const Node* vary, const std::string& name) {
     variants = std::move(longer);
     if (variants.size() > most_variants)
       throw InputError(key.where, fmt::format("an observation has more than {} variants", most_variants),
-                       "name fewer values");
+                       "give fewer values");
   }
   return variants;
+}
+
+/// Errors: InputError at a key that has no effect on what was observed.
+void refuse_idle_keys(const Node& row, const Observation& observation) {
+  const std::set<std::string> always{"name", "what", "source", "note", "job", "vary"};
+  const std::string kind = observation.cycles      ? "cycles"
+                           : observation.hours     ? "hours"
+                           : observation.stiffness ? "stiffness_Nm2"
+                           : observation.decrement ? "decrement"
+                                                   : "bending";
+  std::set<std::string> used{kind};
+  if (observation.is_life()) {
+    used.insert({"outcome", "criterion", "unshared_log10"});
+    if (observation.outcome != ObservedEnd::rating) used.insert("specimens");
+    if (observation.cycles) used.insert("cycles_per_repeat");
+  } else {
+    used.insert("noise_percent");
+    if (observation.bending.empty()) used.insert("at_curvature_1_per_m");
+    if (observation.decrement) used.insert("decrement_without_slip");
+  }
+  for (const Entry& entry : row.entries)
+    if (!always.contains(entry.key) && !used.contains(entry.key))
+      throw InputError(entry.where,
+                       fmt::format("'{}': {} has no effect on {}", observation.name, entry.key,
+                                   entry.key == "specimens" ? "a rating, which is a promise of one specimen"
+                                                            : "a row with " + kind),
+                       "leave it out");
+}
+
+/// "line 1-b" -> "line_1_b".
+std::string name_that_fits(std::string name) {
+  for (char& letter : name)
+    if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
+  return name;
 }
 
 Observation read_one(const Node& item) {
@@ -111,7 +153,7 @@ Observation read_one(const Node& item) {
   if (!fits_a_folder(observation.name))
     throw InputError(item.where,
                      fmt::format("name '{}' is not made of letters, digits and _", observation.name),
-                     "choose another name");
+                     fmt::format("write name: {}", name_that_fits(observation.name)));
   const int observed = observation.cycles.has_value() + observation.hours.has_value() +
                        observation.stiffness.has_value() + observation.decrement.has_value() +
                        !observation.bending.empty();
@@ -124,10 +166,7 @@ Observation read_one(const Node& item) {
   if (observation.decrement && observation.decrement_without_slip >= *observation.decrement)
     throw InputError(item.where, fmt::format("'{}': nothing of decrement is left for slip", observation.name),
                      "give a decrement_without_slip below decrement");
-  if (!observation.decrement && observation.decrement_without_slip > 0)
-    throw InputError(item.where,
-                     fmt::format("'{}' has decrement_without_slip but no decrement", observation.name),
-                     "give decrement, or leave it out");
+  refuse_idle_keys(item, observation);
   if (!item.find("job"))
     throw InputError(item.where, fmt::format("'{}' has no job (what was done to it)", observation.name),
                      "give a job, or the file of one");
@@ -148,8 +187,11 @@ void add_still_motion(Node& job) {
 std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file) {
   const Node document = read_yaml(file);
   const Node* list = document.is_map() ? document.find("observations") : nullptr;
+  if (!list) refuse_other_kind(document, DocumentKind::observations);
   if (!list || !list->is_list() || list->items.empty())
-    throw InputError(document.where, "holds no observations", "write 'observations:' and a list");
+    throw InputError(
+        document.where, "holds no observations",
+        "write 'observations:' and a list of rows with name, what, source, job, and cycles or hours");
   for (const Entry& entry : document.entries)
     if (entry.key != "observations" && entry.key != "cables")
       throw InputError(entry.where, fmt::format("unknown key '{}' beside observations", entry.key),
@@ -190,7 +232,9 @@ ValidationStudy read_observations(const std::filesystem::path& file, const std::
   made.study.name = "validate_" + file.stem().string();
   std::vector<std::string> all_sets{"uncertainty.enabled=false"};  // the model's own, by the scatter of wires
   all_sets.insert(all_sets.end(), sets.begin(), sets.end());
-  for (ObservedTest& test : read_observed_tests(file)) {
+  std::vector<ObservedTest> tests = read_observed_tests(file);
+  made.doubts = doubtful_rows(tests);
+  for (ObservedTest& test : tests) {
     Observation& observation = test.observation;
     if (!observation.is_life()) continue;
     for (ObservedTest::Variant& variant : test.variants) {

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/base/words.h"
 #include "pipeline/settings/document.h"
 #include "pipeline/study/ranking.h"
@@ -98,6 +99,7 @@ std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file)
 struct ValidationStudy {
   Study study;
   std::vector<Observation> observations;
+  std::vector<Warning> doubts;  ///< doubtful_rows() of the file
 };
 
 /// Those of lives. Errors: InputError at the place in the file. A variant that is no valid job has a failure.

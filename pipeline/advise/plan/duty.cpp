@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "pipeline/resolve/document_kind.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -18,15 +19,17 @@ std::vector<std::string> names_of(const DutyFile& file) {
   return names;
 }
 
-void check(const Duty& duty, Problems& problems) {
-  if (duty.programs.empty())
+/// key: of the duty, "duties[2]".
+void check(const Duty& duty, const std::string& key, Problems& problems) {
+  if (duty.programs.empty() && !problems.touch(key + ".programs"))
     problems.add(duty.where, fmt::format("duty '{}' has no programs", duty.name), "add 'programs:' and a list");
   std::set<std::string> jobs;
   double percent_of_repeats = 0;
-  for (const DutyProgram& program : duty.programs) {
+  for (std::size_t k = 0; k < duty.programs.size(); ++k) {
+    const DutyProgram& program = duty.programs[k];
     const int given = program.repeats_per_hour.has_value() + program.repeats_per_shift.has_value() +
                       program.percent_of_time.has_value() + program.percent_of_repeats.has_value();
-    if (given != 1)
+    if (given != 1 && !problems.touch(fmt::format("{}.programs[{}]", key, k + 1)))
       problems.add(program.where,
                    fmt::format("'{}' has {} numbers that say how often it runs (must be one)", program.job, given),
                    "give repeats_per_hour, repeats_per_shift, percent_of_time or percent_of_repeats");
@@ -98,14 +101,16 @@ double DutyProgram::rate(double repeat_seconds, double shift_hours, std::optiona
 
 DutyFile read_duties(const std::filesystem::path& name) {
   const Node document = read_yaml(name);
+  if (document.is_map() && !document.find("duties")) refuse_other_kind(document, DocumentKind::duties);
   DutyFile file;
   Problems problems;
   read_fields(document, Describe([&](Fields& f) { describe(f, file); }), problems);
   if (file.duties.empty() && !problems.touch("duties"))
     problems.add(file.where, "duties has no entry", "write '- name: ...' with programs");
   std::set<std::string> unique;
-  for (const Duty& duty : file.duties) {
-    check(duty, problems);
+  for (std::size_t k = 0; k < file.duties.size(); ++k) {
+    const Duty& duty = file.duties[k];
+    check(duty, fmt::format("duties[{}]", k + 1), problems);
     if (!unique.insert(duty.name).second)
       problems.add(duty.where, fmt::format("two duties are named '{}'", duty.name), "give each another name");
     for (const PastDuty& past : duty.history)

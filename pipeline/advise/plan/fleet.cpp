@@ -3,13 +3,61 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdio>
 #include <map>
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 namespace {
+
+/// The number that is all of a text.
+std::optional<int> whole(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// What to write instead of a text that is no date: of day.month.year and of a spreadsheet's number the date that was meant.
+std::string date_to_write(const std::string& text) {
+  const std::string general = date_remedy;
+  int first = 0, second = 0, year = 0, used = 0;
+  char mark = 0, again = 0;
+  if (std::sscanf(text.c_str(), "%2d%c%2d%c%4d%n", &first, &mark, &second, &again, &year, &used) == 5 &&
+      used == static_cast<int>(text.size()) && mark == again && year >= 1000) {
+    const std::string by_day = fmt::format("{:04}-{:02}-{:02}", year, second, first),
+                      by_month = fmt::format("{:04}-{:02}-{:02}", year, first, second);
+    if (day_from(by_day) && day_from(by_month) && first != second)
+      return fmt::format("{}: {} if the day comes first, {} if the month does", general, by_day, by_month);
+    if (day_from(by_day) || day_from(by_month))
+      return fmt::format("write {}", day_from(by_day) ? by_day : by_month);
+  }
+  constexpr int spreadsheet_1970 = 25569, spreadsheet_2100 = 73051;  // days since 1899-12-30
+  if (const std::optional<int> days = whole(text);
+      days && *days > spreadsheet_1970 && *days < spreadsheet_2100)
+    return fmt::format("write {} if that is the number of a spreadsheet",
+                       day_text(Day(std::chrono::days(*days - spreadsheet_1970))));
+  return general;
+}
+
+/// "write 37.5" for 37,5 and 1200 for 1,200 or 1200 EUR: what to write instead of a text that is no number.
+std::string number_remedy(std::string text) {
+  const std::size_t comma = text.find(','),
+                    digits_behind = comma == std::string::npos ? 0 : text.size() - comma - 1;
+  std::string plain;
+  for (const char letter : text)
+    if (std::isdigit(static_cast<unsigned char>(letter)) || letter == '.' || letter == '-') plain += letter;
+  if (comma != std::string::npos && digits_behind != 3)
+    plain.insert(plain.size() - std::min(plain.size(), digits_behind), ".");
+  return !plain.empty() && plain != text && number_in(plain)
+             ? fmt::format("write {}, without unit, blank or comma", plain)
+             : "write a number with a decimal point";
+}
 
 constexpr std::chrono::days longest_plan{3653};  // duties and robots change sooner
 
@@ -37,8 +85,9 @@ class Row {
     if (text(title).empty()) return std::nullopt;
     const std::optional<double> value = number_in(text(title));
     if (!value || !(*value >= low && *value <= high))
-      throw InputError(where(title), fmt::format("{} is '{}' (must be {:g} .. {:g})", title, text(title), low, high),
-                       "write a number with a decimal point");
+      throw InputError(
+          where(title), fmt::format("{} is '{}' (must be {:g} .. {:g})", title, text(title), low, high),
+          value ? fmt::format("give a number of {:g} .. {:g}", low, high) : number_remedy(text(title)));
     return value;
   }
 
@@ -51,7 +100,12 @@ Installed installed_from(const Row& row, Day today, bool has_costs) {
   Installed one{row.where("name"), row.needed("name"), row.needed("duty"), today, row.number("hours_per_week", 0.1, 168), 0, 0};
   if (const std::string date = row.text("installed"); !date.empty()) {
     const std::optional<Day> day = day_from(date);
-    if (!day) throw InputError(row.where("installed"), fmt::format("'{}' is no date", date), date_remedy);
+    if (!day && day_from(one.duty))
+      throw InputError(row.where("installed"),
+                       fmt::format("'{}' is no date, and duty is the date {}", date, one.duty),
+                       "exchange the titles 'duty' and 'installed'");
+    if (!day)
+      throw InputError(row.where("installed"), fmt::format("'{}' is no date", date), date_to_write(date));
     if (*day > today)
       throw InputError(row.where("installed"), fmt::format("'{}' was installed after today, {}", one.name, day_text(today)),
                        "correct the date, or give --today");
@@ -69,7 +123,10 @@ Installed installed_from(const Row& row, Day today, bool has_costs) {
 
 Day needed_day(const std::string& text) {
   if (const std::optional<Day> day = day_from(text)) return *day;
-  throw InputError({"--windows"}, fmt::format("'{}' is no date", text), date_remedy);
+  throw InputError({"--windows"}, fmt::format("'{}' is no date", text),
+                   text.size() > 11 && day_from(text.substr(0, 10)) && day_from(text.substr(text.size() - 10))
+                       ? fmt::format("write {}..{}", text.substr(0, 10), text.substr(text.size() - 10))
+                       : date_to_write(text));
 }
 
 }  // namespace
@@ -78,16 +135,21 @@ Fleet read_fleet(const std::filesystem::path& file, Day today) {
   CsvReader reader(read_text(file), file.string());
   const CsvRow titles = reader.next();
   if (titles.empty())
-    throw InputError({file.string(), 1, 1}, "holds no table", "write the line 'name,duty,installed', then a row per dresspack");
-  check_titles(reader, titles, {"name", "duty", "installed"});
+    throw InputError({file.string(), 1, 1}, "holds no table",
+                     "write the line 'name,duty,installed', then a row per dresspack");
   const std::vector<std::string> known{"name", "duty", "installed", "hours_per_week", "planned_cost", "unplanned_cost"};
   const auto has = [&](const std::string& title) {
     return std::any_of(titles.begin(), titles.end(), [&](const CsvCell& cell) { return cell.text == title; });
   };
   for (const CsvCell& title : titles)
-    if (std::find(known.begin(), known.end(), title.text) == known.end())
+    if (!title.text.empty() && std::find(known.begin(), known.end(), title.text) == known.end()) {
+      const std::string near = nearest_word(title.text, known);
       throw InputError(reader.where(title), fmt::format("unknown column '{}'", title.text),
-                       "columns: name, duty, installed, hours_per_week, planned_cost, unplanned_cost");
+                       near.empty()
+                           ? "columns: name, duty, installed, hours_per_week, planned_cost, unplanned_cost"
+                           : fmt::format("did you mean '{}'?", near));
+    }
+  check_titles(reader, titles, {"name", "duty", "installed"});
   Fleet fleet;
   fleet.has_costs = has("planned_cost") || has("unplanned_cost");
   if (fleet.has_costs) check_titles(reader, titles, {"planned_cost", "unplanned_cost"});
@@ -112,8 +174,13 @@ std::vector<Window> windows_from(const std::string& text, Day today) {
     const Day first = needed_day(one.substr(0, dots));
     windows.push_back({first, dots == std::string::npos ? first : needed_day(one.substr(dots + 2))});
     const Day before = windows.size() > 1 ? windows[windows.size() - 2].last : today;
-    if (windows.back().last < first || first <= before)
-      throw InputError({"--windows"}, fmt::format("'{}' ends before it begins, or begins before {}", one, day_text(before)),
+    if (windows.back().last < first)
+      throw InputError({"--windows"}, fmt::format("'{}' ends before it begins", one),
+                       "exchange its two dates");
+    if (first <= before)
+      throw InputError({"--windows"},
+                       fmt::format("'{}' does not begin after {}, which is {}", one, day_text(before),
+                                   windows.size() > 1 ? "in the window before it" : "today"),
                        "give windows after today, in order");
     if (windows.back().last > today + longest_plan)
       throw InputError({"--windows"}, fmt::format("'{}' is more than ten years ahead", one), "give nearer windows");

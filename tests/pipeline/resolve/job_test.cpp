@@ -92,11 +92,11 @@ TEST_CASE("job: unknown keys are refused with the likeliest key") {
 
 TEST_CASE("job: a key with the wrong unit is answered with the right one") {
   check_case({"radius_mm: 120", "radius_m: 0.12", "radius_m: 0.12",
-              "unknown key 'robot.links[2].capsules[1].radius_m'; its unit is mm, write 'radius_mm'"});
+              "unknown key 'robot.links[2].capsules[1].radius_m'; its unit is mm, write 'radius_mm: 120'"});
   check_case({"free_length_m: 1.2", "free_length: 1.2", "free_length: 1.2",
               "unknown key 'routing.free_length'; its unit is m, write 'free_length_m'"});
   check_case({"time_step_ms: 5", "time_step_s: 0.005", "time_step_s",
-              "unknown key 'simulation.time_step_s'; its unit is ms, write 'time_step_ms'"});
+              "unknown key 'simulation.time_step_s'; its unit is ms, write 'time_step_ms: 5'"});
   check_case({"gate: 1e-4", "gate_percent: 0.01", "gate_percent",
               "unknown key 'strain.gate_percent'; this key carries no unit, write 'gate'"});
 }

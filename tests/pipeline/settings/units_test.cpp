@@ -14,6 +14,26 @@
 namespace dresslife::pipeline {
 namespace {
 
+TEST_CASE("units: a value in another unit is converted into that of the key") {
+  CHECK(converted_text("diameter_m", 0.05, "diameter_mm") == "diameter_mm: 50");
+  CHECK(converted_text("diameter_cm", 5, "diameter_mm") == "diameter_mm: 50");
+  CHECK(converted_text("diameter_inch", 2, "diameter_mm") == "diameter_mm: 50.8");
+  CHECK(converted_text("free_length_mm", 2035, "free_length_m") == "free_length_m: 2.035");
+  CHECK(converted_text("free_length_cm", 203.5, "free_length_m") == "free_length_m: 2.035");
+  CHECK(converted_text("mass_g_per_m", 1200, "mass_kg_per_m") == "mass_kg_per_m: 1.2");
+  CHECK(converted_text("dwell_ms", 500, "dwell_s") == "dwell_s: 0.5");
+  CHECK(converted_text("angle_rad", 1, "angle_deg") == "angle_deg: 57.3");
+  CHECK(converted_text("pressure_bar", 6, "pressure_MPa") == "pressure_MPa: 0.6");
+  CHECK(converted_text("cross_section_awg", 20, "cross_section_mm2") == "cross_section_mm2: 0.5176");
+  CHECK(converted_text("awg", 20, "cross_section_mm2") == "cross_section_mm2: 0.5176");
+  CHECK(converted_text("awg", 20, "radius_mm").empty());
+  CHECK(converted_text("diameter_s", 5, "diameter_mm").empty());  // another kind
+  CHECK(converted_text("length_m", 5, "diameter_mm").empty());    // another stem
+  CHECK(converted_text("segments_mm", 5, "segments").empty());
+  CHECK(square_mm_of_awg(36) == Approx(0.01267).epsilon(1e-3));  // 0.127 mm by definition
+  CHECK(square_mm_of_awg(0) == Approx(53.49).epsilon(1e-3));     // 8.252 mm
+}
+
 TEST_CASE("units: the unit of a key is its longest ending that is one") {
   CHECK(unit_of_key("radius_mm").name == "mm");
   CHECK(unit_of_key("free_length_m").name == "m");

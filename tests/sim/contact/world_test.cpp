@@ -57,6 +57,26 @@ TEST_CASE("ODE advances the bodies as the chain's own integrator") {
   CHECK(difference > 0);  // they are two integrators
 }
 
+TEST_CASE("a world counts one unit of work for a segment and step, and more where something touches") {
+  // Limits of searches and of short runs rest on this number.
+  const Rod rod(DrivenCable::properties(30));
+  const Frame still{{1, 0, -0.3}, Quaternion::Identity()};
+  World world(rod, {}, rod.straight(DrivenCable::base()), std::span(&still, 1));
+  world.add(0, CapsuleShape{{0, -0.5, 0}, {0, 0.5, 0}, 0.05});
+  std::vector<Load> loads;
+  int touching = 0, free = 0;
+  for (int k = 0; k < 200; ++k) {
+    DrivenCable::weigh(rod, k * 0.005, loads);
+    const double before = world.work();
+    world.advance(DrivenCable::clamps((k + 1) * 0.005), std::span(&still, 1), loads);
+    const double work = world.work() - before;
+    CHECK((world.contacts().empty() ? work == 30 : work > 30));
+    ++(world.contacts().empty() ? free : touching);
+  }
+  CHECK(touching > 0);
+  CHECK(free > 0);
+}
+
 TEST_CASE("two worlds in two threads give the bytes of one alone") {
   const RodState alone = run_with_obstacle(3);
   RodState first, second;

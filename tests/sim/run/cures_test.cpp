@@ -44,6 +44,24 @@ pipeline::Job swinging_job(double free_length) {
   return job;
 }
 
+TEST_CASE("a short run of a long program ends after its share of work, with the checks until then") {
+  pipeline::Job job = simple_job();
+  job.simulation.segments = 60;
+  job.motion.steps = {move_to(0), move_to(0.5), dwell_for(900),
+                      move_to(0)};  // 180,000 steps of 60 segments: 1.1e7
+  const ShortRun run = short_run(job, short_run_segments);
+  INFO(run.refusal);
+  REQUIRE(run.stopped_at);
+  CHECK(*run.stopped_at < 900);
+  CHECK_FALSE(run.checks.empty());
+  constexpr double most = 5e6, samples = 1.02;  // the limit, and the interval in which it is passed
+  CHECK(run.work > most / 2);
+  CHECK(run.work < samples * most);
+
+  job.motion.steps = {move_to(0), move_to(0.5), move_to(0)};
+  CHECK_FALSE(short_run(job, short_run_segments).stopped_at);
+}
+
 TEST_CASE("cures: a length that is too short or too long is cured by the length that is named") {
   for (const double length : {0.955, 1.7}) {
     pipeline::Job job = swinging_job(length);

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <numbers>
+#include <optional>
 
 #include "tests/catch.h"
 #include "tests/sim/simple_job.h"
@@ -64,6 +65,31 @@ TEST_CASE("simulate: samples lie on the grid, from 0 until the motion has ended"
   CHECK(simulation.description().link_names == std::vector<std::string>{"bench", "spindle"});
   CHECK(rows.front().step == 1);  // the first line only says where the robot starts
   CHECK(rows.back().step == 3);
+}
+
+TEST_CASE("simulate: a run ends where its sink has had enough work") {
+  pipeline::Job job = simple_job();
+  job.simulation.most_repeats = 1;
+  const Simulation simulation(job);
+  double all = 0;
+  const auto ended = [&](double most) {
+    all = 0;
+    int samples = 0;
+    RunSinks sinks{[&](const Sample&) { ++samples; }};
+    sinks.goes_on = [&](double work, bool) { return (all += work) <= most; };
+    const RunSummary summary = simulation.run(sinks);
+    CHECK(summary.stopped_at.has_value() == (samples < simulation.description().samples));
+    return summary.stopped_at;
+  };
+  CHECK_FALSE(ended(1e12));
+  const double whole = all;
+  CHECK(whole >= 20.0 * simulation.path().duration() / job.simulation.time_step);  // 20 segments in each step
+  const std::optional<double> early = ended(whole / 2);
+  REQUIRE(early);
+  CHECK(*early > 0);
+  CHECK(*early < simulation.path().duration());
+  // It asks once for a sample: at most the work of one interval between two of them more.
+  CHECK(all < whole / 2 + 2 * whole / (simulation.description().samples - 1));
 }
 
 TEST_CASE("simulate: a hose in its equilibrium stays there while the robot stands") {

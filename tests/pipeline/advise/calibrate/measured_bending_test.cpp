@@ -133,9 +133,28 @@ TEST_CASE("bending: bad tables are refused at their line") {
   CHECK(refusal(head + "0,0\n1,0.2\r\n\n-1,-0.2\n") == "");
   CHECK(refusal("k,m\n1,2\n").starts_with("bend.csv:1:1: error: is not the header of a bending test"));
   CHECK(refusal(head + "1,0.2\n1;0.3\n").starts_with("bend.csv:3:1: error: has 1 columns"));
-  CHECK(refusal(head + "1,0.2x\n").starts_with("bend.csv:2:1: error: '0.2x' is not a number"));
+  CHECK(refusal(head + "1,0.2x\n").starts_with("bend.csv:2:3: error: '0.2x' is not a number"));
   CHECK(refusal(head + "nan,0.2\n").starts_with("bend.csv:2:1: error: 'nan' is not a number"));
   CHECK(refusal(head + "0,0\n").find("holds no moment of a bent cable") != std::string::npos);
+  CHECK(refusal(head + "1,-0.2\n2,-0.3\n").find("another sign than its curvature") != std::string::npos);
+  CHECK_THAT(refusal("curvature_1_per_m;moment_Nm\n0,5;0,02\n"),
+             Catch::Contains("'0,5' is not a number; write 0.5 with a point"));
+  CHECK(refusal("curvature_1_per_m;moment_Nm\n1/m;Nm\n1;0.2\n")
+            .starts_with("bend.csv:2:1: error: '1/m' is not a number"));
+}
+
+TEST_CASE("bending: a table as other systems write it is the same table") {
+  const Scratch scratch;
+  for (const char* text : {"curvature_1_per_m,moment_Nm\n1,0.2\n2,0.3\n",
+                           "\xEF\xBB\xBF"
+                           "curvature_1_per_m,moment_Nm\r\n1,0.2\r\n2,0.3\r\n",
+                           "# machine 3\ncurvature_1_per_m;moment_Nm\n1;0.2\n2;0.3\n",
+                           "moment_Nm\tcurvature_1_per_m\n0.2\t1\n0.3\t2\n"}) {
+    const std::vector<BendingPoint> points = read_bending(scratch.write("bend.csv", text));
+    REQUIRE(points.size() == 2);
+    CHECK(points[0].curvature == 1);
+    CHECK(points[1].moment == 0.3);
+  }
 }
 
 }  // namespace

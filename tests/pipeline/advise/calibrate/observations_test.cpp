@@ -52,7 +52,8 @@ TEST_CASE("observations: exactly one thing is observed, and what cannot be is re
   CHECK(refusal(one + "    decrement: 0.3\n    decrement_without_slip: 0.29\n") == "read");
   CHECK_THAT(refusal(one + "    decrement: 0.3\n    decrement_without_slip: 0.3\n"),
              Contains("nothing of decrement is left"));
-  CHECK_THAT(refusal(one + "    cycles: 3\n    decrement_without_slip: 0.1\n"), Contains("but no decrement"));
+  CHECK_THAT(refusal(one + "    cycles: 3\n    decrement_without_slip: 0.1\n"),
+             Contains("decrement_without_slip has no effect on a row with cycles"));
   CHECK_THAT(
       refusal("observations:\n  - name: a/b\n    what: x\n    source: y\n    cycles: 3\n    job: {}\n"),
       Contains("letters, digits and _"));

@@ -203,7 +203,16 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(fleet.rows[1].since == start);
   CHECK(fleet.has_costs);
   CHECK(refusal("name,duty,installed\nr,day,2025-02-30\n").find("fleet.csv:2:7: error: '2025-02-30' is no date") != std::string::npos);
-  CHECK(refusal("name,duty,installed\nr,day,28.02.2025\n").find("write YYYY-MM-DD") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,soon\n").find("write YYYY-MM-DD") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,28.02.2025\n").find("write 2025-02-28") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,2/3/2025\n")
+            .find("2025-03-02 if the day comes first, 2025-02-03 if the month does") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,45716\n")
+            .find("write 2025-02-28 if that is the number of a spreadsheet") != std::string::npos);
+  CHECK(refusal("name,installed,duty\nr,2025-02-28,day\n").find("exchange the titles") == std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,2025-02-28,day\n").find("exchange the titles") != std::string::npos);
+  CHECK(refusal("name;duty;installed;hours_per_week\nr;day;;37,5\n").find("write 37.5") != std::string::npos);
+  CHECK(refusal("name,duty,instaled\nr,day,\n").find("did you mean 'installed'?") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,2027-01-01\n").find("after today") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,\nr,day,\n").find("is the name of line 2, too") != std::string::npos);
   CHECK(refusal("name,duty\nr,day\n").find("no column 'installed'") != std::string::npos);

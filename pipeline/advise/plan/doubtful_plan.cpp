@@ -1,0 +1,154 @@
+#include "pipeline/advise/plan/doubtful_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "pipeline/base/warning_words.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double least_percent = 1;     // of time: 48 minutes of a week of 80 hours
+constexpr double shares_at_most = 1.5;  // percent of repeats of all programs together, if they were shares
+constexpr double least_week = 5;        // [h]: an hour per working day
+constexpr double least_shift = 2, most_shift = 24;  // [h]
+constexpr double longest_history = 175'000;         // [h]: 20 years day and night
+constexpr double most_times_cost = 100;             // between the largest and the smallest cost of one kind
+constexpr std::chrono::days oldest{20 * 365};       // robots are overhauled or replaced after 40,000 h
+
+class Doubts {
+ public:
+  void add(const Where& where, const std::string& what, const std::string& cause, const std::string& remedy) {
+    warnings.push_back(warning_of(WarningKind::motion, where.text(), what, cause, remedy));
+  }
+  void of(const Duty& duty) {
+    double repeats = 0;
+    bool per_shift = false, by_repeats = false;
+    for (const DutyProgram& program : duty.programs) {
+      of(program);
+      repeats += program.percent_of_repeats.value_or(0);
+      per_shift = per_shift || program.repeats_per_shift;
+      by_repeats = by_repeats || program.percent_of_repeats;
+    }
+    if (by_repeats && repeats <= shares_at_most)
+      add(duty.where,
+          fmt::format("percent_of_repeats of duty '{}' add up to {:g} % (limit more than {:g})", duty.name,
+                      repeats, shares_at_most),
+          "shares instead of percentages",
+          fmt::format("percent_of_repeats: {:g} instead of {:g}, and so on",
+                      100 * duty.programs.front().percent_of_repeats.value_or(0.5),
+                      duty.programs.front().percent_of_repeats.value_or(0.5)));
+    if (duty.repeats_per_hour && !by_repeats)
+      add(duty.where,
+          fmt::format(
+              "repeats_per_hour of duty '{}' is {:g} and has no effect: no program has percent_of_repeats",
+              duty.name, *duty.repeats_per_hour),
+          "a number that belongs to a program",
+          fmt::format("repeats_per_hour: {:g} in an entry of programs", *duty.repeats_per_hour));
+    week(duty.where, fmt::format("hours_per_week of duty '{}'", duty.name), duty.hours_per_week);
+    if (per_shift && (duty.shift_hours > most_shift || duty.shift_hours < least_shift))
+      add(duty.where,
+          fmt::format("shift_hours of duty '{}' is {:g} (limit {:g} .. {:g})", duty.name, duty.shift_hours,
+                      least_shift, most_shift),
+          duty.shift_hours > most_shift ? "hours of a week" : "a share of a day", "shift_hours: 8");
+    for (const PastDuty& past : duty.history)
+      if (past.hours > longest_history)
+        add(past.where,
+            fmt::format("hours of the history are {:g} (limit {:g}: 20 years day and night)", past.hours,
+                        longest_history),
+            "minutes or seconds instead of hours",
+            fmt::format("hours: {:.6g} if that was minutes", past.hours / 60));
+  }
+  void of(const Fleet& fleet, Day today) {
+    std::map<std::string, const Installed*> names;
+    const auto [low_planned, high_planned] = std::minmax_element(
+        fleet.rows.begin(), fleet.rows.end(),
+        [](const Installed& a, const Installed& b) { return a.planned_cost < b.planned_cost; });
+    for (const Installed& row : fleet.rows) {
+      if (row.hours_per_week)
+        week(row.where, fmt::format("hours_per_week of '{}'", row.name), *row.hours_per_week);
+      if (today - row.since > oldest)
+        add(row.where,
+            fmt::format("'{}' was installed {} days ago (limit {}: 20 years)", row.name,
+                        (today - row.since).count(), oldest.count()),
+            "the date of the robot, or a wrong year", "installed: the date of the dresspack");
+      const auto [same, is_new] = names.try_emplace(plain(row.name), &row);
+      if (!is_new)
+        add(row.where,
+            fmt::format("'{}' and '{}' differ only in blanks, signs or capitals", row.name,
+                        same->second->name),
+            "one dresspack in two rows", "one of the two rows, or names that differ more");
+      if (fleet.has_costs && row.planned_cost == 0)
+        add(row.where, fmt::format("planned_cost of '{}' is 0 (limit more than 0)", row.name),
+            "a cost that is not known", "planned_cost with parts, labour and standstill");
+      if (fleet.has_costs && row.planned_cost > 0 && row.unplanned_cost > most_times_cost * row.planned_cost)
+        add(row.where,
+            fmt::format("unplanned_cost of '{}' is {:.4g} times its planned_cost (limit {:g})", row.name,
+                        row.unplanned_cost / row.planned_cost, most_times_cost),
+            "thousands in one of the two columns",
+            fmt::format("planned_cost: {:g} if that was thousands", 1e3 * row.planned_cost));
+    }
+    if (fleet.has_costs && low_planned->planned_cost > 0 &&
+        high_planned->planned_cost > most_times_cost * low_planned->planned_cost)
+      add(low_planned->where,
+          fmt::format("planned_cost of '{}' is {:g}, and of '{}' {:g} (limit {:g} times)", low_planned->name,
+                      low_planned->planned_cost, high_planned->name, high_planned->planned_cost,
+                      most_times_cost),
+          "different units",
+          fmt::format("planned_cost: {:g} if that was thousands", 1e3 * low_planned->planned_cost));
+  }
+
+  std::vector<Warning> warnings;
+
+ private:
+  void of(const DutyProgram& program) {
+    const auto share = [&](const char* key, double value) {
+      if (value > 0 && value < least_percent)
+        add(program.where,
+            fmt::format("{} of '{}' is {:g} (limit {:g} or more)", key, program.job, value, least_percent),
+            "a share instead of a percentage", fmt::format("{}: {:g} if that was a share", key, 100 * value));
+    };
+    share("percent_of_time", program.percent_of_time.value_or(0));
+    share("deviation_percent", program.deviation_percent);
+    const double number = program.repeats_per_hour    ? *program.repeats_per_hour
+                          : program.repeats_per_shift ? *program.repeats_per_shift
+                          : program.percent_of_time   ? *program.percent_of_time
+                                                      : program.percent_of_repeats.value_or(1);
+    if (number == 0)
+      add(program.where, fmt::format("'{}' never runs in its duty: its number of repeats is 0", program.job),
+          "a number that is not known", "the number of repeats, or no entry of this program");
+  }
+  void week(const Where& where, const std::string& key, double hours) {
+    if (hours < least_week)
+      add(where, fmt::format("{} is {:g} (limit {:g} or more)", key, hours, least_week),
+          "hours of a day, or a share of the week",
+          fmt::format("hours_per_week: {:g} if that was {}", hours < 1 ? 168 * hours : 5 * hours,
+                      hours < 1 ? "a share" : "per working day"));
+  }
+  /// Small letters and digits alone.
+  static std::string plain(const std::string& name) {
+    std::string letters;
+    for (const unsigned char letter : name)
+      if (std::isalnum(letter) || letter > 127) letters += static_cast<char>(std::tolower(letter));
+    return letters;
+  }
+};
+
+}  // namespace
+
+std::vector<Warning> doubtful_duties(const DutyFile& file) {
+  Doubts doubts;
+  for (const Duty& duty : file.duties) doubts.of(duty);
+  return doubts.warnings;
+}
+
+std::vector<Warning> doubtful_fleet(const Fleet& fleet, Day today) {
+  Doubts doubts;
+  doubts.of(fleet, today);
+  return doubts.warnings;
+}
+
+}  // namespace dresslife::pipeline

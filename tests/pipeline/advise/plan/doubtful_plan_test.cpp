@@ -1,0 +1,116 @@
+// Fleets and duties that a user may plausibly write wrong: what another unit explains is warned of with a remedy.
+#include "pipeline/advise/plan/doubtful_plan.h"
+
+#include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+using Catch::Contains;
+
+const Day today_of_test = *day_from("2026-11-23");
+
+std::vector<std::string> lines_of(const std::vector<Warning>& warnings) {
+  std::vector<std::string> lines;
+  for (const Warning& warning : warnings) lines.push_back(warning.line());
+  return lines;
+}
+std::vector<std::string> doubts_of_duty(const std::string& keys) {
+  const Scratch scratch;
+  return lines_of(doubtful_duties(
+      read_duties(scratch.write("d.yaml", "study: s.yaml\nduties:\n  - {name: d, " + keys + "}\n"))));
+}
+std::vector<std::string> doubts_of_fleet(const std::string& text) {
+  const Scratch scratch;
+  return lines_of(doubtful_fleet(read_fleet(scratch.write("fleet.csv", text), today_of_test), today_of_test));
+}
+
+struct Doubtful {
+  const char *text, *problem, *remedy;
+};
+
+void check_one(const std::vector<std::string>& doubts, const Doubtful& one, const char* place) {
+  CAPTURE(one.text, doubts);
+  REQUIRE(doubts.size() == 1);
+  CHECK_THAT(doubts[0], Contains(place) && Contains(": warning: ") && Contains(one.problem) &&
+                            Contains("Remedy: ") && Contains(one.remedy));
+}
+
+}  // namespace
+
+TEST_CASE("duties: numbers that another unit explains are warned of, usual ones are not") {
+  for (
+      const Doubtful& one :
+      {Doubtful{"programs: [{job: a, percent_of_time: 0.5}]",
+                "percent_of_time of 'a' is 0.5 (limit 1 or more)", "percent_of_time: 50 if that was a share"},
+       {"programs: [{job: a, percent_of_time: 5, deviation_percent: 0.1}]", "deviation_percent of 'a' is 0.1",
+        "deviation_percent: 10"},
+       {"programs: [{job: a, repeats_per_hour: 0}]", "'a' never runs in its duty",
+        "no entry of this program"},
+       {"repeats_per_hour: 5, programs: [{job: a, percent_of_repeats: 0.6}, {job: b, percent_of_repeats: 0.4}]",
+        "add up to 1 %", "percent_of_repeats: 60 instead of 0.6"},
+       {"repeats_per_hour: 5, programs: [{job: a, percent_of_time: 5}]",
+        "repeats_per_hour of duty 'd' is 5 and has no effect", "repeats_per_hour: 5 in an entry"},
+       {"hours_per_week: 0.5, programs: [{job: a, percent_of_time: 5}]",
+        "hours_per_week of duty 'd' is 0.5 (limit 5 or more)", "hours_per_week: 84 if that was a share"},
+       {"hours_per_week: 3, programs: [{job: a, percent_of_time: 5}]", "hours_per_week of duty 'd' is 3",
+        "hours_per_week: 15 if that was per working day"},
+       {"shift_hours: 40, programs: [{job: a, repeats_per_shift: 5}]",
+        "shift_hours of duty 'd' is 40 (limit 2 .. 24)", "shift_hours: 8"},
+       {"shift_hours: 0.5, programs: [{job: a, repeats_per_shift: 5}]", "shift_hours of duty 'd' is 0.5",
+        "shift_hours: 8"},
+       {"programs: [{job: a, percent_of_time: 5}], history: [{duty: d, hours: 300000}]",
+        "hours of the history are 300000", "hours: 5000 if that was minutes"}})
+    check_one(doubts_of_duty(one.text), one, "d.yaml:3:");
+  for (const char* usual :
+       {"programs: [{job: a, percent_of_time: 5, deviation_percent: 10}], history: [{duty: d, hours: 4000}]",
+        "repeats_per_hour: 5, programs: [{job: a, percent_of_repeats: 60}, {job: b, percent_of_repeats: 40}]",
+        "shift_hours: 7.5, hours_per_week: 168, programs: [{job: a, repeats_per_shift: 5}]"})
+    CHECK(doubts_of_duty(usual).empty());
+  const std::filesystem::path shipped = std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config" / "duties";
+  CHECK(doubtful_duties(read_duties(shipped / "two_robots.yaml")).empty());
+  CHECK(doubtful_fleet(read_fleet(shipped / "fleet.csv", today_of_test), today_of_test).empty());
+}
+
+TEST_CASE("duties: a number that is refused is one problem, and a file of another kind is named") {
+  const Scratch scratch;
+  const auto refusal = [&](const std::string& text) -> std::string {
+    try {
+      read_duties(scratch.write("d.yaml", text));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string head = "study: s.yaml\nduties:\n  - {name: d, programs: [{job: a, ";
+  for (const char* number :
+       {"percent_of_time: 150", "repeats_per_hour: -1", "percent_of_time: '0,5'", "repeats_per_minute: 5"}) {
+    const std::string words = refusal(head + number + "}]}\n");
+    INFO(words);
+    CHECK(!words.empty());
+    CHECK(words.find('\n') == std::string::npos);
+  }
+  CHECK_THAT(refusal("base: job.yaml\n"), Contains("is a study (it has the key 'base'), no file of duties"));
+}
+
+TEST_CASE("fleets: numbers that another unit or a slip explains are warned of") {
+  const std::string costs = "name,duty,installed,planned_cost,unplanned_cost\n";
+  for (const Doubtful& one :
+       {Doubtful{"name,duty,installed\na,d,2006-11-20\n",
+                 "'a' was installed 7308 days ago (limit 7300: 20 years)", "the date of the dresspack"},
+        {"name,duty,installed\na,d,1926-11-20\n", "'a' was installed", "the date of the dresspack"},
+        {"name,duty,installed\nb,d,\na,d,\nA ,d,\n", "'A' and 'a' differ only in blanks, signs or capitals",
+         "names that differ more"},
+        {"name,duty,installed,hours_per_week\na,d,,0.5\n", "hours_per_week of 'a' is 0.5",
+         "hours_per_week: 84"},
+        {"name,duty,installed,planned_cost,unplanned_cost\na,d,,0,9500\n", "planned_cost of 'a' is 0",
+         "with parts, labour and standstill"},
+        {"name,duty,installed,planned_cost,unplanned_cost\na,d,,1.2,9500\n",
+         "unplanned_cost of 'a' is 7917 times its planned_cost (limit 100)", "planned_cost: 1200"},
+        {"name,duty,installed,planned_cost,unplanned_cost\na,d,,1.2,9.5\nb,d,,1200,9500\n",
+         "planned_cost of 'a' is 1.2, and of 'b' 1200", "planned_cost: 1200"}})
+    check_one(doubts_of_fleet(one.text), one, "fleet.csv:");
+}
+
+}  // namespace dresslife::pipeline
