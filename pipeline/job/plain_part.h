@@ -25,7 +25,7 @@ struct PlainPart {
   Medium medium = Medium::air;              ///< that fills it
   std::optional<double> bending_stiffness;  ///< E I [N m2]; absent: of polymer
   std::optional<double> damage_exponent;    ///< m of (F31), of a cable; absent: usual_damage_exponent
-  Where where;
+  Where where{};
 };
 
 /// Damage of a bend or twist over its range. ESTIMATE: the strain-life curve of copper_halved has 3.1 at 1e5, 4.8 at 1e6 and
