@@ -127,10 +127,9 @@ struct Settings {
 Settings settings_of(const StageCall& call) {
   const Job job = read_job(call.info.input_is_job ? call.input : call.job_file, call.sets);
   if (*call.info.part != JobPart::sim) return {part_text(job, *call.info.part), {}};
-  const std::vector<std::filesystem::path> files = files_beside(job);
-  for (const std::filesystem::path& file : files)
-    if (kind_of(file) == FileKind::folder && file != job.motion.program) PlainFile{file};  // refuses it
-  return {part_text(job, *call.info.part), files};
+  for (const std::filesystem::path& file : {job.motion.clamp_poses, job.motion.deformation})
+    if (kind_of(file) == FileKind::folder) PlainFile{file};  // refuses it
+  return {part_text(job, *call.info.part), files_beside(job)};
 }
 
 void say(const StageCall& call, Progress& progress, const Warning& warning) {

@@ -434,6 +434,8 @@ void renew_receipts(const Study& study, const StudyPlaces& places, const std::ve
 
 void write_build_graph(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states,
                        const StageLimits& limits, const std::string& launcher) {
+  // What is written after the stages is checked before they run.
+  for (const char* result : {"ranking.csv", "report.html"}) check_replaceable(places.folder / result);
   const fs::path notes = places.folder / places.notes();
   make_notes(places.folder / ".stage");
   fs::create_directories(notes);
@@ -454,6 +456,7 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     write_text_if_changed(folder / "job.yaml", with_mark(stored_job_text(*job.job, folder), Mark::yaml), Sync::never);
     if (states[k].done()) continue;
     check_notes(folder / ".stage");
+    for (const char* result : {"log", "page.html", "preview.html"}) check_replaceable(folder / result);
     for (std::size_t stage = states[k].next; stage < stage_count && !is_new; ++stage)
       for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])})
         remove_ours(folder / log);

@@ -133,7 +133,7 @@ TEST_CASE("no bit that turns in a file of results while a page is made from it c
   const std::string right = content(page);
   const auto fail_at = [&](int at) {
     fs::remove(page);
-    return run_failing(scratch, Fault{"read", at, "flip", ".h5"}, "dresslife", "page runs/study/a");
+    return run_failing(scratch, Fault{"read", at, "flip", "life.h5"}, "dresslife", "page runs/study/a");
   };
   REQUIRE(fail_at(0).status == 0);
   REQUIRE(content(page) == right);

@@ -171,8 +171,8 @@ TEST_CASE("a search takes no fault of the machine for a bad routing") {
   const std::string search = "improve better.yaml --rehearsals 2 --off 0 --quiet --trials ";
   Scratch undisturbed;
   write_inputs(undisturbed);
-  REQUIRE(run(undisturbed, "dresslife", search + "1").status == 0);
-  const Outcome right = run(undisturbed, "dresslife", search + "2");
+  REQUIRE(run(undisturbed, "dresslife", search + "2").status == 0);
+  const Outcome right = run(undisturbed, "dresslife", search + "4");
   REQUIRE(right.status == 0);
   const std::string allocation =
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -185,16 +185,16 @@ TEST_CASE("a search takes no fault of the machine for a bad routing") {
                                       {"dresslife-fatigue", allocation}}) {
     Scratch scratch;
     write_inputs(scratch);
-    REQUIRE(run(scratch, "dresslife", search + "1").status == 0);
+    REQUIRE(run(scratch, "dresslife", search + "2").status == 0);
     const Outcome failed = run_with(scratch,
                                     std::string("env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=") + call +
                                         " FAULT_AT=1 FAULT_MORE=all FAULT_PROGRAM=" + program +
                                         " LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "'",
-                                    "dresslife", search + "2");
+                                    "dresslife", search + "4");
     INFO(program << ": " << failed.status << failed.out << failed.err);
     CHECK(failed.status == 1);
     CHECK(failed.err.find("then run again\n") != std::string::npos);
-    const Outcome next = run(scratch, "dresslife", search + "2");
+    const Outcome next = run(scratch, "dresslife", search + "4");
     INFO(next.err);
     CHECK(next.status == 0);
     CHECK(next.out == right.out);

@@ -157,6 +157,21 @@ TEST_CASE("no command replaces, empties or removes what is not ours, and each na
             << " files refused by name, 0 lost\n";
 }
 
+TEST_CASE("a run that would replace a file of the user ends before it computes") {
+  for (const std::string name : {"ranking.csv", "report.html", "a/log", "a/page.html"}) {
+    Scratch scratch;
+    write_small_job(scratch);
+    scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}}\n");
+    scratch.write("runs/study/" + name, "mine\n");
+    const Outcome outcome = run(scratch, "dresslife", "run study.yaml --quiet");
+    INFO(name << ": " << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find(name + ": error: is there already") != std::string::npos);
+    CHECK(content(scratch / ("runs/study/" + name)) == "mine\n");
+    CHECK_FALSE(fs::exists(scratch / "runs/study/a/motion.h5"));
+  }
+}
+
 TEST_CASE("files of the user beside results stay through every command, whatever goes of the results") {
   Scratch scratch;
   write_inputs(scratch);
