@@ -12,6 +12,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double longest_stand = 3;                       // [s]
+constexpr double shortest_stand = 0.4;                    // [s] of equal rows; shorter, they may be one step of an encoder
 constexpr double gap_intervals = 5, shortest_gap = 0.5;   // [1], [s]
 constexpr double fine_rows = 0.04, knot_distance = 0.05;  // [s]: drives change their accelerations in 0.1 s and more
 constexpr int halvings = 2;
@@ -33,7 +34,7 @@ class Smoothing {
     const double length = times_[end_] - times_[begin_];
     const int parts = std::max(1, static_cast<int>(std::lround(length / knot_distance)));
     std::vector<Knot> knots{row(begin_)};
-    for (int k = 1; k < parts; ++k) knots.push_back(fitted(times_[begin_] + length * k / parts, length / parts));
+    for (int k = 1; k < parts; ++k) add_fitted(knots, times_[begin_] + length * k / parts, length / parts, times_[end_]);
     knots.push_back(row(end_));
     for (int round = 0;; ++round) {
       bool good = true;
@@ -51,7 +52,7 @@ class Smoothing {
         good = false;
         const double half = (knots[k + 1].time - knots[k].time) / 2;
         if (round < halvings) {
-          next.push_back(fitted(knots[k].time + half, half));
+          add_fitted(next, knots[k].time + half, half, knots[k + 1].time);
           continue;
         }
         if (next.back().window > 0) next.pop_back();
@@ -85,11 +86,16 @@ class Smoothing {
     return {std::move(times), std::move(values), SplineEnds::at_rest};
   }
 
-  /// The parabola a + b x + c x^2, x = (t - time)/window, at x = 0.
+  /// Between the last of the knots and `end`, where there is room: rows may be missing there.
+  void add_fitted(std::vector<Knot>& knots, double time, double window, double end) const {
+    Knot knot = fitted(time, window);
+    if (knot.time > knots.back().time && knot.time < end) knots.push_back(std::move(knot));
+  }
+
+  /// The parabola a + b x + c x^2, x = (t - time)/window, at x = 0. Without two rows on either side: the next row.
   Knot fitted(double time, double window) const {
-    std::size_t from = first_from(time - window), to = first_from(time + window);
-    const std::size_t nearest = std::min(first_from(time), end_);
-    if (to - from < 4) return row(std::clamp(nearest, begin_ + 1, end_ - 1));
+    const std::size_t from = first_from(time - window), to = first_from(time + window), nearest = first_from(time);
+    if (nearest < from + 2 || to < nearest + 2) return row(std::clamp(nearest, begin_ + 1, end_ - 1));
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(3, static_cast<long>(axes_));
     for (std::size_t k = from; k < to; ++k) {
@@ -142,7 +148,7 @@ void Course::cut(const Recording& log, const pipeline::Robot& robot) {
       needed = std::max(needed, 3 * way / axes[i].speed);  // 3/2 of the mean speed at its middle
     }
     log_seconds += step;
-    if (share == 0) {
+    if (share == 0 && step >= shortest_stand) {
       stand_seconds += step;
       time += std::min(step, longest_stand);
     } else if (step <= std::max(gap_intervals * log.interval, shortest_gap)) {
@@ -169,7 +175,8 @@ void Course::smooth(double interval, double still) {
   const std::vector<std::uint32_t> lines = std::move(lines_);
   times_.clear(), angles_.clear(), logged_.clear(), lines_.clear();
   const auto same = [&](std::size_t k) {
-    return std::equal(&angles[k * axes_], &angles[k * axes_] + axes_, &angles[(k + 1) * axes_]);
+    return (interval >= fine_rows || times[k + 1] - times[k] >= shortest_stand) &&
+           std::equal(&angles[k * axes_], &angles[k * axes_] + axes_, &angles[(k + 1) * axes_]);
   };
   if (times.empty()) return;
   add(times[0], &angles[0], lines[0], logged[0]);

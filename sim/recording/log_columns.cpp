@@ -92,11 +92,11 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
   bool tie = false;
   const auto refuse = [&](const std::string& what) {
     throw InputError(where, fmt::format("{} (columns: {})", what, fmt::join(titles, ", ")),
-                     "give --joints NAME,NAME,.. in the order of the robot's axes");
+                     "give --value joints=NAME,NAME,.. in the order of the robot's axes");
   };
   if (!joints.empty()) {
     const auto order = order_of_axes(titles, joints);
-    if (!order || order->size() != axes) refuse(fmt::format("--joints does not name {} columns of the log", axes));
+    if (!order || order->size() != axes) refuse(fmt::format("joints does not name {} columns of the log", axes));
     made.axes = *order;
   } else {
     for (const auto& [stem, group] : groups) {

@@ -22,6 +22,7 @@ using pipeline::InputError;
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double short_stand = 0.5;      // [s] stands shorter than this keep their rows
+constexpr double start = 0.05;           // [s] at the end of a stand, whose rows are of the motion: a slow start is no jump
 constexpr double coarsest_clock = 1;     // [s] of logs with times of day
 constexpr double most_faults = 0.01;     // of the rows: more are another kind of file
 constexpr std::size_t few_faults = 10;   // that a short log may have, too
@@ -109,20 +110,14 @@ class Rows {
         moves |= std::abs(row.angles[i] - stand_.front().angles[i]) > still_;
       if (moves) end_stand();
     }
-    if (stand_.size() > 1 && row.time - stand_.front().time >= short_stand) stand_.erase(stand_.begin() + 1, stand_.end()), is_long_ = true;
+    is_long_ |= !stand_.empty() && row.time - stand_.front().time >= short_stand;
+    while (is_long_ && stand_.size() > 1 && stand_[1].time < row.time - start) stand_.erase(stand_.begin() + 1);
     stand_.push_back(std::move(row));
   }
 
   void end_stand() {
-    if (stand_.empty()) return;
-    is_long_ |= stand_.back().time - stand_.front().time >= short_stand;
-    if (is_long_) {
-      stand_.back().angles = stand_.front().angles;
-      push(stand_.front());
-      push(stand_.back());
-    } else {
-      for (const Row& row : stand_) push(row);
-    }
+    if (is_long_) stand_[1].angles = stand_.front().angles;
+    for (const Row& row : stand_) push(row);
     stand_.clear();
     is_long_ = false;
   }
@@ -140,7 +135,7 @@ class Rows {
   double still_;
   double begin_ = 0, last_stamp_ = 0;
   std::vector<Row> same_;   // of one stamp
-  std::vector<Row> stand_;  // near the first of them; of a long stand the first and the last
+  std::vector<Row> stand_;  // near the first of them; of a long stand the first and the last ones
   bool is_long_ = false;
   std::vector<double> intervals_;
 };
@@ -156,7 +151,7 @@ class Pass {
     columns_ = log_columns(log_, titles_, robot.axes(), options.joints);
     if (!columns_.time && options.rate == 0)
       throw InputError(log_.where(titles_.front()), "the log has no column of times (time, timestamp, t, ..)",
-                       "name it 'time', or give --rate with the rows per second");
+                       "name it 'time', or give --value rate_Hz=10 with the rows per second");
   }
 
   std::optional<double> radians() const {
@@ -219,7 +214,7 @@ class Pass {
     const auto order = order_of_axes(names, "");
     if (!order)
       throw InputError(log_.where(row[columns_.names.front()]), "the names of the joints do not tell their order on the robot",
-                       "give --joints with the columns of the positions in the order of the robot's axes");
+                       "give --value joints=NAME,NAME,.. with the columns of the positions in the order of the robot's axes");
     std::vector<std::size_t> axes;
     for (const std::size_t k : *order) axes.push_back(columns_.axes[k]);
     columns_.axes = axes;
@@ -263,7 +258,7 @@ double unit_by_size(const std::filesystem::path& file, const pipeline::Robot& ro
   });
   if (largest > widest) return degree;
   throw InputError({file.string(), 1, 1}, "the log gives angles without a unit (none is too large for radians)",
-                   "give --unit deg or --unit rad");
+                   "give --value unit=deg or --value unit=rad");
 }
 
 }  // namespace
@@ -281,7 +276,7 @@ Recording read_log(const std::filesystem::path& file, const pipeline::Robot& rob
     for (double& angle : angles) angle *= unit;
     if (const auto fault = limit_fault(robot, angles, "the row"))
       throw InputError({file.string(), static_cast<int>(line), 1}, fault->what,
-                       "check the unit (--unit), the order of the columns (--joints) and the robot of the job");
+                       "check the unit (--value unit=deg), the order of the columns (--value joints=NAME,NAME,..) and the robot of the job");
     rows.add(time, std::move(angles), line);
   });
   rows.finish();

@@ -131,36 +131,43 @@ LogMotion cycle_of(const Course& course, const Cycles& cycles, std::size_t cycle
   return made;
 }
 
+/// Largest distance of a row from the first.
+double range_of(const Rows& rows) {
+  double range = 0;
+  for (const VectorXd& row : rows.values) range = std::max(range, (row - rows.values.front()).lpNorm<Eigen::Infinity>());
+  return range;
+}
+
 /// The rest, from its begin on, as motions of limited length.
 class Rest {
  public:
   Rest(std::vector<LogMotion>& made, double bound) : made_(made), bound_(bound) {}
 
   void add(const Rows& rows) {
-    const VectorXd off = rows_.count() > 0 ? VectorXd(rows_.values.back() - rows.values.front()) : VectorXd::Zero(rows.values.front().size());
-    const double begin = rows_.count() > 0 ? rows_.times.back() : 0, fade = std::min(settling, rows.times.back());
-    double cut = begin;
+    if (range_of(rows) <= bound_) return;  // a stand between two cycles
     if (rows_.count() == 0) rows_.add(0, rows.values.front());
+    const VectorXd off = rows_.values.back() - rows.values.front();
+    const double fade = std::min(settling, rows.times.back());
+    double begin = rows_.times.back();
     for (std::size_t k = 1; k < rows.count(); ++k) {
       const double s = std::min(1.0, rows.times[k] / fade);
-      rows_.add(begin + rows.times[k] - cut + (cut == begin ? begin : 0), rows.values[k] + (1 - s) * (1 - s) * (1 + 2 * s) * off);
+      rows_.add(begin + rows.times[k], rows.values[k] + (1 - s) * (1 - s) * (1 + 2 * s) * off);
       const bool stands = rows_.values.back() == rows_.values[rows_.count() - 2];
       if ((stands && rows_.times.back() > long_rest) || rows_.times.back() > longest_rest || rows_.count() >= most_rows) {
         const VectorXd last = rows_.values.back();
         finish();
         rows_.add(0, last);
-        cut = begin + rows.times[k];
+        begin = -rows.times[k];
       }
     }
   }
 
   void finish() {
-    double range = 0;
-    for (const VectorXd& row : rows_.values) range = std::max(range, (row - rows_.values.front()).lpNorm<Eigen::Infinity>());
-    if (range > bound_) {
+    if (range_of(rows_) > bound_) {
       add_ramps(rows_);
       LogMotion motion;
       motion.name = fmt::format("rest_{}", ++count_);
+      motion.is_rest = true;
       motion.times = std::move(rows_.times);
       motion.rows = std::move(rows_.values);
       made_.push_back(std::move(motion));
@@ -199,7 +206,7 @@ std::string motion_csv(const LogMotion& motion) {
   for (long axis = 0; axis < motion.rows.front().size(); ++axis) text += fmt::format(",axis_{}_deg", axis + 1);
   text += '\n';
   for (std::size_t k = 0; k < motion.rows.size(); ++k) {
-    text += fmt::format("{:.4f}", motion.times[k]);
+    text += fmt::format("{:.6f}", motion.times[k]);
     for (const double angle : motion.rows[k]) text += fmt::format(",{:.5f}", angle * 180 / std::numbers::pi);
     text += '\n';
   }

@@ -15,6 +15,7 @@ struct LogMotion {
   std::vector<Eigen::VectorXd> rows;   ///< (axis) [rad]
   std::size_t count = 1;               ///< in the log
   double difference = 0;               ///< of the parts from the cycle, at most [rad]
+  bool is_rest = false;
   std::size_t part = 0;                ///< of Cycles::parts that it is taken from; of a rest not used
 
   double duration() const { return times.back(); }
