@@ -37,7 +37,7 @@ struct Request {
   std::string ways;  ///< life.h5 of the job; empty: not asked
   int lines = 4;
   std::string log;  ///< job whose robot the log is of; empty: not a log
-  double smooth_deg = 0.1, alike_deg = 1, warp_percent = 10;
+  double smooth_deg = 0.1, alike_deg = 2, warp_percent = 10;
 };
 
 constexpr double shortest_cycle = 5;  // [s] of motion: shorter cycles count as several together
@@ -191,7 +191,8 @@ void note_log(const Request& request, const pipeline::StageCall& call, pipeline:
   const std::filesystem::path beside = call.output.parent_path(), folder = beside / name;
   std::vector<std::pair<std::filesystem::path, std::string>> files;
   for (const sim::LogMotion& motion : motions) files.emplace_back(folder / (motion.name + ".csv"), sim::motion_csv(motion));
-  files.emplace_back(folder / "study.yaml", sim::study_text(name, pipeline::as_seen_from(folder, request.log), motions));
+  const std::filesystem::path base = ".." / pipeline::as_seen_from(beside.empty() ? "." : beside, request.log);
+  files.emplace_back(folder / "study.yaml", sim::study_text(name, base, motions));
   files.emplace_back(call.output, sim::duty_text(name, name + "/study.yaml", course, motions));
   for (const auto& [file, text] : files) pipeline::check_replaceable(file);
   std::filesystem::create_directories(folder);

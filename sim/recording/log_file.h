@@ -18,8 +18,8 @@
 namespace dresslife::sim {
 
 struct LogOptions {
-  std::string joints;       ///< names of columns, separated by commas; empty: log_columns.h
-  std::string unit;         ///< deg or rad; empty: the names say, or angles too large for rad
+  std::string joints{};     ///< names of columns, separated by commas; empty: log_columns.h
+  std::string unit{};       ///< deg or rad; empty: the names say, or angles too large for rad
   double rate = 0;          ///< of a log without times [1/s]; 0: it has times
   double still = 0;         ///< no larger motion is noise [rad]
 };
