@@ -84,6 +84,7 @@ const std::map<std::string, std::string> instead{
      "dresslife preview irb6640_spot_welding --set routing.free_length_m=1.6 -o short.html"},
     {"dresslife draw NAME -o FILE.svg", "dresslife draw handling -o handling.svg"},
     {"dresslife show JOB.yaml", "dresslife show irb6640_spot_welding"},
+    {"dresslife import LOG.csv --log JOB.yaml -o shift.yaml", "not run"},  // tests/cli/log_test
     {"dresslife import PROGRAM -o motion.yaml", "dresslife import CONFIG/programs/pick_and_place.src -o motion.yaml"},
     {"dresslife export runs/two_robots/hard --paraview hard.xdmf", "not run"},  // tests/cli/paraview_test
     {"dresslife show FILE.h5", "dresslife show motion.h5"},
