@@ -14,6 +14,8 @@ using Eigen::VectorXf;
 constexpr double sample = 0.05;                  // [s]
 constexpr double longest = 3600;                 // [s] of a cycle
 constexpr double slowest_step = 0.4, fastest_step = 1.8, free_samples = 3;  // (L1)
+constexpr std::size_t at_the_end = 4;            // samples of the last pose, so that a cycle may end there
+constexpr float slow_step = 0.035f;              // [rad] (L2): 2 deg in a sample are 40 deg/s
 constexpr std::size_t tried_ends = 20, tried_repeats = 50;  // poses that are the same without the motion being it
 
 /// The course in samples of its motion.
@@ -30,6 +32,7 @@ struct Samples {
       for (; next < knots[k + 1] - knots[k]; next += sample) begins.push_back(knots[k] + next);
       next -= knots[k + 1] - knots[k];
     }
+    begins.insert(begins.end(), at_the_end, course.duration());
     values.resize(static_cast<long>(course.axes()), static_cast<long>(begins.size()));
     for (std::size_t k = 0; k < begins.size(); ++k) values.col(static_cast<long>(k)) = course.at(begins[k]).cast<float>();
   }
@@ -190,7 +193,7 @@ class Search {
     for (double position = 0; position + 1 < static_cast<double>(samples_.count());) {
       const std::size_t k = static_cast<std::size_t>(std::lround(position));
       if (progress_ && (k & 1023) == 0) progress_((is_first ? 0 : 0.5) + 0.5 * static_cast<double>(k) / static_cast<double>(samples_.count()));
-      if (samples_.step(k) <= 2 * options_.bound) {
+      if (samples_.step(k) <= slow_step) {
         std::optional<Part> best = repeated(position);
         if (!best && is_first)
           if (const auto found = found_at(k)) {

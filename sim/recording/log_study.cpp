@@ -34,13 +34,16 @@ std::string study_text(const std::string& name, const std::filesystem::path& bas
 
 std::string duty_text(const std::string& name, const std::string& study, const Course& course,
                       const std::vector<LogMotion>& motions) {
+  double seconds = 0;
+  for (const LogMotion& motion : motions) seconds += static_cast<double>(motion.count) * motion.duration();
+  seconds = std::max(seconds * (1 + 1e-5), course.log_seconds);  // the numbers have six digits
   std::string text = fmt::format(
       "# hours_per_week: of hours as in the log, with stands and without gaps ({}).\n"
       "study: {}\nduties:\n  - name: {}\n    hours_per_week: 80\n    programs:\n",
       hours(course.log_seconds), study, name);
   for (const LogMotion& motion : motions)
     text += fmt::format("      - {{job: {}, repeats_per_hour: {:.6g}}}\n", motion.name,
-                        static_cast<double>(motion.count) * 3600 / course.log_seconds);
+                        static_cast<double>(motion.count) * 3600 / seconds);
   return text;
 }
 

@@ -12,7 +12,8 @@ namespace dresslife::sim {
 /// The jobs of a study: the base, with each of the motions. base: as seen from the study's folder.
 std::string study_text(const std::string& name, const std::filesystem::path& base, const std::vector<LogMotion>& motions);
 
-/// The duty of the log: each motion as often per hour as in the log. study: as seen from this file.
+/// The duty of the log: each motion as often per hour as in the log, or, if ramps and gaps add time to motions without stands, as
+/// often as an hour takes. study: as seen from this file.
 std::string duty_text(const std::string& name, const std::string& study, const Course& course,
                       const std::vector<LogMotion>& motions);
 
