@@ -12,6 +12,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 // The job irb6640_spot_welding with the motions of a log (sim/recording/README.md); other dresspacks differ by factors.
 constexpr double seconds_per_second = 0.1;  // of a core, for a second of motion
 constexpr double megabytes_per_second = 0.6;
+constexpr double last_sample = 0.2;  // [s] by which a simulated motion may be longer: it ends with a sample
 
 std::string hours(double seconds) { return fmt::format("{:.3g} h", seconds / 3600); }
 
@@ -35,8 +36,8 @@ std::string study_text(const std::string& name, const std::filesystem::path& bas
 std::string duty_text(const std::string& name, const std::string& study, const Course& course,
                       const std::vector<LogMotion>& motions) {
   double seconds = 0;
-  for (const LogMotion& motion : motions) seconds += static_cast<double>(motion.count) * motion.duration();
-  seconds = std::max(seconds * (1 + 1e-5), course.log_seconds);  // the numbers have six digits
+  for (const LogMotion& motion : motions) seconds += static_cast<double>(motion.count) * (motion.duration() + last_sample);
+  seconds = std::max(seconds, course.log_seconds);
   std::string text = fmt::format(
       "# hours_per_week: of hours as in the log, with stands and without gaps ({}).\n"
       "study: {}\nduties:\n  - name: {}\n    hours_per_week: 80\n    programs:\n",
