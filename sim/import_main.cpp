@@ -128,11 +128,29 @@ void note_ways(const Request& request, const pipeline::StageCall& call) {
   file.commit();
 }
 
-/// A motion of its own is not needed.
-pipeline::Robot robot_of(const std::filesystem::path& file) {
+pipeline::Node job_of_log(const std::filesystem::path& file) {
   pipeline::note_input(file);
   pipeline::Node job = pipeline::read_yaml(file);
   pipeline::apply_lines(job);
+  return job;
+}
+
+/// Keys of the mounting poses that a job does not give.
+std::vector<std::string> open_mounting(const pipeline::Node& job) {
+  const auto is_open = [](const pipeline::Node& of) {
+    const pipeline::Node* const routing = of.find("routing");
+    return routing && !routing->find("mounting_pose_deg");
+  };
+  std::vector<std::string> keys;
+  if (is_open(job)) keys.emplace_back("routing.mounting_pose_deg");
+  if (const pipeline::Node* const packs = job.find("dresspacks"))
+    for (std::size_t k = 0; k < packs->items.size(); ++k)
+      if (is_open(packs->items[k])) keys.push_back(fmt::format("dresspacks.{}.routing.mounting_pose_deg", k + 1));
+  return keys;
+}
+
+/// A motion of its own is not needed.
+pipeline::Robot robot_of(const pipeline::Node& job) {
   const pipeline::Node* const robot = job.find("robot");
   if (!robot) throw pipeline::InputError(job.where, "robot is missing", "name a job, as dresslife new writes it");
   pipeline::Node alone;
@@ -174,7 +192,8 @@ void note_log(const Request& request, const pipeline::StageCall& call, pipeline:
                                "name it with letters, digits, - and _: -o shift.yaml");
   if (!call.sets.empty())
     throw pipeline::InputError({"--set " + call.sets.front()}, "does not change a log", "give it to dresslife duty");
-  const pipeline::Robot robot = robot_of(request.log);
+  const pipeline::Node job = job_of_log(request.log);
+  const pipeline::Robot robot = robot_of(job);
   const double degree = std::numbers::pi / 180;
   const sim::LogOptions options = log_options(request);
   const sim::Recording log =
@@ -192,7 +211,7 @@ void note_log(const Request& request, const pipeline::StageCall& call, pipeline:
   std::vector<std::pair<std::filesystem::path, std::string>> files;
   for (const sim::LogMotion& motion : motions) files.emplace_back(folder / (motion.name + ".csv"), sim::motion_csv(motion));
   const std::filesystem::path base = ".." / pipeline::as_seen_from(beside.empty() ? "." : beside, request.log);
-  files.emplace_back(folder / "study.yaml", sim::study_text(name, base, motions));
+  files.emplace_back(folder / "study.yaml", sim::study_text(name, base, log, open_mounting(job), motions));
   files.emplace_back(call.output, sim::duty_text(name, name + "/study.yaml", course, motions));
   for (const auto& [file, text] : files) pipeline::check_replaceable(file);
   std::filesystem::create_directories(folder);

@@ -25,11 +25,15 @@ double seconds_of(const std::vector<LogMotion>& motions) {
 
 }  // namespace
 
-std::string study_text(const std::string& name, const std::filesystem::path& base, const std::vector<LogMotion>& motions) {
+std::string study_text(const std::string& name, const std::filesystem::path& base, const Recording& log,
+                       const std::vector<std::string>& mounting, const std::vector<LogMotion>& motions) {
+  std::string pose, poses;
+  for (std::size_t i = 0; i < log.axes; ++i) pose += fmt::format("{}{:.3f}", i > 0 ? ", " : "", log.at(0)[i] * degrees);
+  for (const std::string& key : mounting) poses += fmt::format(", {}: [{}]", key, pose);
   std::string text = fmt::format("# The motions of a log: cycles that repeat, and the rest.\nname: {}\nbase: {}\nkeep: histories\njobs:\n",
                                  name, base.string());
   for (const LogMotion& motion : motions)
-    text += fmt::format("  {0}: {{motion: {{program: {0}.csv, rows: spline}}}}\n", motion.name);
+    text += fmt::format("  {0}: {{motion: {{program: {0}.csv, rows: spline}}{1}}}\n", motion.name, poses);
   return text;
 }
 

@@ -9,8 +9,10 @@
 
 namespace dresslife::sim {
 
-/// The jobs of a study: the base, with each of the motions. base: as seen from the study's folder.
-std::string study_text(const std::string& name, const std::filesystem::path& base, const std::vector<LogMotion>& motions);
+/// The jobs of a study: the base, with each of the motions. base: as seen from the study's folder. The dresspack is mounted once:
+/// mounting lists the keys of mounting poses that the base lacks, which are the log's first row, as if it were one motion (R7).
+std::string study_text(const std::string& name, const std::filesystem::path& base, const Recording& log,
+                       const std::vector<std::string>& mounting, const std::vector<LogMotion>& motions);
 
 /// The duty of the log: each motion as often per hour as in the log, or, if ramps and gaps add time to motions without stands, as
 /// often as an hour takes. study: as seen from this file.

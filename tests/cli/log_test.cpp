@@ -40,6 +40,8 @@ TEST_CASE("log: the life of a log of one cycle is that of the cycle") {
   REQUIRE(read.status == 0);
   CHECK_THAT(read.out, Catch::Contains("cycle_1: 3 times") && Catch::Contains("no rest") && Catch::Contains("estimate"));
   CHECK_THAT(content(scratch / "shift.yaml"), Catch::Contains("{job: cycle_1, repeats_per_hour: 3"));  // 3 in 30 s: nearly 360
+  CHECK_THAT(content(scratch / "shift/study.yaml"),
+             Catch::Contains("routing.mounting_pose_deg: [0.000, -10.000, 10.000, 0.000, 35.000, 0.000]}"));
   const Outcome life = run(scratch, "dresslife", "duty shift.yaml --quiet --set simulation.segments=10 --set "
                                                  "simulation.time_step_ms=10 --set strain.surface_fibres=0 --set "
                                                  "strain.cable_elements_per_segment=1");
