@@ -10,8 +10,8 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 // The job irb6640_spot_welding with the motions of a log (sim/recording/README.md); other dresspacks differ by factors.
-constexpr double seconds_per_second = 0.1;  // of a core, for a second of motion
-constexpr double megabytes_per_second = 0.6;
+constexpr double seconds_per_second = 0.2;  // of a core, for a second of motion; cycles are simulated until they repeat
+constexpr double megabytes_per_second = 0.4;
 constexpr double last_sample = 0.2;  // [s] by which a simulated motion may be longer: it ends with a sample
 
 std::string hours(double seconds) { return fmt::format("{:.3g} h", seconds / 3600); }
