@@ -24,17 +24,29 @@ struct Samples {
   std::vector<double> begins;  // [s] of the course; of a sample behind a stand its end
   std::size_t count() const { return begins.size(); }
 
-  explicit Samples(const Course& course) {
+  Samples(const Course& course, float finest) {
+    std::vector<float> poses;
+    VectorXf last = VectorXf::Constant(static_cast<long>(course.axes()), INFINITY);
+    const auto take = [&](double time) {
+      const VectorXf pose = course.at(time).cast<float>();
+      if ((pose - last).lpNorm<Eigen::Infinity>() < finest) return;
+      begins.push_back(time);
+      poses.insert(poses.end(), pose.begin(), pose.end());
+      last = pose;
+    };
     double next = 0;  // of motion, until the next sample
     const std::vector<double>& knots = course.knots();
     for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
       if (course.stands(k)) continue;
-      for (; next < knots[k + 1] - knots[k]; next += sample) begins.push_back(knots[k] + next);
+      for (; next < knots[k + 1] - knots[k]; next += sample) take(knots[k] + next);
       next -= knots[k + 1] - knots[k];
     }
-    begins.insert(begins.end(), at_the_end, course.duration());
-    values.resize(static_cast<long>(course.axes()), static_cast<long>(begins.size()));
-    for (std::size_t k = 0; k < begins.size(); ++k) values.col(static_cast<long>(k)) = course.at(begins[k]).cast<float>();
+    for (std::size_t k = 0; k < at_the_end; ++k) {
+      begins.push_back(course.duration());
+      const VectorXf pose = course.at(course.duration()).cast<float>();
+      poses.insert(poses.end(), pose.begin(), pose.end());
+    }
+    values = Eigen::Map<const Eigen::MatrixXf>(poses.data(), static_cast<long>(course.axes()), static_cast<long>(begins.size()));
   }
 
   VectorXf at(double position) const {
@@ -234,7 +246,7 @@ class Search {
 }  // namespace
 
 Cycles cycles_of(const Course& course, const CycleOptions& options, const std::function<void(double)>& progress) {
-  const Samples samples(course);
+  const Samples samples(course, static_cast<float>(options.bound / 10));
   Cycles made;
   if (samples.count() < 3) return made;
   Search search(samples, options, progress);

@@ -1,7 +1,7 @@
 // Cycles of a log that repeat: where the robot gets back to a pose and does the same again.
 //
-// The course is sampled every 0.05 s of motion; stands take no time here, because waits differ from cycle to cycle. Positions count in
-// samples and may lie between two of them, where the course is a straight line.
+// The course is sampled every 0.05 s of motion, without samples within a tenth of the bound of the one before: waits and slow
+// starts differ from cycle to cycle. Positions count in samples and may lie between two of them, where the course is a straight line.
 // (L1) A part that begins at position b repeats a cycle of n samples x_0 .. x_n, if there are positions s_0 = b < s_1 < .. < s_n with
 //      |x(s_k) - x_k| <= bound for every axis, 0.4 <= s_k - s_k-1 <= 1.8, and |s_k - b - k| <= warp k + 3. They are found one by one:
 //      s_k minimises |x(s) - x_k|^2 + (0.1 bound)^2 (s - s_k-1 - 1)^2.
@@ -22,7 +22,7 @@ namespace dresslife::sim {
 struct CycleOptions {
   double bound = 0;     ///< [rad]
   double warp = 0;      ///< 1: of the duration
-  double shortest = 0;  ///< [s] of motion
+  double shortest = 0;  ///< [s] of samples
 };
 
 /// A part of the course that repeats a cycle.
