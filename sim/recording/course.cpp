@@ -11,10 +11,11 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double longest_stand = 3;                       // [s]
-constexpr double shortest_stand = 0.4;                    // [s] of equal rows; shorter, they may be one step of an encoder
-constexpr double gap_intervals = 5, shortest_gap = 0.5;   // [1], [s]
-constexpr double fine_rows = 0.04, knot_distance = 0.05;  // [s]: drives change their accelerations in 0.1 s and more
+constexpr double longest_stand = 3;     // [s]
+constexpr double shortest_stand = 0.4;  // [s] of equal rows; shorter, they may be one step of an encoder
+constexpr double gap_intervals = 5, shortest_gap = 0.5;  // [1], [s]
+constexpr double fine_rows = 0.04,
+                 knot_distance = 0.05;  // [s]: drives change their accelerations in 0.1 s and more
 constexpr int halvings = 2;
 
 struct Knot {
@@ -27,14 +28,16 @@ struct Knot {
 /// Knots for the rows [begin, end] of a run.
 class Smoothing {
  public:
-  Smoothing(const std::vector<double>& times, const std::vector<double>& angles, std::size_t axes, std::size_t begin, std::size_t end)
+  Smoothing(const std::vector<double>& times, const std::vector<double>& angles, std::size_t axes,
+            std::size_t begin, std::size_t end)
       : times_(times), angles_(angles), axes_(axes), begin_(begin), end_(end) {}
 
   std::vector<Knot> knots(double bound, double& largest) {
     const double length = times_[end_] - times_[begin_];
     const int parts = std::max(1, static_cast<int>(std::lround(length / knot_distance)));
     std::vector<Knot> knots{row(begin_)};
-    for (int k = 1; k < parts; ++k) add_fitted(knots, times_[begin_] + length * k / parts, length / parts, times_[end_]);
+    for (int k = 1; k < parts; ++k)
+      add_fitted(knots, times_[begin_] + length * k / parts, length / parts, times_[end_]);
     knots.push_back(row(end_));
     for (int round = 0;; ++round) {
       bool good = true;
@@ -45,7 +48,8 @@ class Smoothing {
       for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
         double off = 0;
         const std::size_t first = at;
-        for (; at <= end_ && times_[at] < knots[k + 1].time; ++at) off = std::max(off, (spline.at(times_[at]) - value(at)).lpNorm<Eigen::Infinity>());
+        for (; at <= end_ && times_[at] < knots[k + 1].time; ++at)
+          off = std::max(off, (spline.at(times_[at]) - value(at)).lpNorm<Eigen::Infinity>());
         furthest = std::max(furthest, off);
         next.push_back(knots[k]);
         if (off <= bound) continue;
@@ -70,10 +74,14 @@ class Smoothing {
   }
 
  private:
-  VectorXd value(std::size_t row) const { return Eigen::Map<const VectorXd>(&angles_[row * axes_], static_cast<long>(axes_)); }
+  VectorXd value(std::size_t row) const {
+    return Eigen::Map<const VectorXd>(&angles_[row * axes_], static_cast<long>(axes_));
+  }
   Knot row(std::size_t k) const { return {times_[k], value(k), 0, k}; }
   std::size_t first_from(double time) const {
-    return static_cast<std::size_t>(std::lower_bound(times_.begin() + static_cast<long>(begin_), times_.begin() + static_cast<long>(end_), time) - times_.begin());
+    return static_cast<std::size_t>(std::lower_bound(times_.begin() + static_cast<long>(begin_),
+                                                     times_.begin() + static_cast<long>(end_), time) -
+                                    times_.begin());
   }
 
   CubicSpline spline_of(const std::vector<Knot>& knots) const {
@@ -94,7 +102,8 @@ class Smoothing {
 
   /// The parabola a + b x + c x^2, x = (t - time)/window, at x = 0. Without two rows on either side: the next row.
   Knot fitted(double time, double window) const {
-    const std::size_t from = first_from(time - window), to = first_from(time + window), nearest = first_from(time);
+    const std::size_t from = first_from(time - window), to = first_from(time + window),
+                      nearest = first_from(time);
     if (nearest < from + 2 || to < nearest + 2) return row(std::clamp(nearest, begin_ + 1, end_ - 1));
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(3, static_cast<long>(axes_));
@@ -127,7 +136,8 @@ void Course::add(double time, const double* angles, std::uint32_t line, double l
 }
 
 bool Course::stands(std::size_t k) const {
-  return std::equal(angles_.begin() + static_cast<long>(k * axes_), angles_.begin() + static_cast<long>((k + 1) * axes_),
+  return std::equal(angles_.begin() + static_cast<long>(k * axes_),
+                    angles_.begin() + static_cast<long>((k + 1) * axes_),
                     angles_.begin() + static_cast<long>((k + 1) * axes_));
 }
 
@@ -171,7 +181,8 @@ void Course::cut(const Recording& log, const pipeline::Robot& robot) {
 }
 
 void Course::smooth(double interval, double still) {
-  const std::vector<double> times = std::move(times_), angles = std::move(angles_), logged = std::move(logged_);
+  const std::vector<double> times = std::move(times_), angles = std::move(angles_),
+                            logged = std::move(logged_);
   const std::vector<std::uint32_t> lines = std::move(lines_);
   times_.clear(), angles_.clear(), logged_.clear(), lines_.clear();
   const auto same = [&](std::size_t k) {
@@ -189,15 +200,19 @@ void Course::smooth(double interval, double still) {
     while (end + 1 < times.size() && !same(end)) ++end;
     const std::size_t first = times_.size() - 1;
     if (interval < fine_rows && end - begin > 2) {
-      const std::vector<Knot> knots = Smoothing(times, angles, axes_, begin, end).knots(still, largest_smoothing);
-      for (std::size_t k = 1; k < knots.size(); ++k) add(knots[k].time, knots[k].angles.data(), lines[knots[k].row], logged[knots[k].row]);
+      const std::vector<Knot> knots =
+          Smoothing(times, angles, axes_, begin, end).knots(still, largest_smoothing);
+      for (std::size_t k = 1; k < knots.size(); ++k)
+        add(knots[k].time, knots[k].angles.data(), lines[knots[k].row], logged[knots[k].row]);
     } else {
       for (std::size_t k = begin + 1; k <= end; ++k) add(times[k], &angles[k * axes_], lines[k], logged[k]);
     }
     const long count = static_cast<long>(times_.size() - first);
-    Eigen::MatrixXd values = Eigen::Map<const Eigen::MatrixXd>(&angles_[first * axes_], static_cast<long>(axes_), count);
+    Eigen::MatrixXd values =
+        Eigen::Map<const Eigen::MatrixXd>(&angles_[first * axes_], static_cast<long>(axes_), count);
     runs_.push_back({first, times_.size() - 1,
-                     CubicSpline({times_.begin() + static_cast<long>(first), times_.end()}, std::move(values), SplineEnds::at_rest)});
+                     CubicSpline({times_.begin() + static_cast<long>(first), times_.end()}, std::move(values),
+                                 SplineEnds::at_rest)});
   }
 }
 
@@ -212,7 +227,8 @@ void Course::check_speeds(const pipeline::Robot& robot) {
         TooFast& worst = found[i];
         ++worst.knots;
         if (speed[static_cast<long>(i)] > worst.speed)
-          worst = {axes[i].name, speed[static_cast<long>(i)], axes[i].speed, logged_[k], lines_[k], worst.knots};
+          worst = {axes[i].name, speed[static_cast<long>(i)], axes[i].speed, logged_[k], lines_[k],
+                   worst.knots};
       }
     }
   for (TooFast& worst : found)
@@ -220,7 +236,8 @@ void Course::check_speeds(const pipeline::Robot& robot) {
 }
 
 VectorXd Course::at(double time) const {
-  const auto after = std::upper_bound(runs_.begin(), runs_.end(), time, [&](double t, const Run& run) { return t < times_[run.begin]; });
+  const auto after = std::upper_bound(runs_.begin(), runs_.end(), time,
+                                      [&](double t, const Run& run) { return t < times_[run.begin]; });
   if (after == runs_.begin()) return knot(0);
   return std::prev(after)->spline.at(time);
 }

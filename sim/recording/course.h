@@ -28,7 +28,7 @@ struct TooFast {
   double speed = 0, limit = 0;  ///< [rad/s]
   double time = 0;              ///< of the log [s]
   std::uint32_t line = 0;
-  std::size_t knots = 0;        ///< at which it is too fast
+  std::size_t knots = 0;  ///< at which it is too fast
 };
 
 class Course {
@@ -41,7 +41,9 @@ class Course {
   Eigen::VectorXd at(double time) const;                                  ///< (axis) [rad]
   std::uint32_t line(double time) const;                                  ///< of the log, the last one before
   const std::vector<double>& knots() const { return times_; }             ///< [s]
-  Eigen::VectorXd knot(std::size_t k) const { return Eigen::Map<const Eigen::VectorXd>(&angles_[k * axes_], static_cast<long>(axes_)); }
+  Eigen::VectorXd knot(std::size_t k) const {
+    return Eigen::Map<const Eigen::VectorXd>(&angles_[k * axes_], static_cast<long>(axes_));
+  }
   /// Whether the robot stands still from knot k to the next.
   bool stands(std::size_t k) const;
 
@@ -49,7 +51,7 @@ class Course {
   double stand_seconds = 0;  ///< of these the robot stands still
   int gaps = 0;
   double gap_seconds = 0;
-  double largest_smoothing = 0;  ///< distance of a row from the course [rad]
+  double largest_smoothing = 0;   ///< distance of a row from the course [rad]
   std::vector<TooFast> too_fast;  ///< one for each axis that is
 
  private:

@@ -38,6 +38,7 @@ struct Cycles {
 };
 
 /// progress: called with the share that is done.
-Cycles cycles_of(const Course& course, const CycleOptions& options, const std::function<void(double)>& progress = {});
+Cycles cycles_of(const Course& course, const CycleOptions& options,
+                 const std::function<void(double)>& progress = {});
 
 }  // namespace dresslife::sim

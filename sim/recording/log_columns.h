@@ -16,11 +16,12 @@
 namespace dresslife::sim {
 
 struct LogColumns {
-  std::vector<std::size_t> axes;           ///< columns, in the order of the robot's axes
-  std::vector<std::size_t> names;          ///< columns of the joints' names in the same order; empty: the log has none
+  std::vector<std::size_t> axes;  ///< columns, in the order of the robot's axes
+  std::vector<std::size_t>
+      names;  ///< columns of the joints' names in the same order; empty: the log has none
   std::optional<std::size_t> date, time;
-  std::optional<double> seconds;           ///< of a unit of time, as its name says; absent: it does not
-  std::optional<double> radians;           ///< of a unit of angle, as the names say; absent: they do not
+  std::optional<double> seconds;  ///< of a unit of time, as its name says; absent: it does not
+  std::optional<double> radians;  ///< of a unit of angle, as the names say; absent: they do not
 };
 
 /// joints: the user's names in the order of the axes, separated by commas; empty: none.

@@ -18,24 +18,24 @@
 namespace dresslife::sim {
 
 struct LogOptions {
-  std::string joints{};     ///< names of columns, separated by commas; empty: log_columns.h
-  std::string unit{};       ///< deg or rad; empty: the names say, or angles too large for rad
-  double rate = 0;          ///< of a log without times [1/s]; 0: it has times
-  double still = 0;         ///< no larger motion is noise [rad]
+  std::string joints{};  ///< names of columns, separated by commas; empty: log_columns.h
+  std::string unit{};    ///< deg or rad; empty: the names say, or angles too large for rad
+  double rate = 0;       ///< of a log without times [1/s]; 0: it has times
+  double still = 0;      ///< no larger motion is noise [rad]
 };
 
 /// Rows of a log, those of a standstill left out.
 struct Recording {
   std::size_t axes = 0;
-  std::vector<double> times;          ///< (row) [s], increasing, from 0
-  std::vector<double> angles;         ///< (row, axis) [rad]
-  std::vector<std::uint32_t> lines;   ///< (row) of the file
-  double interval = 0;                ///< median between rows as recorded [s]
-  std::size_t rows = 0;               ///< as recorded
-  std::size_t left_out = 0;           ///< without all numbers
-  std::size_t same_stamp = 0;         ///< with the stamp of the row before
-  std::size_t back = 0;               ///< whose stamp lies before that of the row before
-  int first_left_out = 0;             ///< line
+  std::vector<double> times;         ///< (row) [s], increasing, from 0
+  std::vector<double> angles;        ///< (row, axis) [rad]
+  std::vector<std::uint32_t> lines;  ///< (row) of the file
+  double interval = 0;               ///< median between rows as recorded [s]
+  std::size_t rows = 0;              ///< as recorded
+  std::size_t left_out = 0;          ///< without all numbers
+  std::size_t same_stamp = 0;        ///< with the stamp of the row before
+  std::size_t back = 0;              ///< whose stamp lies before that of the row before
+  int first_left_out = 0;            ///< line
 
   std::size_t size() const { return times.size(); }
   const double* at(std::size_t row) const { return &angles[row * axes]; }

@@ -11,12 +11,12 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double near_knots = 1e-3;                   // [s] closer ones would make a spline steep
-constexpr double ramp = 0.3;                          // [s] of motion that a robot needs to start or stop
-constexpr double slow = std::numbers::pi / 180;       // [rad/s] needs no ramp
-constexpr double settling = 1;                        // [s]
+constexpr double near_knots = 1e-3;                     // [s] closer ones would make a spline steep
+constexpr double ramp = 0.3;                            // [s] of motion that a robot needs to start or stop
+constexpr double slow = std::numbers::pi / 180;         // [rad/s] needs no ramp
+constexpr double settling = 1;                          // [s]
 constexpr double long_rest = 600, longest_rest = 1200;  // [s]
-constexpr std::size_t most_rows = 50'000;             // half of what a motion may have
+constexpr std::size_t most_rows = 50'000;               // half of what a motion may have
 constexpr double damage_exponent = 5;
 
 struct Rows {
@@ -78,7 +78,8 @@ void add_ramps(Rows& rows) {
 void close(Rows& rows) {
   std::vector<double> moved{0};
   for (std::size_t k = 1; k < rows.count(); ++k)
-    moved.push_back(moved.back() + (rows.values[k] == rows.values[k - 1] ? 0 : rows.times[k] - rows.times[k - 1]));
+    moved.push_back(moved.back() +
+                    (rows.values[k] == rows.values[k - 1] ? 0 : rows.times[k] - rows.times[k - 1]));
   const VectorXd off = rows.values.back() - rows.values.front();
   for (std::size_t k = 0; k < rows.count(); ++k) rows.values[k] -= moved[k] / moved.back() * off;
   rows.values.back() = rows.values.front();
@@ -134,7 +135,8 @@ LogMotion cycle_of(const Course& course, const Cycles& cycles, std::size_t cycle
 /// Largest distance of a row from the first.
 double range_of(const Rows& rows) {
   double range = 0;
-  for (const VectorXd& row : rows.values) range = std::max(range, (row - rows.values.front()).lpNorm<Eigen::Infinity>());
+  for (const VectorXd& row : rows.values)
+    range = std::max(range, (row - rows.values.front()).lpNorm<Eigen::Infinity>());
   return range;
 }
 
@@ -153,7 +155,8 @@ class Rest {
       const double s = std::min(1.0, rows.times[k] / fade);
       rows_.add(begin + rows.times[k], rows.values[k] + (1 - s) * (1 - s) * (1 + 2 * s) * off);
       const bool stands = rows_.values.back() == rows_.values[rows_.count() - 2];
-      if ((stands && rows_.times.back() > long_rest) || rows_.times.back() > longest_rest || rows_.count() >= most_rows) {
+      if ((stands && rows_.times.back() > long_rest) || rows_.times.back() > longest_rest ||
+          rows_.count() >= most_rows) {
         const VectorXd last = rows_.values.back();
         finish();
         rows_.add(0, last);
@@ -186,7 +189,8 @@ class Rest {
 
 std::vector<LogMotion> motions_of(const Course& course, const Cycles& cycles, double bound) {
   std::vector<LogMotion> made;
-  for (std::size_t cycle = 0; cycle < cycles.count; ++cycle) made.push_back(cycle_of(course, cycles, cycle, bound));
+  for (std::size_t cycle = 0; cycle < cycles.count; ++cycle)
+    made.push_back(cycle_of(course, cycles, cycle, bound));
   Rest rest(made, bound);
   double begin = 0;
   const auto add = [&](double end) {
@@ -203,7 +207,8 @@ std::vector<LogMotion> motions_of(const Course& course, const Cycles& cycles, do
 
 std::string motion_csv(const LogMotion& motion) {
   std::string text = "time_s";
-  for (long axis = 0; axis < motion.rows.front().size(); ++axis) text += fmt::format(",axis_{}_deg", axis + 1);
+  for (long axis = 0; axis < motion.rows.front().size(); ++axis)
+    text += fmt::format(",axis_{}_deg", axis + 1);
   text += '\n';
   for (std::size_t k = 0; k < motion.rows.size(); ++k) {
     text += fmt::format("{:.6f}", motion.times[k]);

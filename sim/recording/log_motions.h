@@ -10,13 +10,13 @@
 namespace dresslife::sim {
 
 struct LogMotion {
-  std::string name;                    ///< cycle_1, rest_1
-  std::vector<double> times;           ///< [s] from 0
-  std::vector<Eigen::VectorXd> rows;   ///< (axis) [rad]
-  std::size_t count = 1;               ///< in the log
-  double difference = 0;               ///< of the parts from the cycle, at most [rad]
+  std::string name;                   ///< cycle_1, rest_1
+  std::vector<double> times;          ///< [s] from 0
+  std::vector<Eigen::VectorXd> rows;  ///< (axis) [rad]
+  std::size_t count = 1;              ///< in the log
+  double difference = 0;              ///< of the parts from the cycle, at most [rad]
   bool is_rest = false;
-  std::size_t part = 0;                ///< of Cycles::parts that it is taken from; of a rest not used
+  std::size_t part = 0;  ///< of Cycles::parts that it is taken from; of a rest not used
 
   double duration() const { return times.back(); }
 };

@@ -91,18 +91,21 @@ TEST_CASE("log: time stamps of loggers and spreadsheets") {
     CHECK_FALSE(LogTime({}).read(wrong));
 }
 
-TEST_CASE("log: semicolons, decimal commas, dates over midnight, a repeated stamp, a missing number, names again") {
+TEST_CASE(
+    "log: semicolons, decimal commas, dates over midnight, a repeated stamp, a missing number, names again") {
   const std::string names = "Datum;Zeit;Achse_1 [deg];Achse_2 [deg];Kraft\n";
   const Recording log = read("\xEF\xBB\xBF" + names +
                              "01.03.2027;23:59:59,8;0,0;0;7\n"
                              "01.03.2027;23:59:59,9;2,5;0;7\n"
                              "02.03.2027;00:00:00,0;5,0;-1,5;7\n"
-                             "02.03.2027;00:00:00,0;5,0;-1,5;7\n" + names +
+                             "02.03.2027;00:00:00,0;5,0;-1,5;7\n" +
+                             names +
                              "02.03.2027;00:00:00,0;6,0;-2;7\n"
                              "02.03.2027;00:00:00,1;7,5;;7\n"
                              "02.03.2027;00:00:00,2;9,5;-3;7\n");
   REQUIRE(log.size() == 5);
-  const double times[] = {0, 0.1, 0.2, 0.3, 0.4}, first[] = {0, 2.5, 5, 6, 9.5}, second[] = {0, 0, -1.5, -2, -3};
+  const double times[] = {0, 0.1, 0.2, 0.3, 0.4}, first[] = {0, 2.5, 5, 6, 9.5},
+               second[] = {0, 0, -1.5, -2, -3};
   for (std::size_t k = 0; k < 5; ++k) {
     CHECK(log.times[k] == Approx(times[k]).margin(1e-6));  // of seconds since 1970 in a double
     CHECK(log.at(k)[0] == Approx(first[k] * degree).margin(1e-12));
@@ -120,17 +123,24 @@ TEST_CASE("log: columns of the measured angles among others, and what names no a
   const Recording log = read(both + "0,9,9,0.5,-0.5,9,9\n0.1,9,9,0.6,-0.6,9,9\n");
   CHECK(log.at(0)[0] == 0.5);  // of RTDE: rad
   CHECK(log.at(1)[1] == -0.6);
-  const Recording swapped = read("time,elbow,base\n0,100,-50\n1,101,-49\n", {.joints = "base,elbow", .still = bound});
+  const Recording swapped =
+      read("time,elbow,base\n0,100,-50\n1,101,-49\n", {.joints = "base,elbow", .still = bound});
   CHECK(swapped.at(0)[0] == Approx(-50 * degree));
   CHECK(read("J1,J2\n100,1\n101,1\n", {.rate = 4, .still = bound}).times[1] == 0.25);
-  CHECK_THAT(message_of([] { read("time,left1,left2,right1,right2\n0,1,2,3,4\n"); }), Contains("several groups of 2 columns"));
+  CHECK_THAT(message_of([] { read("time,left1,left2,right1,right2\n0,1,2,3,4\n"); }),
+             Contains("several groups of 2 columns"));
   CHECK_THAT(message_of([] { read("time,x,y,z\n0,1,2,3\n"); }), Contains("no 2 columns that are the angles"));
-  CHECK_THAT(message_of([] { read("J1,J2\n100,1\n"); }), Contains("no column of times") && Contains("rate_Hz"));
-  CHECK_THAT(message_of([] { read("time,J1,J2\n0,1,2\n1,1.5,2\n"); }), Contains("without a unit") && Contains("unit=deg"));
+  CHECK_THAT(message_of([] { read("J1,J2\n100,1\n"); }),
+             Contains("no column of times") && Contains("rate_Hz"));
+  CHECK_THAT(message_of([] { read("time,J1,J2\n0,1,2\n1,1.5,2\n"); }),
+             Contains("without a unit") && Contains("unit=deg"));
   CHECK_THAT(message_of([] { read("0,1,2\n1,1,2\n"); }), Contains("begins with numbers"));
-  CHECK_THAT(message_of([] { read("time,J1_deg,J2_deg\n0,500,2\n"); }), Contains("log.csv:2:1") && Contains("turns joint_1 to 500"));
-  CHECK_THAT(message_of([] { read("time,J1_deg,J2_deg\n0,1,5,2\n"); }), Contains("decimal commas need another separator"));
-  CHECK_THAT(message_of([] { read("#ROSBAG V2.0\n"); }), Contains("is a ROS bag") && Contains("rostopic echo"));
+  CHECK_THAT(message_of([] { read("time,J1_deg,J2_deg\n0,500,2\n"); }),
+             Contains("log.csv:2:1") && Contains("turns joint_1 to 500"));
+  CHECK_THAT(message_of([] { read("time,J1_deg,J2_deg\n0,1,5,2\n"); }),
+             Contains("decimal commas need another separator"));
+  CHECK_THAT(message_of([] { read("#ROSBAG V2.0\n"); }),
+             Contains("is a ROS bag") && Contains("rostopic echo"));
   CHECK_THAT(message_of([] { read("PK\x03\x04"); }), Contains("workbook"));
 }
 
@@ -142,7 +152,8 @@ TEST_CASE("log: a spline through exact samples gives back the curve") {
   // 5/384 h^4 of the largest fourth derivative, (pi/2)^4 57/2 deg/s^4; and the six digits of the log.
   const double error = (5. / 384 * 1e-4 * std::pow(std::numbers::pi / 2, 4) * 28.5 + 2e-6) * degree;
   for (double t = 0; t < 4; t += 0.013)
-    CHECK(course.at(t)[0] == Approx(57 * degree * (1 - std::cos(std::numbers::pi * t / 2)) / 2).margin(error));
+    CHECK(course.at(t)[0] ==
+          Approx(57 * degree * (1 - std::cos(std::numbers::pi * t / 2)) / 2).margin(error));
   CHECK(course.log_seconds == Approx(4.9).margin(1e-9));
   CHECK(course.stand_seconds == Approx(0.9).margin(0.11));  // one interval to the last row that moves
   CHECK(course.too_fast.empty());
@@ -161,15 +172,19 @@ TEST_CASE("log: noise of half the bound neither moves the robot nor leaves the b
   CHECK(course.largest_smoothing <= bound);
   CHECK(course.largest_smoothing > 0);
   for (std::size_t k = 0; k < log.size(); ++k)
-    CHECK((course.at(log.times[k]) - Eigen::Map<const Eigen::Vector2d>(log.at(k))).lpNorm<Eigen::Infinity>() <= 1.0001 * bound);
+    CHECK(
+        (course.at(log.times[k]) - Eigen::Map<const Eigen::Vector2d>(log.at(k))).lpNorm<Eigen::Infinity>() <=
+        1.0001 * bound);
   // Knots 0.05 s apart that alternate by all of the noise: 12 n/h^2. Rows as knots: 9,400 deg/s2.
   const double limit = 12 * noise * degree / (0.05 * 0.05), h = 0.01;
   double largest = 0;
   for (double t = 2.2; t < 5.8; t += 0.01)
     largest = std::max(largest, ((course.at(t - h) - 2 * course.at(t) + course.at(t + h)) -
-                                 (truth.at(t - h) - 2 * truth.at(t) + truth.at(t + h))).lpNorm<Eigen::Infinity>() / (h * h));
+                                 (truth.at(t - h) - 2 * truth.at(t) + truth.at(t + h)))
+                                        .lpNorm<Eigen::Infinity>() /
+                                    (h * h));
   CHECK(largest < limit);
-  CHECK(course.at(1) == course.at(0.2));  // stands
+  CHECK(course.at(1) == course.at(0.2));                                   // stands
   CHECK(course.stand_seconds == Approx(truth.stand_seconds).margin(0.4));  // slow starts within the bound
 }
 
@@ -180,19 +195,21 @@ TEST_CASE("log: rows that are missing in a fine log leave a smooth course") {
     if (k < 100 || k > 130) text += fmt::format("{:.3f},{:.6f},0\n", 0.008 * k, angle(0.008 * k));
   const Course course(read(text), two_axes(), bound);
   CHECK(course.gaps == 0);
-  for (double t = 0; t < 4; t += 0.01) CHECK(course.at(t)[0] / degree == Approx(angle(t)).margin(0.2));  // 0.25 s without a row
+  for (double t = 0; t < 4; t += 0.01)
+    CHECK(course.at(t)[0] / degree == Approx(angle(t)).margin(0.2));  // 0.25 s without a row
 }
 
 TEST_CASE("log: a gap with a move is no time, and a speed beyond the limit is named") {
   std::string text = "time,j1_deg,j2_deg\n";
   for (int k = 0; k <= 20; ++k) text += fmt::format("{:.1f},{},0\n", 0.1 * k, 2. * k);
-  for (int k = 0; k <= 20; ++k) text += fmt::format("{:.1f},{},0\n", 600 + 0.1 * k, -40 + (k < 10 ? 0. : 25. * (k - 10) / 2));
+  for (int k = 0; k <= 20; ++k)
+    text += fmt::format("{:.1f},{},0\n", 600 + 0.1 * k, -40 + (k < 10 ? 0. : 25. * (k - 10) / 2));
   const Course course(read(text), two_axes(), bound);
   CHECK(course.gaps == 1);
   CHECK(course.gap_seconds == Approx(598));
   CHECK(course.log_seconds == Approx(4));
   CHECK(course.duration() < 4 + 3 * (80 * degree / 2) + 1);  // a move at half the speed at most
-  REQUIRE(course.too_fast.size() == 1);  // 125 deg/s with 115 allowed
+  REQUIRE(course.too_fast.size() == 1);                      // 125 deg/s with 115 allowed
   CHECK(course.too_fast[0].axis == "joint_1");
   CHECK(course.too_fast[0].speed > 125 * degree);
   CHECK(course.too_fast[0].line > 32);
@@ -207,7 +224,10 @@ TEST_CASE("log: cycles are counted with other times and waits, and the rest is o
     writer.part(seconds, cycle(seconds));
     if (++count == 7) {
       writer.stand(1);
-      writer.part(9, [](double t) { return std::pair(-20 * (1 - std::cos(2 * std::numbers::pi * t / 9)), 8 * std::sin(2 * std::numbers::pi * t / 9)); });
+      writer.part(9, [](double t) {
+        return std::pair(-20 * (1 - std::cos(2 * std::numbers::pi * t / 9)),
+                         8 * std::sin(2 * std::numbers::pi * t / 9));
+      });
       writer.stand(100);
     }
   }
