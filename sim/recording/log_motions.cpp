@@ -65,10 +65,10 @@ double damage_of(const Rows& rows, double bound) {
 }
 
 /// Slower near the ends, so that the speed there is 0: t' = 2 sqrt(P t) until t = P.
-void add_ramps(Rows& rows) {
+void add_ramps(Rows& rows, bool begins_at_rest) {
   const double length = rows.times.back(), part = std::min(ramp, length / 3);
   const auto delay = [&](double t) { return t < part ? 2 * std::sqrt(part * t) - t : part; };  // t' - t
-  const bool at_begin = rows.speed(0) > slow, at_end = rows.speed(rows.count() - 1) > slow;
+  const bool at_begin = !begins_at_rest && rows.speed(0) > slow, at_end = rows.speed(rows.count() - 1) > slow;
   for (double& t : rows.times) {
     const double from_end = length - t;
     t += (at_begin ? delay(t) : 0) + (at_end ? part - delay(from_end) : 0);
@@ -126,7 +126,7 @@ LogMotion cycle_of(const Course& course, const Cycles& cycles, std::size_t cycle
   Rows rows = rows_between(course, cycles.parts[made.part].begin, cycles.parts[made.part].end);
   close(rows);
   rows = turned(rows, best_begin(rows));
-  add_ramps(rows);
+  add_ramps(rows, rows.values.back() == rows.values[rows.count() - 2]);  // it stands between its end and its begin
   made.times = std::move(rows.times);
   made.rows = std::move(rows.values);
   return made;
@@ -159,6 +159,7 @@ class Rest {
           rows_.count() >= most_rows) {
         const VectorXd last = rows_.values.back();
         finish();
+        begins_at_rest_ = stands;
         rows_.add(0, last);
         begin = -rows.times[k];
       }
@@ -167,7 +168,7 @@ class Rest {
 
   void finish() {
     if (range_of(rows_) > bound_) {
-      add_ramps(rows_);
+      add_ramps(rows_, begins_at_rest_);
       LogMotion motion;
       motion.name = fmt::format("rest_{}", ++count_);
       motion.is_rest = true;
@@ -176,6 +177,7 @@ class Rest {
       made_.push_back(std::move(motion));
     }
     rows_ = {};
+    begins_at_rest_ = false;
   }
 
  private:
@@ -183,6 +185,7 @@ class Rest {
   double bound_;
   Rows rows_;
   int count_ = 0;
+  bool begins_at_rest_ = false;
 };
 
 }  // namespace
