@@ -110,11 +110,12 @@ LogMotion cycle_of(const Course& course, const Cycles& cycles, std::size_t cycle
   made.name = fmt::format("cycle_{}", cycle + 1);
   made.count = 0;
   std::vector<std::pair<double, std::size_t>> damages;
-  double sum = 0;
+  double sum = 0, seconds = 0;
   for (std::size_t k = 0; k < cycles.parts.size(); ++k) {
     const CyclePart& part = cycles.parts[k];
     if (part.cycle != cycle) continue;
     ++made.count;
+    seconds += part.end - part.begin;
     made.difference = std::max(made.difference, part.difference);
     damages.emplace_back(damage_of(rows_between(course, part.begin, part.end), bound), k);
     sum += damages.back().first;
@@ -126,7 +127,13 @@ LogMotion cycle_of(const Course& course, const Cycles& cycles, std::size_t cycle
   Rows rows = rows_between(course, cycles.parts[made.part].begin, cycles.parts[made.part].end);
   close(rows);
   rows = turned(rows, best_begin(rows));
-  add_ramps(rows, rows.values.back() == rows.values[rows.count() - 2]);  // it stands between its end and its begin
+  const bool stands = rows.values.back() == rows.values[rows.count() - 2];  // between its end and its begin
+  if (stands) {  // waits differ: no longer than the mean
+    const double wait = rows.times.back() - rows.times[rows.count() - 2];
+    rows.times.back() -=
+        std::clamp(rows.times.back() - seconds / static_cast<double>(made.count), 0.0, 0.9 * wait);
+  }
+  add_ramps(rows, stands);
   made.times = std::move(rows.times);
   made.rows = std::move(rows.values);
   return made;

@@ -270,8 +270,11 @@ TEST_CASE("log: two products that differ by more than the bound are two cycles")
   std::vector<std::size_t> found;
   for (const CyclePart& part : cycles.parts) found.push_back(part.cycle);
   CHECK(found == std::vector<std::size_t>{0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0});
-  // A cycle begins behind its stand: no ramp. An interval of the log at either end.
-  CHECK(motions_of(course, cycles, bound)[0].duration() == Approx(9).margin(0.08));
+  // The mean of eight parts of 9 s, at most two of which lack their stand of 1 s; an interval of the log at either end. A cycle begins
+  // behind its stand: a ramp would add 0.3 s.
+  const double seconds = motions_of(course, cycles, bound)[0].duration();
+  CHECK(seconds > 9 - 2. / 8 - 0.08);
+  CHECK(seconds < 9 + 0.08);
   CHECK(cycles_of(course, {7 * degree, 0.1, 5}).count == 1);  // they differ by 6 deg
 }
 
