@@ -1,19 +1,27 @@
-// dresslife-import: a robot program in, the same motion as YAML out; or what its lines could do instead.
+// dresslife-import: a robot program in, the same motion as YAML out; or what its lines could do instead; or a log of joint angles as
+// a study and a duty.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/settings/fields.h"
 #include "pipeline/stage/stage.h"
 #include "sim/program/answers.h"
 #include "sim/program/explain.h"
 #include "sim/program/import.h"
+#include "sim/recording/log_study.h"
 #include "sim/reprogram/ways_file.h"
 
 namespace {
@@ -28,7 +36,11 @@ struct Request {
   bool explain = false;
   std::string ways;  ///< life.h5 of the job; empty: not asked
   int lines = 4;
+  std::string log;  ///< job whose robot the log is of; empty: not a log
+  double smooth_deg = 0.1, alike_deg = 2, warp_percent = 10;
 };
+
+constexpr double shortest_cycle = 5;  // [s] of motion: shorter cycles count as several together
 
 /// "NAME=VALUE" cut at its first or last '='.
 std::pair<std::string, std::string> halves(const std::string& option, const std::string& written,
@@ -116,6 +128,99 @@ void note_ways(const Request& request, const pipeline::StageCall& call) {
   file.commit();
 }
 
+pipeline::Node job_of_log(const std::filesystem::path& file) {
+  pipeline::note_input(file);
+  pipeline::Node job = pipeline::read_yaml(file);
+  pipeline::apply_lines(job);
+  return job;
+}
+
+/// Keys of the mounting poses that a job does not give.
+std::vector<std::string> open_mounting(const pipeline::Node& job) {
+  const auto is_open = [](const pipeline::Node& of) {
+    const pipeline::Node* const routing = of.find("routing");
+    return routing && !routing->find("mounting_pose_deg");
+  };
+  std::vector<std::string> keys;
+  if (is_open(job)) keys.emplace_back("routing.mounting_pose_deg");
+  if (const pipeline::Node* const packs = job.find("dresspacks"))
+    for (std::size_t k = 0; k < packs->items.size(); ++k)
+      if (is_open(packs->items[k])) keys.push_back(fmt::format("dresspacks.{}.routing.mounting_pose_deg", k + 1));
+  return keys;
+}
+
+/// A motion of its own is not needed.
+pipeline::Robot robot_of(const pipeline::Node& job) {
+  const pipeline::Node* const robot = job.find("robot");
+  if (!robot) throw pipeline::InputError(job.where, "robot is missing", "name a job, as dresslife new writes it");
+  pipeline::Node alone;
+  alone.where = job.where;
+  alone["robot"] = *robot;
+  pipeline::resolve_job(alone);
+  pipeline::Robot made;
+  pipeline::read_fields(*alone.find("robot"), made);
+  return made;
+}
+
+sim::LogOptions log_options(const Request& request) {
+  sim::LogOptions options;
+  options.still = request.smooth_deg * std::numbers::pi / 180;
+  for (const std::string& written : request.values) {
+    const auto [name, text] = halves("--value", written, written.find('='), "unit=deg");
+    const pipeline::Where where{"--value " + written};
+    if (name == "unit" && (text == "deg" || text == "rad")) {
+      options.unit = text;
+    } else if (name == "joints") {
+      options.joints = text;
+    } else if (name == "rate_Hz") {
+      options.rate = pipeline::number_in(text).value_or(0);
+      if (!(options.rate > 0 && std::isfinite(options.rate)))
+        throw pipeline::InputError(where, "is no rate", "give the rows per second: --value rate_Hz=10");
+    } else {
+      throw pipeline::InputError(where, "is no value of a log", "give unit=deg, unit=rad, joints=NAME,NAME,.. or rate_Hz=10");
+    }
+  }
+  return options;
+}
+
+/// Writes DUTY.yaml and a folder of its name with the study and its motions.
+void note_log(const Request& request, const pipeline::StageCall& call, pipeline::Progress& progress) {
+  const std::string name = call.output.stem().string();
+  const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
+  if (call.output.extension() != ".yaml" || !std::all_of(name.begin(), name.end(), fits))
+    throw pipeline::InputError({call.output.string()}, "is no name for a file of duties",
+                               "name it with letters, digits, - and _: -o shift.yaml");
+  if (!call.sets.empty())
+    throw pipeline::InputError({"--set " + call.sets.front()}, "does not change a log", "give it to dresslife duty");
+  const pipeline::Node job = job_of_log(request.log);
+  const pipeline::Robot robot = robot_of(job);
+  const double degree = std::numbers::pi / 180;
+  const sim::LogOptions options = log_options(request);
+  const sim::Recording log =
+      sim::read_log(call.input, robot, options, [&](double share) { progress.show(share, "reads the log"); });
+  const sim::Course course(log, robot, options.still);
+  const sim::Cycles cycles =
+      sim::cycles_of(course, {request.alike_deg * degree, request.warp_percent / 100, shortest_cycle},
+                     [&](double share) { progress.show(share, "looks for cycles"); });
+  const std::vector<sim::LogMotion> motions = sim::motions_of(course, cycles, options.still);
+  progress.clear();
+  if (motions.empty())
+    throw pipeline::InputError({call.input.string()}, fmt::format("the robot does not move by more than {} deg", request.smooth_deg),
+                               "name a log of a robot that moves");
+  const std::filesystem::path beside = call.output.parent_path(), folder = beside / name;
+  std::vector<std::pair<std::filesystem::path, std::string>> files;
+  for (const sim::LogMotion& motion : motions) files.emplace_back(folder / (motion.name + ".csv"), sim::motion_csv(motion));
+  const std::filesystem::path base = ".." / pipeline::as_seen_from(beside.empty() ? "." : beside, request.log);
+  files.emplace_back(folder / "study.yaml", sim::study_text(name, base, log, open_mounting(job), motions));
+  files.emplace_back(call.output, sim::duty_text(name, name + "/study.yaml", course, motions));
+  for (const auto& [file, text] : files) pipeline::check_replaceable(file);
+  std::filesystem::create_directories(folder);
+  for (const auto& [file, text] : files) pipeline::write_text_if_changed(file, pipeline::with_mark(text, pipeline::Mark::yaml));
+  if (call.quiet) return;
+  for (const std::string& line : sim::log_words(log, course, cycles, motions)) fmt::print("{}\n", line);
+  fmt::print("Next: dresslife duty {}\n", call.output.string());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -124,9 +229,9 @@ int main(int argc, char** argv) {
       .program = "dresslife-import",
       .purpose =
           "Reads a robot program (RAPID, KRL, Fanuc, INFORM, URScript, joint columns, ROS), or the folder of a "
-          "controller's backup, and writes its motion as YAML.",
-      .input = "PROGRAM or FOLDER; with --ways JOB.yaml",
-      .output = "motion.yaml; with --ways ways.h5",
+          "controller's backup, and writes its motion as YAML. A log of joint angles becomes a study and a duty (--log).",
+      .input = "PROGRAM or FOLDER; with --ways JOB.yaml; with --log LOG.csv",
+      .output = "motion.yaml; with --ways ways.h5; with --log DUTY.yaml",
       .example = "dresslife-import config/programs/side_panel.mod -o motion.yaml",
       .input_is_job = true,
       .may_lack_output = true,
@@ -164,10 +269,19 @@ int main(int argc, char** argv) {
            "COUNT",
            "with --ways: those that cost most",
            &request.lines,
-           {.range = {{0, 1000}}, .needs = "--ways"}}}};
+           {.range = {{0, 1000}}, .needs = "--ways"}},
+          {"--log", "JOB.yaml",
+           "instead: the cycles and the rest of a log as a study and a duty of this job's robot, dresspack and routing", &request.log},
+          {"--smooth", "DEG", "with --log: largest distance of the motion from a row, and of rows of a standstill",
+           &request.smooth_deg, {.range = {{1e-4, 5}}, .needs = "--log"}},
+          {"--alike", "DEG", "with --log: largest difference of cycles that count as one", &request.alike_deg,
+           {.range = {{1e-3, 20}}, .needs = "--log"}},
+          {"--warp", "PERCENT", "with --log: largest difference of their times", &request.warp_percent,
+           {.range = {{0, 50}}, .needs = "--log"}}}};
   return pipeline::run_stage(
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
         if (!request.ways.empty()) return note_ways(request, call);
+        if (!request.log.empty()) return note_log(request, call, progress);
         if (call.output.empty() && !request.explain)
           throw pipeline::InputError({call.input.string()}, "would be read for nothing",
                                      "name a file with -o, or ask for --explain");

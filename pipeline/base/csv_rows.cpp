@@ -11,6 +11,11 @@
 #include "pipeline/base/limits.h"
 
 namespace dresslife::pipeline {
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+}  // namespace
 
 std::optional<double> number_in(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -22,12 +27,35 @@ std::optional<double> number_in(std::string_view text) {
 
 CsvReader::CsvReader(std::string text, std::string file, std::string_view separators)
     : text_(std::move(text)), file_(std::move(file)), separators_(separators) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text_.starts_with(byte_order_mark)) text_.erase(0, byte_order_mark.size());
 }
 
+CsvReader::CsvReader(PlainFile file, std::string_view separators)
+    : CsvReader(file.beginning(0), file.name().string(), separators) {
+  source_ = std::move(file);
+}
+
+double CsvReader::share_read() const {
+  return source_ ? static_cast<double>(read_) / static_cast<double>(std::max<std::uint64_t>(1, source_->size())) : 1;
+}
+
+/// Makes text_ hold the whole line at at_.
+void CsvReader::read_on() {
+  constexpr std::uint64_t block = 1 << 20;
+  if (!source_ || read_ == source_->size() || text_.find('\n', at_) != text_.npos) return;
+  text_.erase(0, at_);
+  at_ = 0;
+  const std::uint64_t count = std::min(block, source_->size() - read_), before = text_.size();
+  text_.resize(before + count);
+  source_->read(text_.data() + before, count, read_);
+  if (read_ == 0 && text_.starts_with(byte_order_mark)) text_.erase(0, byte_order_mark.size());
+  read_ += count;
+  if (text_.find('\n') == text_.npos && read_ < source_->size())
+    throw InputError({file_, line_ + 1, 1}, fmt::format("has a line of more than {} bytes", count), "name a file of comma separated values");
+}
+
 CsvRow CsvReader::next() {
-  while (at_ < text_.size()) {
+  for (read_on(); at_ < text_.size(); read_on()) {
     ++line_;
     line_begin_ = at_;
     while (at_blank()) ++at_;

@@ -26,6 +26,10 @@ constexpr bool leads_tool(PathKind value) { return value != PathKind::joint; }
 /// Whether a point on the way belongs to it.
 constexpr bool has_via(PathKind value) { return value == PathKind::circular; }
 
+/// How the robot gets from one row of recorded joint angles to the next.
+enum class RecordedRows { blended, spline };
+constexpr std::string_view word(RecordedRows value) { return word_at({"blended", "spline"}, value); }
+
 /// One line of a robot program: a move, a dwell, or a block repeated `repeat` times. A move leads to joint
 /// angles or to a pose of the tool in the work object.
 struct MotionStep {
@@ -100,6 +104,7 @@ struct Motion {
   std::vector<BranchAssumption> assume;
   std::vector<ProgramValue> values;
   int passes = 0;                     ///< of the program's endless main loop; 0: until it repeats itself
+  RecordedRows rows = RecordedRows::blended;  ///< of steps with durations
   double spot_time = 1;               ///< dwell of a spot weld in a program [s]
   std::filesystem::path clamp_poses;  ///< CSV with both clamps' poses instead of steps; empty: none
   std::filesystem::path deformation;  ///< CSV with the dresspack's own deformation instead; empty: none

@@ -12,21 +12,6 @@ namespace {
 bool digit(char c) { return c >= '0' && c <= '9'; }
 bool letter(char c) { return c >= 'a' && c <= 'z'; }
 
-/// Runs of letters and runs of digits, in lower case: "Joint_1 [deg]" -> joint, 1, deg.
-std::vector<std::string> words_of(std::string_view name) {
-  std::vector<std::string> words;
-  char before = ' ';
-  for (char c : lower_case(name)) {
-    const bool part = digit(c) || letter(c);
-    if (part && ((digit(c) && digit(before)) || (letter(c) && letter(before))))
-      words.back() += c;
-    else if (part)
-      words.emplace_back(1, c);
-    before = c;
-  }
-  return words;
-}
-
 template <std::size_t n>
 bool among(const std::string& word, const std::array<std::string_view, n>& list) {
   return std::find(list.begin(), list.end(), word) != list.end();
@@ -45,7 +30,7 @@ constexpr std::array<std::string_view, 32> others{
 std::vector<int> numbers_of(const std::vector<std::string>& names, bool last) {
   std::vector<int> numbers;
   for (const std::string& name : names) {
-    std::vector<std::string> words = words_of(name);
+    std::vector<std::string> words = words_of_name(name);
     std::erase_if(words, [](const std::string& w) { return !digit(w[0]) || w.size() > 3; });
     if (words.empty()) return {};
     numbers.push_back(std::stoi(last ? words.back() : words.front()));
@@ -73,7 +58,7 @@ std::optional<std::vector<std::size_t>> order_by(const std::vector<std::string>&
   for (const std::vector<std::string>& wanted : arm) {
     std::size_t found = names.size();
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const std::vector<std::string> words = words_of(names[i]);
+      const std::vector<std::string> words = words_of_name(names[i]);
       const bool fits = std::all_of(wanted.begin(), wanted.end(), [&](const std::string& w) {
         return std::find(words.begin(), words.end(), w) != words.end();
       });
@@ -89,9 +74,23 @@ std::optional<std::vector<std::size_t>> order_by(const std::vector<std::string>&
 
 }  // namespace
 
+std::vector<std::string> words_of_name(std::string_view name) {
+  std::vector<std::string> words;
+  char before = ' ';
+  for (char c : lower_case(name)) {
+    const bool part = digit(c) || letter(c);
+    if (part && ((digit(c) && digit(before)) || (letter(c) && letter(before))))
+      words.back() += c;
+    else if (part)
+      words.emplace_back(1, c);
+    before = c;
+  }
+  return words;
+}
+
 ColumnName column_name(std::string_view name) {
   ColumnName made;
-  const std::vector<std::string> words = words_of(name);
+  const std::vector<std::string> words = words_of_name(name);
   const auto has = [&](const char* word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   };

@@ -16,6 +16,9 @@ struct ColumnName {
   bool unit_told = false;  ///< the name contains the unit of a time
 };
 
+/// Runs of letters and runs of digits, in lower case: "Joint_1 [deg]" -> joint, 1, deg.
+std::vector<std::string> words_of_name(std::string_view name);
+
 ColumnName column_name(std::string_view name);
 
 /// Seconds of the unit in which a clock shows this time since 1970: a time of this century has 10 digits in

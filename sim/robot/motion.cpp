@@ -9,6 +9,7 @@
 #include "sim/robot/legs.h"
 #include "sim/robot/path_motion.h"
 #include "sim/robot/robot.h"
+#include "sim/robot/spline.h"
 
 namespace dresslife::sim {
 namespace {
@@ -196,6 +197,42 @@ void add_legs(const std::vector<Leg>& legs, const VectorXd& accelerations, Piece
   }
 }
 
+/// (M12) The rows of a recording.
+std::vector<MotionPiece> spline_pieces(const pipeline::Motion& motion, const std::vector<VectorXd>& rows) {
+  std::vector<double> times{0};
+  for (std::size_t k = 1; k < motion.steps.size(); ++k) {
+    const pipeline::MotionStep& step = motion.steps[k];
+    if (!step.duration || step.path != pipeline::PathKind::joint || step.dwell > 0)
+      throw pipeline::InputError(step.where, "is no joint move with a duration (motion.rows: spline needs all moves to be)",
+                                 "give joint angles with times, or leave out motion.rows");
+    times.push_back(times.back() + *step.duration);
+  }
+  std::vector<MotionPiece> pieces;
+  const auto add = [&](std::size_t row, const VectorXd& velocity, const VectorXd& acceleration, const VectorXd& jerk) {
+    const int step = static_cast<int>(row) + 1;
+    pieces.push_back({times[row], times[row + 1] - times[row], rows[row], velocity, VectorXd(), step, step, 0.25, acceleration, jerk});
+  };
+  const VectorXd none = VectorXd::Zero(rows.front().size());
+  for (std::size_t begin = 0, end; begin + 1 < rows.size(); begin = end) {
+    end = begin + 1;
+    if (rows[begin] == rows[end]) {
+      add(begin, none, none, none);
+      continue;
+    }
+    while (end + 1 < rows.size() && rows[end] != rows[end + 1]) ++end;
+    Eigen::MatrixXd values(none.size(), static_cast<long>(end - begin) + 1);
+    for (std::size_t row = begin; row <= end; ++row) values.col(static_cast<long>(row - begin)) = rows[row];
+    const CubicSpline spline({times.begin() + static_cast<long>(begin), times.begin() + static_cast<long>(end) + 1},
+                             std::move(values), SplineEnds::at_rest);
+    for (long k = 0; k < static_cast<long>(end - begin); ++k) {
+      const auto& second = spline.second_derivatives();
+      const double h = spline.times()[k + 1] - spline.times()[k];
+      add(begin + static_cast<std::size_t>(k), spline.slope(k), second.col(k), (second.col(k + 1) - second.col(k)) / h);
+    }
+  }
+  return pieces;
+}
+
 AxisLimits limits_of(const pipeline::Robot& robot) {
   const std::vector<Axis> axes = axes_of(robot);
   AxisLimits limits{VectorXd(static_cast<long>(axes.size())), VectorXd(static_cast<long>(axes.size()))};
@@ -211,8 +248,10 @@ AxisLimits limits_of(const pipeline::Robot& robot) {
 JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& robot) {
   const VectorXd accelerations = mean_accelerations(motion, robot);
   Legs program = legs_of(motion, robot, accelerations);
+  if (motion.rows == pipeline::RecordedRows::spline) program.legs.clear();
   const AxisLimits limits = limits_of(robot);
   Pieces laid;
+  if (motion.rows == pipeline::RecordedRows::spline) laid.append(spline_pieces(motion, program.targets));
   for (auto begin = program.legs.begin(); begin != program.legs.end();) {
     const auto end =
         std::find_if(begin, program.legs.end(), [&](const Leg& leg) { return leg.path != begin->path; });

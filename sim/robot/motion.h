@@ -22,9 +22,12 @@
 //      dwell, the ends) is a full stop.
 //
 // A chain of moves without a stop that holds a tool path is laid out as a whole (legs.h: M6, M7;
-// path_motion.h). Assumption: axis limits only, as a controller without a dynamic model. The ramp fraction is
-// an estimate; a program can lower the jerk of its moves (M11, legs.h). (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for Automatic
-// Machines and Robots, 2008, chapters 3 and 5; the unified form is derived above.)
+// path_motion.h). Recorded rows with motion.rows: spline have a law of their own:
+// (M12) q(t) is the cubic spline (R5) through the rows at their times, with q' = 0 at both ends and where two successive rows
+//       are equal. Limits of speed and acceleration do not apply: the robot has moved like this.
+// Assumption: axis limits only, as a controller without a dynamic model. The ramp fraction is an estimate; a program can lower
+// the jerk of its moves (M11, legs.h). (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for
+// Automatic Machines and Robots, 2008, chapters 3 and 5; the unified form is derived above.)
 #pragma once
 
 #include <Eigen/Core>

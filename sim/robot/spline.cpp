@@ -7,11 +7,39 @@ namespace dresslife::sim {
 
 using Eigen::VectorXd;
 
-CubicSpline::CubicSpline(std::vector<double> times, Eigen::MatrixXd values)
+CubicSpline::CubicSpline(std::vector<double> times, Eigen::MatrixXd values, SplineEnds ends)
     : times_(std::move(times)), values_(std::move(values)) {
   assert(!times_.empty() && values_.cols() == static_cast<long>(times_.size()));
   second_ = Eigen::MatrixXd::Zero(values_.rows(), values_.cols());
-  if (times_.size() > 2) find_second_derivatives();
+  if (ends == SplineEnds::at_rest && times_.size() > 1)
+    find_second_derivatives_at_rest();
+  else if (times_.size() > 2)
+    find_second_derivatives();
+}
+
+/// Tridiagonal in all m; a knot beyond each end, infinitely near and of the same value, gives the slope 0.
+void CubicSpline::find_second_derivatives_at_rest() {
+  const long last = static_cast<long>(times_.size()) - 1;
+  const auto step = [&](long k) { return k < 0 || k == last ? 0 : times_[k + 1] - times_[k]; };
+  VectorXd diagonal(last + 1), slope = VectorXd::Zero(values_.rows());
+  for (long k = 0; k <= last; ++k) {
+    VectorXd next = VectorXd::Zero(values_.rows());
+    if (k < last) next = (values_.col(k + 1) - values_.col(k)) / step(k);
+    second_.col(k) = 6 * (next - slope);
+    diagonal[k] = 2 * (step(k - 1) + step(k));
+    slope = next;
+    if (k == 0) continue;
+    const double share = step(k - 1) / diagonal[k - 1];
+    diagonal[k] -= share * step(k - 1);
+    second_.col(k) -= share * second_.col(k - 1);
+  }
+  second_.col(last) /= diagonal[last];
+  for (long k = last - 1; k >= 0; --k) second_.col(k) = (second_.col(k) - step(k) * second_.col(k + 1)) / diagonal[k];
+}
+
+VectorXd CubicSpline::slope(long k) const {
+  const double h = times_[k + 1] - times_[k];
+  return (values_.col(k + 1) - values_.col(k)) / h - h / 6 * (2 * second_.col(k) + second_.col(k + 1));
 }
 
 /// The ends' conditions, (m_1 - m_0)/h_0 = (m_2 - m_1)/h_1, put m_0 = m_1 + (h_0/h_1)(m_1 - m_2) into the

@@ -94,6 +94,7 @@ const std::map<std::string, std::string> instead{
     {"dresslife show JOB.yaml", "dresslife show irb6640_spot_welding"},
     {"dresslife import PROGRAM -o motion.yaml",
      "dresslife import CONFIG/programs/pick_and_place.src -o motion.yaml"},
+    {"dresslife import LOG.csv --log JOB.yaml -o shift.yaml", "not run"},  // tests/cli/log_test
     {"dresslife export runs/two_robots/hard --paraview hard.xdmf", "not run"},  // tests/cli/paraview_test
     {"dresslife show FILE.h5", "dresslife show motion.h5"},
     {"dresslife submit STUDY", "not run"},  // needs a cluster: tests/pipeline/study

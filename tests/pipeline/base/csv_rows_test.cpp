@@ -1,6 +1,7 @@
 #include "pipeline/base/csv_rows.h"
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
 
@@ -67,4 +68,22 @@ TEST_CASE("CSV: what is written is read again, and no spreadsheet takes it for a
   const CsvRow row = reader.next();
   REQUIRE(row.size() == cells.size());
   for (std::size_t k = 0; k < cells.size(); ++k) CHECK(row[k].text == cells[k]);
+}
+
+TEST_CASE("CSV: a file that is read in parts has the rows of its text") {
+  std::string text = "\xEF\xBB\xBF" "a,b\n";
+  for (int k = 0; k < 300'000; ++k) text += std::to_string(k) + ",\"" + std::to_string(7 * k) + "\"\n";  // several parts
+  const Scratch scratch;
+  CsvReader whole(text, "f.csv"), parts(PlainFile(scratch.write("f.csv", text)), ",");
+  std::size_t rows = 0;
+  for (CsvRow row = whole.next(), other = parts.next(); !row.empty() || !other.empty(); row = whole.next(), other = parts.next()) {
+    REQUIRE(row.size() == other.size());
+    for (std::size_t i = 0; i < row.size(); ++i) REQUIRE(row[i].text == other[i].text);
+    REQUIRE(whole.line() == parts.line());
+    ++rows;
+  }
+  CHECK(rows == 300'001);
+  CHECK(parts.share_read() == 1);
+  CsvReader endless(PlainFile(scratch.write("long.csv", std::string(2'000'000, 'x'))), ",");
+  CHECK(message_of([&] { endless.next(); }).find("has a line of more than") != std::string::npos);
 }

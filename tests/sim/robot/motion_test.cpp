@@ -374,5 +374,27 @@ TEST_CASE("motion: an axis that is held stands at the middle of its way, and the
   }
 }
 
+TEST_CASE("motion: rows of a recording are a spline at rest where two rows are equal") {
+  const auto row = [](double angle, double seconds) {
+    pipeline::MotionStep step = move_to({angle});
+    if (seconds > 0) step.duration = seconds;
+    return step;
+  };
+  // t^2 (3 - 2 t) at its times, 2 s at rest, and back in 1 s.
+  pipeline::Motion motion = motion_of({row(0, 0), row(0.104, 0.2), row(0.784, 0.5), row(1, 0.3), row(1, 2), row(0, 1)});
+  motion.rows = pipeline::RecordedRows::spline;
+  const JointMotion joint(motion, robot_with({0.1}, {0.1}));  // limits do not apply
+  CHECK(joint.duration() == Approx(4).epsilon(rounding));
+  for (double t = 0; t < 1; t += 0.03) {
+    CHECK(joint.position(t)[0] == Approx(t * t * (3 - 2 * t)).margin(rounding));
+    CHECK(joint.velocity(t)[0] == Approx(6 * t * (1 - t)).margin(rounding));
+    CHECK(joint.acceleration(t)[0] == Approx(6 - 12 * t).margin(100 * rounding));
+    CHECK(joint.position(3 + t)[0] == Approx(1 - t * t * (3 - 2 * t)).margin(rounding));
+  }
+  CHECK(joint.position(2)[0] == 1);
+  motion.steps.insert(motion.steps.begin() + 1, dwell(1));
+  CHECK_THROWS_WITH(JointMotion(motion, robot_with({2}, {4})), Catch::Contains("is no joint move with a duration"));
+}
+
 }  // namespace
 }  // namespace dresslife::sim

@@ -50,4 +50,15 @@ TEST_CASE("spline: a spline's error falls with the fourth power of the step") {
   CHECK(order < 4.5);
 }
 
+TEST_CASE("spline: at rest at both ends it goes through a cubic that is") {
+  const auto cubic = [](double t) { return t * t * (3 - 2 * t); };
+  const std::vector<double> times{0, 0.2, 0.3, 0.7, 1};
+  Eigen::MatrixXd values(1, 5);
+  for (int k = 0; k < 5; ++k) values(0, k) = cubic(times[static_cast<std::size_t>(k)]);
+  const CubicSpline spline(times, values, SplineEnds::at_rest);
+  for (double t = 0; t <= 1; t += 0.03) CHECK(spline.at(t)[0] == Approx(cubic(t)).margin(rounding));
+  CHECK(spline.slope(0)[0] == Approx(0).margin(rounding));
+  CHECK(spline.slope(2)[0] == Approx(6 * 0.3 * 0.7).margin(rounding));
+}
+
 }  // namespace dresslife::sim

@@ -1,0 +1,315 @@
+#include "sim/recording/log_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "pipeline/base/csv_rows.h"
+#include "sim/program/axis_names.h"
+#include "sim/recording/log_columns.h"
+#include "sim/recording/log_time.h"
+#include "sim/robot/robot.h"
+
+namespace dresslife::sim {
+namespace {
+
+using pipeline::CsvCell;
+using pipeline::CsvRow;
+using pipeline::InputError;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double short_stand = 0.5;  // [s] stands shorter than this keep their rows
+constexpr double start =
+    0.05;  // [s] at the end of a stand, whose rows are of the motion: a slow start is no jump
+constexpr double coarsest_clock = 1;              // [s] of logs with times of day
+constexpr double most_faults = 0.01;              // of the rows: more are another kind of file
+constexpr std::size_t few_faults = 10;            // that a short log may have, too
+constexpr std::size_t most_rows = 30'000'000;     // that move: 1.8 GB of six axes
+constexpr std::size_t rows_of_interval = 20'000;  // whose median is the log's
+
+/// Errors: InputError for files that other programs convert.
+void refuse_other_kinds(const std::filesystem::path& file, const std::string& begin) {
+  const std::string ending = file.extension().string();
+  const auto refuse = [&](const char* what, const char* remedy) {
+    throw InputError({file.string()}, what, remedy);
+  };
+  if (ending == ".bag" || begin.starts_with("#ROSBAG"))
+    refuse("is a ROS bag", "convert it: rostopic echo -b FILE.bag -p /joint_states > log.csv");
+  if (ending == ".db3" || ending == ".mcap")
+    refuse(
+        "is a ROS 2 bag",
+        "convert it: open it in PlotJuggler and export the positions of the joints as CSV, or play it with ros2 bag play and "
+        "record /joint_states as CSV with a line of names");
+  if (begin.find("#BEGINGLOBALHEADER") != begin.npos)
+    refuse("is a KUKA trace in DIAdem format, with its numbers in a binary file",
+           "convert it to CSV: github.com/xikuibin/KukaTraceHelper, or open it in DIAdem");
+  if (begin.starts_with("PK")) refuse("is a workbook or an archive", "export the table as CSV");
+  if (begin.starts_with("\xFF\xFE") || begin.starts_with("\xFE\xFF"))
+    refuse("is a text in UTF-16", "export it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE > log.csv");
+  if (begin.find('\0') != begin.npos) refuse("is no text", "export the log as CSV");
+}
+
+/// Makes rows with increasing times, without standstill.
+class Rows {
+ public:
+  Rows(Recording& made, const std::filesystem::path& file, double still)
+      : made_(made), file_(file), still_(still) {}
+
+  void add(double stamp, std::vector<double> angles, std::uint32_t line) {
+    ++made_.rows;
+    if (same_.empty()) begin_ = last_stamp_ = stamp;
+    if (stamp == last_stamp_ && !same_.empty()) {
+      ++made_.same_stamp;
+      if (angles == same_.back().angles) return;
+    } else if (!same_.empty()) {
+      const double step = stamp - last_stamp_;
+      if (step < 0) {
+        ++made_.back;
+        begin_ += step - made_interval();
+      } else if (intervals_.size() < rows_of_interval) {
+        intervals_.push_back(step / static_cast<double>(same_.size()));
+      }
+      spread(step < 0 ? made_interval() : step);
+      last_stamp_ = stamp;
+    }
+    same_.push_back({stamp - begin_, std::move(angles), line});
+  }
+
+  void finish() {
+    spread(made_interval());
+    end_stand();
+    made_.interval = made_interval();
+  }
+
+ private:
+  struct Row {
+    double time;
+    std::vector<double> angles;
+    std::uint32_t line;
+  };
+
+  double made_interval() {
+    if (intervals_.empty()) return 1;
+    const auto middle = intervals_.begin() + static_cast<long>(intervals_.size() / 2);
+    std::nth_element(intervals_.begin(), middle, intervals_.end());
+    return *middle;
+  }
+
+  /// Rows of one stamp, until the next one.
+  void spread(double step) {
+    const double share =
+        std::min(step, coarsest_clock) / static_cast<double>(std::max<std::size_t>(1, same_.size()));
+    for (std::size_t k = 0; k < same_.size(); ++k) {
+      same_[k].time += static_cast<double>(k) * share;
+      settle(std::move(same_[k]));
+    }
+    same_.clear();
+  }
+
+  void settle(Row row) {
+    if (!stand_.empty()) {
+      bool moves = false;
+      for (std::size_t i = 0; i < row.angles.size(); ++i)
+        moves |= std::abs(row.angles[i] - stand_.front().angles[i]) > still_;
+      if (moves) end_stand();
+    }
+    is_long_ |= !stand_.empty() && row.time - stand_.front().time >= short_stand;
+    while (is_long_ && stand_.size() > 1 && stand_[1].time < row.time - start)
+      stand_.erase(stand_.begin() + 1);
+    stand_.push_back(std::move(row));
+  }
+
+  void end_stand() {
+    if (is_long_) stand_[1].angles = stand_.front().angles;
+    for (const Row& row : stand_) push(row);
+    stand_.clear();
+    is_long_ = false;
+  }
+
+  void push(const Row& row) {
+    if (made_.size() == most_rows)
+      throw InputError({file_.string(), static_cast<int>(row.line), 1},
+                       fmt::format("the log has more than {} rows that move", most_rows), "split the log");
+    made_.times.push_back(row.time);
+    made_.angles.insert(made_.angles.end(), row.angles.begin(), row.angles.end());
+    made_.lines.push_back(row.line);
+  }
+
+  Recording& made_;
+  const std::filesystem::path& file_;
+  double still_;
+  double begin_ = 0, last_stamp_ = 0;
+  std::vector<Row> same_;   // of one stamp
+  std::vector<Row> stand_;  // near the first of them; of a long stand the first and the last ones
+  bool is_long_ = false;
+  std::vector<double> intervals_;
+};
+
+/// One pass through the file.
+class Pass {
+ public:
+  Pass(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options)
+      : file_(file), robot_(robot), options_(options), log_(pipeline::PlainFile(file), ";\t,| ") {
+    titles_ = log_.next();
+    if (titles_.empty())
+      throw InputError({file.string(), 1, 1}, "the log is empty",
+                       "name a CSV file with a line of names, then one row per time");
+    columns_ = log_columns(log_, titles_, robot.axes(), options.joints);
+    if (!columns_.time && options.rate == 0)
+      throw InputError(log_.where(titles_.front()), "the log has no column of times (time, timestamp, t, ..)",
+                       "name it 'time', or give --value rate_Hz=10 with the rows per second");
+  }
+
+  std::optional<double> radians() const {
+    if (options_.unit == "deg") return degree;
+    if (options_.unit == "rad") return 1;
+    return columns_.radians;
+  }
+
+  /// Every row: the function takes time [s], angles as written, and line.
+  template <class Take>
+  void run(const std::function<void(double)>& progress, const Take& take) {
+    LogTime clock(columns_.seconds);
+    for (CsvRow row = log_.next(); !row.empty(); row = log_.next()) {
+      ++rows_;
+      if (progress && rows_ % 10'000 == 0) progress(log_.share_read());
+      while (row.size() > titles_.size() && row.back().text.empty()) row.pop_back();
+      if (row.size() == titles_.size() && row.front().text == titles_.front().text &&
+          row.back().text == titles_.back().text)
+        continue;
+      if (row.size() == titles_.size()) order_by_names(row);
+      const auto time = time_of(row, clock);
+      std::vector<double> angles;
+      for (const std::size_t column : columns_.axes)
+        if (const auto angle = row.size() == titles_.size() ? number(row[column].text) : std::nullopt)
+          angles.push_back(*angle);
+      if (!time || angles.size() != columns_.axes.size()) {
+        leave_out(row, time.has_value());
+        continue;
+      }
+      take(*time, std::move(angles), static_cast<std::uint32_t>(log_.line()));
+    }
+    check_faults();
+  }
+
+  std::size_t left_out = 0;
+  int first_left_out = 0;
+
+ private:
+  std::optional<double> number(std::string text) const {
+    if (log_.separator() != ',')
+      if (const std::size_t comma = text.find(','); comma != text.npos) text[comma] = '.';
+    const auto value = pipeline::number_in(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+  }
+
+  std::optional<double> time_of(const CsvRow& row, LogTime& clock) const {
+    if (options_.rate > 0) return static_cast<double>(rows_ - 1) / options_.rate;
+    if (row.size() != titles_.size()) return {};
+    std::string text = row[*columns_.time].text;
+    if (columns_.date) text = row[*columns_.date].text + ' ' + text;
+    if (text.find(':') == text.npos) {
+      const auto value = number(text);
+      return value ? clock.read(fmt::format("{:.17g}", *value)) : std::nullopt;
+    }
+    return clock.read(text);
+  }
+
+  /// The first row says which joint each column belongs to.
+  void order_by_names(const CsvRow& row) {
+    if (columns_.names.empty()) return;
+    std::vector<std::string> names;
+    for (const std::size_t column : columns_.names) names.push_back(row[column].text);
+    const auto order = order_of_axes(names, "");
+    if (!order)
+      throw InputError(
+          log_.where(row[columns_.names.front()]),
+          "the names of the joints do not tell their order on the robot",
+          "give --value joints=NAME,NAME,.. with the columns of the positions in the order of the robot's axes");
+    std::vector<std::size_t> axes;
+    for (const std::size_t k : *order) axes.push_back(columns_.axes[k]);
+    columns_.axes = axes;
+    columns_.names.clear();
+  }
+
+  void leave_out(const CsvRow& row, bool has_time) {
+    if (left_out++ > 0) return;
+    first_left_out = row.front().line;
+    first_fault_ =
+        row.size() != titles_.size()
+            ? fmt::format("has {} cells (there are {} names)", row.size(), titles_.size())
+            : fmt::format("has no {}", has_time ? "number for every axis" : "time stamp that can be read");
+    if (log_.separator() == ',' && row.size() > titles_.size())
+      first_fault_ += "; decimal commas need another separator";
+  }
+
+  void check_faults() const {
+    const pipeline::Where where{file_.string(), first_left_out, 1};
+    if (rows_ == 0)
+      throw InputError({file_.string(), 1, 1}, "the log has no rows", "name a log with one row per time");
+    if (left_out > few_faults && static_cast<double>(left_out) > most_faults * static_cast<double>(rows_))
+      throw InputError(
+          where, fmt::format("{} of {} rows cannot be read; the first one {}", left_out, rows_, first_fault_),
+          "export the log with one number per axis and a time stamp in every row");
+    if (left_out == rows_)
+      throw InputError(where, "no row can be read; the first one " + first_fault_, "mend the rows");
+  }
+
+  const std::filesystem::path& file_;
+  const pipeline::Robot& robot_;
+  const LogOptions& options_;
+  pipeline::CsvReader log_;
+  CsvRow titles_;
+  LogColumns columns_;
+  std::size_t rows_ = 0;
+  std::string first_fault_;
+};
+
+/// Factor to rad of a log that does not say its unit: of angles too large for rad.
+double unit_by_size(const std::filesystem::path& file, const pipeline::Robot& robot,
+                    const LogOptions& options) {
+  constexpr double widest = 4 * std::numbers::pi;  // two turns either way
+  double largest = 0;
+  Pass(file, robot, options).run({}, [&](double, const std::vector<double>& angles, std::uint32_t) {
+    for (const double angle : angles) largest = std::max(largest, std::abs(angle));
+  });
+  if (largest > widest) return degree;
+  throw InputError({file.string(), 1, 1},
+                   "the log gives angles without a unit (none is too large for radians)",
+                   "give --value unit=deg or --value unit=rad");
+}
+
+}  // namespace
+
+Recording read_log(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options,
+                   const std::function<void(double)>& progress) {
+  refuse_other_kinds(file, pipeline::beginning_of(file, 4096));
+  Pass pass(file, robot, options);
+  const auto known = pass.radians();
+  const double unit = known ? *known : unit_by_size(file, robot, options);
+  Recording made;
+  made.axes = robot.axes();
+  Rows rows(made, file, options.still);
+  pass.run(progress, [&](double time, std::vector<double> angles, std::uint32_t line) {
+    for (double& angle : angles) angle *= unit;
+    if (const auto fault = limit_fault(robot, angles, "the row"))
+      throw InputError(
+          {file.string(), static_cast<int>(line), 1}, fault->what,
+          "check the unit (--value unit=deg), the order of the columns (--value joints=NAME,NAME,..) and the robot of the job");
+    rows.add(time, std::move(angles), line);
+  });
+  rows.finish();
+  made.left_out = pass.left_out;
+  made.first_left_out = pass.first_left_out;
+  if (made.back > few_faults && static_cast<double>(made.back) > most_faults * static_cast<double>(made.rows))
+    throw InputError(
+        {file.string()},
+        fmt::format("{} of {} rows have an earlier time than the row before", made.back, made.rows),
+        "sort the rows by time");
+  return made;
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,50 @@
+// A log of joint angles as it is exported: a text of rows with a separator, of any length and rate.
+//
+// Separator: the first of ; tab , | blank that the line of names has. Decimal commas are read unless the separator is a comma.
+// Rows with a missing number, and names that stand again between the rows, are left out and counted. Rows of one stamp: equal ones
+// count once, others are spread evenly until the next stamp (a clock of whole seconds). Stamps that go back begin anew.
+//
+// Standstill costs nothing: rows that stay within `still` of the first of them for half a second become two equal rows.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/job/robot.h"
+
+namespace dresslife::sim {
+
+struct LogOptions {
+  std::string joints{};  ///< names of columns, separated by commas; empty: log_columns.h
+  std::string unit{};    ///< deg or rad; empty: the names say, or angles too large for rad
+  double rate = 0;       ///< of a log without times [1/s]; 0: it has times
+  double still = 0;      ///< no larger motion is noise [rad]
+};
+
+/// Rows of a log, those of a standstill left out.
+struct Recording {
+  std::size_t axes = 0;
+  std::vector<double> times;         ///< (row) [s], increasing, from 0
+  std::vector<double> angles;        ///< (row, axis) [rad]
+  std::vector<std::uint32_t> lines;  ///< (row) of the file
+  double interval = 0;               ///< median between rows as recorded [s]
+  std::size_t rows = 0;              ///< as recorded
+  std::size_t left_out = 0;          ///< without all numbers
+  std::size_t same_stamp = 0;        ///< with the stamp of the row before
+  std::size_t back = 0;              ///< whose stamp lies before that of the row before
+  int first_left_out = 0;            ///< line
+
+  std::size_t size() const { return times.size(); }
+  const double* at(std::size_t row) const { return &angles[row * axes]; }
+};
+
+/// progress: called with the share that is read. Errors: InputError: another kind of file (it names a converter), names of columns,
+/// angles without a unit, times that are none, a row outside the robot's limits, more than a hundredth of the rows without
+/// numbers or back in time.
+Recording read_log(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options,
+                   const std::function<void(double)>& progress = {});
+
+}  // namespace dresslife::sim

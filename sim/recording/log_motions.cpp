@@ -1,0 +1,231 @@
+#include "sim/recording/log_motions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dresslife::sim {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double near_knots = 1e-3;                     // [s] closer ones would make a spline steep
+constexpr double ramp = 0.3;                            // [s] of motion that a robot needs to start or stop
+constexpr double slow = std::numbers::pi / 180;         // [rad/s] needs no ramp
+constexpr double settling = 1;                          // [s]
+constexpr double long_rest = 600, longest_rest = 1200;  // [s]
+constexpr std::size_t most_rows = 50'000;               // half of what a motion may have
+constexpr double damage_exponent = 5;
+
+struct Rows {
+  std::vector<double> times;
+  std::vector<VectorXd> values;
+
+  std::size_t count() const { return times.size(); }
+  void add(double time, VectorXd value) {
+    times.push_back(time);
+    values.push_back(std::move(value));
+  }
+  double speed(std::size_t k) const {
+    const std::size_t a = k > 0 ? k - 1 : 0, b = std::min(k + 1, count() - 1);
+    return (values[b] - values[a]).lpNorm<Eigen::Infinity>() / (times[b] - times[a]);
+  }
+};
+
+Rows rows_between(const Course& course, double begin, double end) {
+  Rows rows;
+  rows.add(0, course.at(begin));
+  const std::vector<double>& knots = course.knots();
+  auto at = std::upper_bound(knots.begin(), knots.end(), begin + near_knots);
+  for (; at != knots.end() && *at < end - near_knots; ++at)
+    rows.add(*at - begin, course.knot(static_cast<std::size_t>(at - knots.begin())));
+  rows.add(end - begin, course.at(end));
+  return rows;
+}
+
+/// Sum of the fifth powers of successive ranges of each axis.
+double damage_of(const Rows& rows, double bound) {
+  double sum = 0;
+  for (long axis = 0; axis < rows.values.front().size(); ++axis) {
+    double turn = rows.values.front()[axis], extreme = turn;
+    for (const VectorXd& row : rows.values) {
+      const double value = row[axis];
+      if ((extreme - turn) * (value - extreme) >= 0) {
+        extreme = value;
+      } else if (std::abs(value - extreme) > bound) {
+        sum += std::pow(std::abs(extreme - turn), damage_exponent);
+        turn = extreme, extreme = value;
+      }
+    }
+    sum += std::pow(std::abs(extreme - turn), damage_exponent);
+  }
+  return sum;
+}
+
+/// Slower near the ends, so that the speed there is 0: t' = 2 sqrt(P t) until t = P.
+void add_ramps(Rows& rows, bool begins_at_rest) {
+  const double length = rows.times.back(), part = std::min(ramp, length / 3);
+  const auto delay = [&](double t) { return t < part ? 2 * std::sqrt(part * t) - t : part; };  // t' - t
+  const bool at_begin = !begins_at_rest && rows.speed(0) > slow, at_end = rows.speed(rows.count() - 1) > slow;
+  for (double& t : rows.times) {
+    const double from_end = length - t;
+    t += (at_begin ? delay(t) : 0) + (at_end ? part - delay(from_end) : 0);
+  }
+}
+
+void close(Rows& rows) {
+  std::vector<double> moved{0};
+  for (std::size_t k = 1; k < rows.count(); ++k)
+    moved.push_back(moved.back() +
+                    (rows.values[k] == rows.values[k - 1] ? 0 : rows.times[k] - rows.times[k - 1]));
+  const VectorXd off = rows.values.back() - rows.values.front();
+  for (std::size_t k = 0; k < rows.count(); ++k) rows.values[k] -= moved[k] / moved.back() * off;
+  rows.values.back() = rows.values.front();
+}
+
+/// Of a closed motion: it begins at another row.
+Rows turned(const Rows& rows, std::size_t begin) {
+  Rows made;
+  const double length = rows.times.back(), start = rows.times[begin];
+  for (std::size_t k = begin; k < rows.count(); ++k) made.add(rows.times[k] - start, rows.values[k]);
+  for (std::size_t k = 1; k <= begin; ++k) made.add(rows.times[k] + length - start, rows.values[k]);
+  return made;
+}
+
+std::size_t best_begin(const Rows& rows) {
+  std::size_t best = 0;
+  double longest = 0, slowest = INFINITY;
+  for (std::size_t k = 1; k + 1 < rows.count(); ++k) {
+    const double stand = rows.values[k] == rows.values[k - 1] ? rows.times[k] - rows.times[k - 1] : 0;
+    if (stand > longest) longest = stand, best = k;
+    if (longest == 0 && rows.speed(k) < slowest) slowest = rows.speed(k), best = k;
+  }
+  return best;
+}
+
+LogMotion cycle_of(const Course& course, const Cycles& cycles, std::size_t cycle, double bound) {
+  LogMotion made;
+  made.name = fmt::format("cycle_{}", cycle + 1);
+  made.count = 0;
+  std::vector<std::pair<double, std::size_t>> damages;
+  double sum = 0, seconds = 0;
+  for (std::size_t k = 0; k < cycles.parts.size(); ++k) {
+    const CyclePart& part = cycles.parts[k];
+    if (part.cycle != cycle) continue;
+    ++made.count;
+    seconds += part.end - part.begin;
+    made.difference = std::max(made.difference, part.difference);
+    damages.emplace_back(damage_of(rows_between(course, part.begin, part.end), bound), k);
+    sum += damages.back().first;
+  }
+  const double mean = sum / static_cast<double>(made.count);
+  made.part = std::min_element(damages.begin(), damages.end(), [&](const auto& a, const auto& b) {
+                return std::abs(a.first - mean) < std::abs(b.first - mean);
+              })->second;
+  Rows rows = rows_between(course, cycles.parts[made.part].begin, cycles.parts[made.part].end);
+  close(rows);
+  rows = turned(rows, best_begin(rows));
+  const bool stands = rows.values.back() == rows.values[rows.count() - 2];  // between its end and its begin
+  if (stands) {  // waits differ: no longer than the mean
+    const double wait = rows.times.back() - rows.times[rows.count() - 2];
+    rows.times.back() -=
+        std::clamp(rows.times.back() - seconds / static_cast<double>(made.count), 0.0, 0.9 * wait);
+  }
+  add_ramps(rows, stands);
+  made.times = std::move(rows.times);
+  made.rows = std::move(rows.values);
+  return made;
+}
+
+/// Largest distance of a row from the first.
+double range_of(const Rows& rows) {
+  double range = 0;
+  for (const VectorXd& row : rows.values)
+    range = std::max(range, (row - rows.values.front()).lpNorm<Eigen::Infinity>());
+  return range;
+}
+
+/// The rest, from its begin on, as motions of limited length.
+class Rest {
+ public:
+  Rest(std::vector<LogMotion>& made, double bound) : made_(made), bound_(bound) {}
+
+  void add(const Rows& rows) {
+    if (range_of(rows) <= bound_) return;  // a stand between two cycles
+    if (rows_.count() == 0) rows_.add(0, rows.values.front());
+    const VectorXd off = rows_.values.back() - rows.values.front();
+    const double fade = std::min(settling, rows.times.back());
+    double begin = rows_.times.back();
+    for (std::size_t k = 1; k < rows.count(); ++k) {
+      const double s = std::min(1.0, rows.times[k] / fade);
+      rows_.add(begin + rows.times[k], rows.values[k] + (1 - s) * (1 - s) * (1 + 2 * s) * off);
+      const bool stands = rows_.values.back() == rows_.values[rows_.count() - 2];
+      if ((stands && rows_.times.back() > long_rest) || rows_.times.back() > longest_rest ||
+          rows_.count() >= most_rows) {
+        const VectorXd last = rows_.values.back();
+        finish();
+        begins_at_rest_ = stands;
+        rows_.add(0, last);
+        begin = -rows.times[k];
+      }
+    }
+  }
+
+  void finish() {
+    if (range_of(rows_) > bound_) {
+      add_ramps(rows_, begins_at_rest_);
+      LogMotion motion;
+      motion.name = fmt::format("rest_{}", ++count_);
+      motion.is_rest = true;
+      motion.times = std::move(rows_.times);
+      motion.rows = std::move(rows_.values);
+      made_.push_back(std::move(motion));
+    }
+    rows_ = {};
+    begins_at_rest_ = false;
+  }
+
+ private:
+  std::vector<LogMotion>& made_;
+  double bound_;
+  Rows rows_;
+  int count_ = 0;
+  bool begins_at_rest_ = false;
+};
+
+}  // namespace
+
+std::vector<LogMotion> motions_of(const Course& course, const Cycles& cycles, double bound) {
+  std::vector<LogMotion> made;
+  for (std::size_t cycle = 0; cycle < cycles.count; ++cycle)
+    made.push_back(cycle_of(course, cycles, cycle, bound));
+  Rest rest(made, bound);
+  double begin = 0;
+  const auto add = [&](double end) {
+    if (end - begin > 2 * near_knots) rest.add(rows_between(course, begin, end));
+  };
+  for (const CyclePart& part : cycles.parts) {
+    add(part.begin);
+    begin = part.end;
+  }
+  add(course.duration());
+  rest.finish();
+  return made;
+}
+
+std::string motion_csv(const LogMotion& motion) {
+  std::string text = "time_s";
+  for (long axis = 0; axis < motion.rows.front().size(); ++axis)
+    text += fmt::format(",axis_{}_deg", axis + 1);
+  text += '\n';
+  for (std::size_t k = 0; k < motion.rows.size(); ++k) {
+    text += fmt::format("{:.6f}", motion.times[k]);
+    for (const double angle : motion.rows[k]) text += fmt::format(",{:.5f}", angle * 180 / std::numbers::pi);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace dresslife::sim

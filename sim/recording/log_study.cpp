@@ -1,0 +1,103 @@
+#include "sim/recording/log_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+// The job irb6640_spot_welding with the motions of a log (sim/recording/README.md); other dresspacks differ by factors.
+constexpr double seconds_per_second =
+    0.2;  // of a core, for a second of motion; cycles are simulated until they repeat
+constexpr double megabytes_per_second = 0.4;
+constexpr double last_sample = 0.2;  // [s] by which a simulated motion may be longer: it ends with a sample
+
+std::string hours(double seconds) { return fmt::format("{:.3g} h", seconds / 3600); }
+
+/// Of all motions together, each once.
+double seconds_of(const std::vector<LogMotion>& motions) {
+  double seconds = 0;
+  for (const LogMotion& motion : motions) seconds += motion.duration();
+  return seconds;
+}
+
+}  // namespace
+
+std::string study_text(const std::string& name, const std::filesystem::path& base, const Recording& log,
+                       const std::vector<std::string>& mounting, const std::vector<LogMotion>& motions) {
+  std::string pose, poses;
+  for (std::size_t i = 0; i < log.axes; ++i)
+    pose += fmt::format("{}{:.3f}", i > 0 ? ", " : "", log.at(0)[i] * degrees);
+  for (const std::string& key : mounting) poses += fmt::format(", {}: [{}]", key, pose);
+  std::string text = fmt::format(
+      "# The motions of a log: cycles that repeat, and the rest.\nname: {}\nbase: {}\nkeep: histories\njobs:\n",
+      name, base.string());
+  for (const LogMotion& motion : motions)
+    text += fmt::format("  {0}: {{motion: {{program: {0}.csv, rows: spline}}{1}}}\n", motion.name, poses);
+  return text;
+}
+
+std::string duty_text(const std::string& name, const std::string& study, const Course& course,
+                      const std::vector<LogMotion>& motions) {
+  double seconds = 0;
+  for (const LogMotion& motion : motions)
+    seconds += static_cast<double>(motion.count) * (motion.duration() + last_sample);
+  seconds = std::max(seconds, course.log_seconds);
+  std::string text = fmt::format(
+      "# hours_per_week: of hours as in the log, with stands and without gaps ({}).\n"
+      "study: {}\nduties:\n  - name: {}\n    hours_per_week: 80\n    programs:\n",
+      hours(course.log_seconds), study, name);
+  for (const LogMotion& motion : motions)
+    text += fmt::format("      - {{job: {}, repeats_per_hour: {:.6g}}}\n", motion.name,
+                        static_cast<double>(motion.count) * 3600 / seconds);
+  return text;
+}
+
+std::vector<std::string> log_words(const Recording& log, const Course& course, const Cycles& cycles,
+                                   const std::vector<LogMotion>& motions) {
+  std::vector<std::string> lines{
+      fmt::format("{} rows, {:.3g} per second, {}; the robot stands still in {} of it", log.rows,
+                  1 / log.interval, hours(course.log_seconds), hours(course.stand_seconds))};
+  if (log.left_out > 0)
+    lines.push_back(fmt::format("{} rows left out, first line {}: numbers are missing", log.left_out,
+                                log.first_left_out));
+  if (log.same_stamp > 0)
+    lines.push_back(fmt::format("{} rows with the time of the row before: equal ones left out, others spread",
+                                log.same_stamp));
+  if (log.back > 0)
+    lines.push_back(
+        fmt::format("{} rows with an earlier time than the row before: time goes on from there", log.back));
+  if (course.gaps > 0)
+    lines.push_back(
+        fmt::format("{} gaps of {} together are not counted", course.gaps, hours(course.gap_seconds)));
+  lines.push_back(fmt::format("smoothed by at most {:.2g} deg", course.largest_smoothing * degrees));
+  for (const TooFast& fast : course.too_fast)
+    lines.push_back(fmt::format(
+        "warning: {} turns {:.4g} deg/s in line {} (its limit is {:.4g} deg/s, it is faster at {} moments): "
+        "check the times of the log and the robot of the job",
+        fast.axis, fast.speed * degrees, fast.line, fast.limit * degrees, fast.knots));
+  double rest = 0;
+  std::size_t rests = 0;
+  for (const LogMotion& motion : motions) {
+    if (motion.is_rest) {
+      rest += motion.duration();
+      ++rests;
+      continue;
+    }
+    lines.push_back(fmt::format("{}: {} times {:.3g} s, up to {:.2g} deg apart, as from line {}", motion.name,
+                                motion.count, motion.duration(), motion.difference * degrees,
+                                course.line(cycles.parts[motion.part].begin)));
+  }
+  lines.push_back(rests == 0 ? "no rest"
+                             : fmt::format("rest without repeats: {} motions, {}", rests, hours(rest)));
+  const double all = seconds_of(motions);
+  lines.push_back(fmt::format(
+      "estimate for the study with a dresspack like spot_welding: {:.2g} h of one core, {:.2g} GB",
+      all * seconds_per_second / 3600, all * megabytes_per_second / 1000));
+  return lines;
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,25 @@
+// Time stamps of logs, as seconds: numbers (s, ms, us or ns), dates with times of day, times of day alone.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace dresslife::sim {
+
+/// Dates: 2027-03-01, 2027/03/01, 01.03.2027, 01-03-2027, and 03/01/2027 with the month first. Times of day: 08:15:30.125 or
+/// with a comma, with Z or +01:00, or AM and PM. Between date and time: a blank or T.
+class LogTime {
+ public:
+  /// seconds: of a unit of numbers; absent: the size of the first number decides (unit_of_clock).
+  explicit LogTime(std::optional<double> seconds) : unit_(seconds) {}
+
+  /// Seconds from a fixed begin; a time of day before the last one by more than 12 h is of the next day. Absent: no time.
+  std::optional<double> read(std::string_view text);
+
+ private:
+  std::optional<double> unit_;
+  double days_ = 0;  ///< midnights since the first time of day, times 86,400 s
+  std::optional<double> last_of_day_;
+};
+
+}  // namespace dresslife::sim

@@ -1,0 +1,294 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "sim/recording/log_motions.h"
+#include "sim/recording/log_study.h"
+#include "sim/recording/log_time.h"
+#include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
+
+namespace dresslife::sim {
+namespace {
+
+using Catch::Contains;
+using pipeline::message_of;
+using pipeline::Scratch;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double bound = 0.1 * degree;
+
+pipeline::Robot two_axes() {
+  pipeline::Robot robot;
+  robot.name = "two axes";
+  robot.links.resize(3);
+  for (int k = 0; k < 2; ++k) {
+    pipeline::Joint& joint = robot.joints.emplace_back();
+    joint.name = "joint_" + std::to_string(k + 1);
+    joint.lower = -3, joint.upper = 3, joint.speed = 2, joint.acceleration = 10;
+  }
+  return robot;
+}
+
+Recording read(const std::string& text, LogOptions options = {.still = bound}) {
+  const Scratch scratch;
+  return read_log(scratch.write("log.csv", text), two_axes(), options);
+}
+
+/// A log in degrees: rows at a rate from time 0 on.
+class Writer {
+ public:
+  explicit Writer(double rate, double noise = 0) : rate_(rate), noise_(noise) {}
+  /// angles: of the time since this part began [deg].
+  template <class Angles>
+  void part(double seconds, const Angles& angles) {
+    std::uniform_real_distribution<double> any(-noise_, noise_);
+    for (; rows_ / rate_ < begin_ + seconds; ++rows_) {
+      const auto [a, b] = angles(rows_ / rate_ - begin_);
+      text_ += fmt::format("{:.6f},{:.6f},{:.6f}\n", rows_ / rate_, a + any(random_), b + any(random_));
+    }
+    begin_ += seconds;
+  }
+  void stand(double seconds) {
+    part(seconds, [](double) { return std::pair(0.0, 0.0); });
+  }
+  Recording recording() const { return read("time,j1_deg,j2_deg\n" + text_); }
+
+ private:
+  double rate_, noise_, begin_ = 0;
+  int rows_ = 0;
+  std::string text_;
+  std::mt19937 random_{7};
+};
+
+/// From 0 to 0 in `seconds`, at rest at both ends, with a round trip of axis 2 in the first half [deg].
+auto cycle(double seconds, double size = 1) {
+  return [seconds, size](double t) {
+    const double u = t / seconds, wave = (1 - std::cos(2 * std::numbers::pi * u)) / 2;
+    const double early = u < 0.5 ? (1 - std::cos(4 * std::numbers::pi * u)) / 2 : 0;
+    return std::pair(60 * size * wave, 30 * size * early);
+  };
+}
+
+}  // namespace
+
+TEST_CASE("log: time stamps of loggers and spreadsheets") {
+  const auto seconds_between = [](const std::string& a, const std::string& b) {
+    LogTime clock({});
+    const auto first = clock.read(a), second = clock.read(b);
+    return first && second ? *second - *first : NAN;
+  };
+  constexpr double rounding = 1e-6;  // of seconds since 1970 in a double
+  CHECK(seconds_between("2027-02-28T23:59:59.5", "2027-03-01T00:00:01") == Approx(1.5).margin(rounding));
+  CHECK(seconds_between("28.02.2027 23:59:59,5", "01.03.2027 00:00:01") == Approx(1.5).margin(rounding));
+  CHECK(seconds_between("02/28/2027 11:59:59 PM", "03/01/2027 12:00:01 AM") == Approx(2).margin(rounding));
+  CHECK(seconds_between("2027-03-01 08:00:00+01:00", "2027-03-01T07:00:00Z") == Approx(0).margin(rounding));
+  CHECK(seconds_between("23:59:59.9", "00:00:00.1") == Approx(0.2).margin(rounding));
+  CHECK(seconds_between("1804500000000", "1804500000250") == Approx(0.25).margin(rounding));
+  for (const char* wrong : {"", "soon", "2027-02-30 10:00:00", "2027-03-01", "10:61:00", "nan"})
+    CHECK_FALSE(LogTime({}).read(wrong));
+}
+
+TEST_CASE(
+    "log: semicolons, decimal commas, dates over midnight, a repeated stamp, a missing number, names again") {
+  const std::string names = "Datum;Zeit;Achse_1 [deg];Achse_2 [deg];Kraft\n";
+  const Recording log = read("\xEF\xBB\xBF" + names +
+                             "01.03.2027;23:59:59,8;0,0;0;7\n"
+                             "01.03.2027;23:59:59,9;2,5;0;7\n"
+                             "02.03.2027;00:00:00,0;5,0;-1,5;7\n"
+                             "02.03.2027;00:00:00,0;5,0;-1,5;7\n" +
+                             names +
+                             "02.03.2027;00:00:00,0;6,0;-2;7\n"
+                             "02.03.2027;00:00:00,1;7,5;;7\n"
+                             "02.03.2027;00:00:00,2;9,5;-3;7\n");
+  REQUIRE(log.size() == 5);
+  const double times[] = {0, 0.1, 0.2, 0.3, 0.4}, first[] = {0, 2.5, 5, 6, 9.5},
+               second[] = {0, 0, -1.5, -2, -3};
+  for (std::size_t k = 0; k < 5; ++k) {
+    CHECK(log.times[k] == Approx(times[k]).margin(1e-6));  // of seconds since 1970 in a double
+    CHECK(log.at(k)[0] == Approx(first[k] * degree).margin(1e-12));
+    CHECK(log.at(k)[1] == Approx(second[k] * degree).margin(1e-12));
+  }
+  CHECK(log.lines == std::vector<std::uint32_t>{2, 3, 4, 7, 9});
+  CHECK(log.rows == 6);
+  CHECK(log.same_stamp == 2);
+  CHECK(log.left_out == 1);
+  CHECK(log.first_left_out == 8);
+}
+
+TEST_CASE("log: columns of the measured angles among others, and what names no angles") {
+  const std::string both = "timestamp,target_q_0,target_q_1,actual_q_0,actual_q_1,actual_qd_0,actual_qd_1\n";
+  const Recording log = read(both + "0,9,9,0.5,-0.5,9,9\n0.1,9,9,0.6,-0.6,9,9\n");
+  CHECK(log.at(0)[0] == 0.5);  // of RTDE: rad
+  CHECK(log.at(1)[1] == -0.6);
+  const Recording swapped =
+      read("time,elbow,base\n0,100,-50\n1,101,-49\n", {.joints = "base,elbow", .still = bound});
+  CHECK(swapped.at(0)[0] == Approx(-50 * degree));
+  CHECK(read("J1,J2\n100,1\n101,1\n", {.rate = 4, .still = bound}).times[1] == 0.25);
+  CHECK_THAT(message_of([] { read("time,left1,left2,right1,right2\n0,1,2,3,4\n"); }),
+             Contains("several groups of 2 columns"));
+  CHECK_THAT(message_of([] { read("time,x,y,z\n0,1,2,3\n"); }), Contains("no 2 columns that are the angles"));
+  CHECK_THAT(message_of([] { read("J1,J2\n100,1\n"); }),
+             Contains("no column of times") && Contains("rate_Hz"));
+  CHECK_THAT(message_of([] { read("time,J1,J2\n0,1,2\n1,1.5,2\n"); }),
+             Contains("without a unit") && Contains("unit=deg"));
+  CHECK_THAT(message_of([] { read("0,1,2\n1,1,2\n"); }), Contains("begins with numbers"));
+  CHECK_THAT(message_of([] { read("time,J1_deg,J2_deg\n0,500,2\n"); }),
+             Contains("log.csv:2:1") && Contains("turns joint_1 to 500"));
+  CHECK_THAT(message_of([] { read("time,J1_deg,J2_deg\n0,1,5,2\n"); }),
+             Contains("decimal commas need another separator"));
+  CHECK_THAT(message_of([] { read("#ROSBAG V2.0\n"); }),
+             Contains("is a ROS bag") && Contains("rostopic echo"));
+  CHECK_THAT(message_of([] { read("PK\x03\x04"); }), Contains("workbook"));
+}
+
+TEST_CASE("log: a spline through exact samples gives back the curve") {
+  Writer writer(10);
+  writer.part(4, [](double t) { return std::pair(57 * (1 - std::cos(std::numbers::pi * t / 2)) / 2, 0.0); });
+  writer.stand(1);
+  const Course course(writer.recording(), two_axes(), bound);
+  // 5/384 h^4 of the largest fourth derivative, (pi/2)^4 57/2 deg/s^4; and the six digits of the log.
+  const double error = (5. / 384 * 1e-4 * std::pow(std::numbers::pi / 2, 4) * 28.5 + 2e-6) * degree;
+  for (double t = 0; t < 4; t += 0.013)
+    CHECK(course.at(t)[0] ==
+          Approx(57 * degree * (1 - std::cos(std::numbers::pi * t / 2)) / 2).margin(error));
+  CHECK(course.log_seconds == Approx(4.9).margin(1e-9));
+  CHECK(course.stand_seconds == Approx(0.9).margin(0.11));  // one interval to the last row that moves
+  CHECK(course.too_fast.empty());
+}
+
+TEST_CASE("log: noise of half the bound neither moves the robot nor leaves the bound") {
+  const double noise = 0.05;  // [deg]
+  Writer quiet(125), noisy(125, noise);
+  for (Writer* writer : {&quiet, &noisy}) {
+    writer->stand(2);
+    writer->part(4, cycle(4));
+    writer->stand(5);
+  }
+  const Recording exact = quiet.recording(), log = noisy.recording();
+  const Course course(log, two_axes(), bound), truth(exact, two_axes(), bound);
+  CHECK(course.largest_smoothing <= bound);
+  CHECK(course.largest_smoothing > 0);
+  for (std::size_t k = 0; k < log.size(); ++k)
+    CHECK(
+        (course.at(log.times[k]) - Eigen::Map<const Eigen::Vector2d>(log.at(k))).lpNorm<Eigen::Infinity>() <=
+        1.0001 * bound);
+  // Knots 0.05 s apart that alternate by all of the noise: 12 n/h^2. Rows as knots: 9,400 deg/s2.
+  const double limit = 12 * noise * degree / (0.05 * 0.05), h = 0.01;
+  double largest = 0;
+  for (double t = 2.2; t < 5.8; t += 0.01)
+    largest = std::max(largest, ((course.at(t - h) - 2 * course.at(t) + course.at(t + h)) -
+                                 (truth.at(t - h) - 2 * truth.at(t) + truth.at(t + h)))
+                                        .lpNorm<Eigen::Infinity>() /
+                                    (h * h));
+  CHECK(largest < limit);
+  CHECK(course.at(1) == course.at(0.2));                                   // stands
+  CHECK(course.stand_seconds == Approx(truth.stand_seconds).margin(0.4));  // slow starts within the bound
+}
+
+TEST_CASE("log: rows that are missing in a fine log leave a smooth course") {
+  std::string text = "time,j1_deg,j2_deg\n";
+  const auto angle = [](double t) { return 30 * (1 - std::cos(std::numbers::pi * t / 2)); };
+  for (int k = 0; k <= 500; ++k)
+    if (k < 100 || k > 130) text += fmt::format("{:.3f},{:.6f},0\n", 0.008 * k, angle(0.008 * k));
+  const Course course(read(text), two_axes(), bound);
+  CHECK(course.gaps == 0);
+  for (double t = 0; t < 4; t += 0.01)
+    CHECK(course.at(t)[0] / degree == Approx(angle(t)).margin(0.2));  // 0.25 s without a row
+}
+
+TEST_CASE("log: a gap with a move is no time, and a speed beyond the limit is named") {
+  std::string text = "time,j1_deg,j2_deg\n";
+  for (int k = 0; k <= 20; ++k) text += fmt::format("{:.1f},{},0\n", 0.1 * k, 2. * k);
+  for (int k = 0; k <= 20; ++k)
+    text += fmt::format("{:.1f},{},0\n", 600 + 0.1 * k, -40 + (k < 10 ? 0. : 25. * (k - 10) / 2));
+  const Course course(read(text), two_axes(), bound);
+  CHECK(course.gaps == 1);
+  CHECK(course.gap_seconds == Approx(598));
+  CHECK(course.log_seconds == Approx(4));
+  CHECK(course.duration() < 4 + 3 * (80 * degree / 2) + 1);  // a move at half the speed at most
+  REQUIRE(course.too_fast.size() == 1);                      // 125 deg/s with 115 allowed
+  CHECK(course.too_fast[0].axis == "joint_1");
+  CHECK(course.too_fast[0].speed > 125 * degree);
+  CHECK(course.too_fast[0].line > 32);
+}
+
+TEST_CASE("log: cycles are counted with other times and waits, and the rest is one motion") {
+  Writer writer(25, 0.02);
+  const double times[] = {8, 8.3, 7.8, 8.1, 7.7, 8, 8.2, 8.4, 7.9, 8.1, 8};
+  int count = 0;
+  for (const double seconds : times) {
+    writer.stand(1 + 0.7 * (count % 4));
+    writer.part(seconds, cycle(seconds));
+    if (++count == 7) {
+      writer.stand(1);
+      writer.part(9, [](double t) {
+        return std::pair(-20 * (1 - std::cos(2 * std::numbers::pi * t / 9)),
+                         8 * std::sin(2 * std::numbers::pi * t / 9));
+      });
+      writer.stand(100);
+    }
+  }
+  writer.stand(2);
+  const Course course(writer.recording(), two_axes(), bound);
+  const Cycles cycles = cycles_of(course, {degree, 0.1, 5});
+  CHECK(cycles.count == 1);
+  REQUIRE(cycles.parts.size() == 11);
+  for (const CyclePart& part : cycles.parts) CHECK(part.difference <= degree);
+  const std::vector<LogMotion> motions = motions_of(course, cycles, bound);
+  REQUIRE(motions.size() == 2);
+  CHECK(motions[0].count == 11);
+  CHECK(motions[0].rows.front() == motions[0].rows.back());
+  CHECK(motions[0].duration() > 7.5);
+  CHECK(motions[0].duration() < 8.5 + 3.2);  // with one wait
+  CHECK(motions[1].is_rest);
+  CHECK(motions[1].duration() == Approx(9).margin(5));  // stands count at most 3 s
+  double largest = 0;
+  for (const auto& row : motions[1].rows) largest = std::max(largest, -row[0]);
+  CHECK(largest / degree == Approx(40).margin(0.1));
+  // The shares of the log: count per hour.
+  CHECK_THAT(duty_text("shift", "shift/study.yaml", course, motions),
+             Contains(fmt::format("repeats_per_hour: {:.6g}", 11 * 3600 / course.log_seconds)));
+  LogMotion endless = motions[0];  // that leaves no time to stand
+  endless.times.back() = course.log_seconds / 10;
+  CHECK_THAT(duty_text("shift", "study.yaml", course, {endless}),
+             Contains(fmt::format("repeats_per_hour: {:.6g}", 3600 / (endless.duration() + 0.2))));
+}
+
+TEST_CASE("log: two products that differ by more than the bound are two cycles") {
+  Writer writer(25);
+  for (int k = 0; k < 12; ++k) {
+    writer.stand(1);
+    writer.part(8, cycle(8, k / 4 == 1 ? 0.9 : 1));
+  }
+  writer.stand(1);
+  const Course course(writer.recording(), two_axes(), bound);
+  const Cycles cycles = cycles_of(course, {degree, 0.1, 5});
+  CHECK(cycles.count == 2);
+  std::vector<std::size_t> found;
+  for (const CyclePart& part : cycles.parts) found.push_back(part.cycle);
+  CHECK(found == std::vector<std::size_t>{0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0});
+  // The mean of eight parts of 9 s, at most two of which lack their stand of 1 s; an interval of the log at either end. A cycle begins
+  // behind its stand: a ramp would add 0.3 s.
+  const double seconds = motions_of(course, cycles, bound)[0].duration();
+  CHECK(seconds > 9 - 2. / 8 - 0.08);
+  CHECK(seconds < 9 + 0.08);
+  CHECK(cycles_of(course, {7 * degree, 0.1, 5}).count == 1);  // they differ by 6 deg
+}
+
+TEST_CASE("log: cycles of one way are one within the warp of their times") {
+  Writer writer(25);
+  for (int k = 0; k < 8; ++k) {
+    writer.stand(1);
+    const double seconds = k < 4 ? 8 : 8 * 1.3;
+    writer.part(seconds, cycle(seconds));
+  }
+  writer.stand(1);
+  const Course course(writer.recording(), two_axes(), bound);
+  CHECK(cycles_of(course, {degree, 0.1, 5}).count == 2);
+  CHECK(cycles_of(course, {degree, 0.4, 5}).count == 1);
+}
+
+}  // namespace dresslife::sim
