@@ -210,7 +210,7 @@ TEST_CASE("a file system that cannot say what a path leads to changes no patch o
   REQUIRE(run(scratch, "dresslife-import", arguments).status == 0);
   const std::string right = content(scratch / "ways.h5");
   // Of the program and of its folder: these name the files of the patch.
-  for (const std::string path : {(scratch / "turn.mod").string(), std::string("dresslife-")})
+  for (const std::string& path : {(scratch / "turn.mod").string(), std::string("dresslife-")})
     for (const std::string call : {"look", "list"}) {
       const auto fail_at = [&](int at) {
         fs::remove(scratch / "ways.h5");

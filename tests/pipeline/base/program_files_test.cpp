@@ -15,10 +15,10 @@ TEST_CASE("program files: what each maker's controller sees beside a program, so
       "fanuc/prog/c.va fanuc/d.va fanuc/e.ls universal/a.script universal/b.script");
   for (std::string name; names >> name;) scratch.write(name, "");
   const auto beside = [&](const std::string& program) {
-    std::string names;
+    std::string found;
     for (const std::filesystem::path& file : program_files(scratch / program))
-      names += std::filesystem::weakly_canonical(file).lexically_relative(scratch / "").string() + " ";
-    return names;
+      found += std::filesystem::weakly_canonical(file).lexically_relative(scratch / "").string() + " ";
+    return found;
   };
   CHECK(beside("abb") == "abb/BACKINFO.TXT abb/a.MOD abb/list.pgf abb/sys/c.sysx ");
   CHECK(beside("abb/list.pgf") == beside("abb"));

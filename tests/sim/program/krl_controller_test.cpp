@@ -491,8 +491,9 @@ TEST_CASE("krl: what an undecided branch may set is asked for where a move needs
     REQUIRE(!r.problems.empty());
     const auto& questions = r.problems[0].questions;
     CHECK(std::any_of(questions.begin(), questions.end(), [](const Question& q) { return q.name == "$in[1]"; }));
-    CHECK(run(body, "", {}, {.language = Language::krl, .options = {.values = {{"$IN[1]", "FALSE"}}}}).problem() ==
-          "no such problem");
+    Reader answered{Language::krl};
+    answered.options.values = {{"$IN[1]", "FALSE"}};
+    CHECK(run(body, "", {}, answered).problem() == "no such problem");
   }
 }
 
