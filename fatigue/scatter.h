@@ -1,8 +1,8 @@
 // Scatter of life: when the first wires break, and when so many have broken that a conductor fails.
 //
 // Every wire's life is the life of its worst place by the curves, which are medians, times a lognormal factor
-// (F14): log10(life) = log10(median) + s z, z normal, one z per wire. A wire has broken by the time t with
-// the probability
+// (F14): log10(life) = log10(median) + s z, z normal, one z per wire. Probability that a wire has
+// broken by the time t:
 //     p(t) = Phi(log10(t / median) / s)
 // The probability that k of n wires have broken is the upper tail of the Poisson-binomial distribution of
 // their p (F15). Percentiles are found by bisection in log t. All lives are in repeats of the motion.
