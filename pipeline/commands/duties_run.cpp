@@ -23,6 +23,7 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   const StudyRequest request{study, options.sets, options.out, program_folder()};
   StudyState standing = expanded(request);
   check_programs(file, standing.study);
+  for (const Warning& warning : mounting_warnings(file, standing.study)) tell(shown(warning.line() + "\n"));
   const FolderLock lock(standing.places.folder);
   look_again(standing);
   make_rest(request, standing, options);

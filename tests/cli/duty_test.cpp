@@ -39,6 +39,26 @@ void write_study(const Scratch& scratch) {
 
 }  // namespace
 
+TEST_CASE("programs of a duty that start in different poses ask for the pose in which the hose is mounted") {
+  const Scratch scratch;
+  // Before the simulation, which refuses this length.
+  const auto warned = [&](const std::string& angle, const std::string& pose) {
+    const std::string home = "{joints_deg: [0, -10, 10, 0, 25, 0]}", away = "{joints_deg: [5, -10, 10, 0, 25, 0]}";
+    scratch.write("job.yaml", "robot: abb_irb6640_185_280\ndresspack: handling\nrouting:\n"
+                              "  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}\n"
+                              "  tool_clamp: {link: link_6, position_m: [0.144, 0, 0.174], direction: [1, 0, -0.45]}\n"
+                              "  free_length_m: 0.2\n" + pose + "motion: {steps: [" + home + ", " + away + "]}\n");
+    scratch.write("study.yaml", "base: job.yaml\njobs:\n  one: {}\n  other: {motion.steps: [{joints_deg: [0, -10, 10, 0, 25, " +
+                                    angle + "]}, " + away + "]}\n");
+    scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - name: d\n    programs: [{job: one, percent_of_time: 50}, "
+                                 "{job: other, percent_of_time: 50}]\n");
+    return run(scratch, "dresslife", "duty duties.yaml").err.find("routing.mounting_pose_deg: the joint angles") != std::string::npos;
+  };
+  CHECK_FALSE(warned("15", ""));
+  CHECK(warned("25", ""));
+  CHECK_FALSE(warned("25", "  mounting_pose_deg: [0, -10, 10, 0, 25, 0]\n"));
+}
+
 TEST_CASE("a duty of one program in all of the time has the life of its job, and so have two equal programs") {
   const Scratch scratch;
   write_study(scratch);

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "pipeline/base/readable.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
@@ -54,6 +56,32 @@ void check_same_dresspack(const Duty& duty, const Study& study) {
                          "a duty takes jobs that differ only in motion");
     }
   }
+}
+
+constexpr double turned = 20;  // [deg]: on a metre of hose a tenth of the twist that makers allow
+
+/// Where the robot starts; empty: a stage reads it from the program.
+std::vector<double> first_pose(const Job& job) {
+  return job.motion.steps.empty() ? std::vector<double>{} : job.motion.steps.front().joints;
+}
+
+bool starts_elsewhere(const Job& job, const Job& other) {
+  const std::vector<double> a = first_pose(job), b = first_pose(other);
+  if (a.empty() || a.size() != b.size()) return true;
+  for (std::size_t axis = 0; axis < a.size(); ++axis)
+    if (std::abs(a[axis] - b[axis]) > turned * std::numbers::pi / 180) return true;
+  return false;
+}
+
+/// The first program that starts elsewhere than the duty's first one; null: none, or the hose is mounted in one pose for all.
+const DutyProgram* mounted_elsewhere(const Duty& duty, const Study& study) {
+  const StudyJob& first = job_named(study, duty.programs.front());
+  if (!first.job || !first.job->motion.needs_robot() || first.job->dresspacks.empty() ||
+      !first.job->dresspacks.front().routing.mounting_pose.empty())
+    return nullptr;
+  for (const DutyProgram& program : duty.programs)
+    if (const StudyJob& job = job_named(study, program); job.job && starts_elsewhere(*first.job, *job.job)) return &program;
+  return nullptr;
 }
 
 /// Programs of all duties, each read once.
@@ -184,6 +212,20 @@ void check_programs(const DutyFile& file, const Study& study) {
       check_same_dresspack(duty, study);
     });
   problems.finish(file.where.file);
+}
+
+std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study) {
+  std::vector<Warning> warnings;
+  for (const Duty& duty : file.duties)
+    if (const DutyProgram* const other = mounted_elsewhere(duty, study))
+      warnings.push_back(warning_of(
+          WarningKind::twist, other->where.text(),
+          fmt::format("the hose is mounted without twist in the first pose of '{}' and again in that of '{}' (they differ by more than {:g} "
+                      "deg, or are not known before the run)",
+                      duty.programs.front().job, other->job, turned),
+          "the study has no routing.mounting_pose_deg",
+          "routing.mounting_pose_deg: the joint angles in which the clamps were closed, for all programs"));
+  return warnings;
 }
 
 std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingRow>& rows) {

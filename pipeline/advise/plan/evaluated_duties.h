@@ -55,6 +55,9 @@ std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std:
 /// Called before the study runs. Errors: InputError for a program that is no job of the study, and for programs on
 /// different dresspacks, routings or settings: their damage does not add up.
 void check_programs(const DutyFile& file, const Study& study);
+/// Duties whose programs start in different poses and whose study does not say in which the hose is mounted: each program's
+/// hose then has another twist. Precondition: check_programs().
+std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study);
 
 /// The rows of the programs that duties name.
 std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingRow>& rows);
