@@ -71,7 +71,7 @@ TEST_CASE("two robots, shipped study: the table of the README, and the hard prog
   auto rows = run_study(scratch, config + "studies/two_robots.yaml", "two_robots", &printed);
   REQUIRE(rows.size() == 4);
   const std::vector<std::string> table = table_of_readme();
-  REQUIRE(table.size() == 1 + rows.size());
+  REQUIRE(table.size() > rows.size());  // also the note of those with a *
   for (const std::string& line : table) {
     INFO(line << "\n" << printed);
     CHECK(printed.find(line + "\n") != std::string::npos);

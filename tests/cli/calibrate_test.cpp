@@ -26,7 +26,8 @@ const std::string wire_job =
 
 std::string row(const std::string& name, const std::string& more, const std::string& job = wire_job) {
   return "  - name: " + name + "\n    job: " + job +
-         "\n    what: pulled\n    source: made for the tests\n    criterion: first_wire\n" + more;
+         "\n    what: pulled\n    source: made for the tests\n" + (more.find("cycles:") == std::string::npos ? "" : "    criterion: first_wire\n") +
+         more;
 }
 
 /// The number after `key: ` in the entry of a parameter.

@@ -114,7 +114,8 @@ TEST_CASE("studies and jobs of the catalogue go by their names") {
   CHECK(unknown.err.find("two_robot: error: is no file, and ") == 0);
   CHECK(
       unknown.err.find(
-          "config holds no jobs/two_robot.yaml or studies/two_robot.yaml; write the path of a YAML file\n") !=
+          "config holds no jobs/two_robot.yaml or studies/two_robot.yaml; did you mean 'two_robots'? Else write the "
+          "path of a YAML file\n") !=
       std::string::npos);
 }
 

@@ -40,7 +40,7 @@ TEST_CASE("dresslife-sim refuses a job with one line that names the place") {
   };
   const Case cases[] = {
       {"free_length_m: 0.9", "free_length_mm: 900",
-       "job.yaml:20:3: error: unknown key 'routing.free_length_mm'; its unit is m, write 'free_length_m'"},
+       "job.yaml:20:3: error: unknown key 'routing.free_length_mm'; its unit is m, write 'free_length_m: 0.9'"},
       {"free_length_m: 0.9", "free_length_m: 0.9 m",
        "job.yaml:20:18: error: routing.free_length_m is '0.9 m' (must be a number"},
       {"free_length_m: 0.9", "free_length_m: .nan",

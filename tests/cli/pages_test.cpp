@@ -51,6 +51,7 @@ const std::map<std::string, std::string> instead{
      "dresslife new --robot abb_irb6640_185_280 --program door.mod --dresspack spot_welding job.yaml"},
     {"dresslife check job.yaml", "dresslife check job.yaml"},
     {"dresslife run cell.yaml", "dresslife run cell.yaml" + quick},
+    {"dresslife duty shift.yaml", "not run"},  // tests/cli/log_test
     {"dresslife duty shifts.yaml", "dresslife duty shifts.yaml" + quick},
     {"dresslife check JOB.yaml", "dresslife check irb6640_spot_welding"},
     {"dresslife preview JOB.yaml", "dresslife preview irb6640_spot_welding"},

@@ -45,7 +45,7 @@ TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
   CHECK(
       run_shell(scratch, "TMPDIR=nowhere '" DRESSLIFE_BIN_DIR "/dresslife' preview job.yaml").err ==
       "nowhere: error: takes no temporary folder (No such file or directory); make room there, or set TMPDIR to a folder "
-      "that may be written\n");
+      "that may be written, then run again\n");
 }
 
 TEST_CASE("preview opens a job that is refused where it is refused") {

@@ -166,7 +166,7 @@ TEST_CASE("no bit of a file can turn without a word") {
   CHECK(outcome.err ==
         "flipped.h5: error: is damaged or was edited (its bytes are not those of its checksum); make the "
         "file again "
-        "with dresslife-sim\n");
+        "with dresslife-sim, then run again\n");
   CHECK_FALSE(fs::exists(scratch / "out.h5"));
 }
 

@@ -18,6 +18,18 @@
 namespace dresslife::pipeline {
 namespace {
 
+/// The folder of a job whose simulation noted these lines of checks.
+std::filesystem::path job_with(const Scratch& scratch, const std::string& checks) {
+  const std::filesystem::path output = scratch.write("job/motion.h5", "what the receipt is of"), folder = output.parent_path();
+  const std::filesystem::path receipt = folder / files_of_stage(0).receipt;
+  std::filesystem::create_directories(receipt.parent_path());
+  Receipt made;
+  made.recipe = "recipe", made.input = "-", made.output = "output";
+  made.told = {{"checks", checks}};
+  write_receipt(receipt, made, output);
+  return folder;
+}
+
 const std::string found_routing =
     "base_clamp: {link: link_3, position_m: [0, 0, 0.4], direction: [1, 0, 0.4]}\n"
     "tool_clamp: {link: link_6, position_m: [0.1, 0, 0.2], direction: [1, 0, 0]}\nfree_length_m: 2.1\n";
@@ -114,17 +126,10 @@ TEST_CASE("a check counts as passed on the far side of its limit, and as kept on
   }();
   for (const auto& one : cases) {
     INFO(one.name << " " << one.value << " of " << one.limit);
-    Scratch scratch;
-    const std::filesystem::path output = scratch.write("job/motion.h5", "what the receipt is of"), folder = output.parent_path();
-    const std::filesystem::path receipt = folder / files_of_stage(0).receipt;
-    std::filesystem::create_directories(receipt.parent_path());
-    Receipt made;
-    made.recipe = "recipe", made.input = "-", made.output = "output";
-    made.told = {{"checks", fmt::format("{} {} {}\n", one.value, one.limit, one.name)}};
-    write_receipt(receipt, made, output);
+    const Scratch scratch;
     AskedLimits asked;
     asked.contact_force = 45;
-    const Outcome outcome = outcome_of(done, folder, asked);
+    const Outcome outcome = outcome_of(done, job_with(scratch, fmt::format("{} {} {}\n", one.value, one.limit, one.name)), asked);
     CHECK(outcome.failure == "");
     CHECK(outcome.violation() == Approx(one.beyond).margin(1e-8));  // a full stroke counts by 1e-9
   }
@@ -141,16 +146,18 @@ TEST_CASE("modes beside the wires have limits in hours, and a limit of what a jo
   row.job = "hard", row.planned_hours = {1, 2, 3}, row.not_evaluated = "abrasion, kinks";
   row.unvalidated = {mode(UnvalidatedMode::rating, 500, 2000), mode(UnvalidatedMode::rating, 8000, 9000),
                      mode(UnvalidatedMode::wall, UnvalidatedMode::unknown, 700)};
+  const Scratch scratch;
+  const std::filesystem::path folder = job_with(scratch, "");
   AskedLimits asked;
   asked.where = {"study.yaml", 7};
-  CHECK(outcome_of(row, "nowhere", asked).violation() == 0);
+  CHECK(outcome_of(row, folder, asked).violation() == 0);
   asked.rating = 1000, asked.wall = 1000;  // the first of several, of the wall the median
-  CHECK(outcome_of(row, "nowhere", asked).violation() == Approx(std::log(2.0) + std::log(1000 / 700.0)));
+  CHECK(outcome_of(row, folder, asked).violation() == Approx(std::log(2.0) + std::log(1000 / 700.0)));
   asked.rating = 500, asked.wall = 700;  // just kept
-  CHECK(outcome_of(row, "nowhere", asked).violation() == 0);
+  CHECK(outcome_of(row, folder, asked).violation() == 0);
   row.unvalidated[0].hours.fill(endless), row.unvalidated[1].hours.fill(endless);
   asked.rating = 1e5;
-  CHECK(outcome_of(row, "nowhere", asked).violation() == 0);
+  CHECK(outcome_of(row, folder, asked).violation() == 0);
   CHECK_NOTHROW(check_evaluated(asked, row));
   asked.abrasion = 1000;
   CHECK_THROWS_WITH(check_evaluated(asked, row),
