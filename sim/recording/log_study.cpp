@@ -15,7 +15,11 @@ constexpr double seconds_per_second =
 constexpr double megabytes_per_second = 0.4;
 constexpr double last_sample = 0.2;  // [s] by which a simulated motion may be longer: it ends with a sample
 
-std::string hours(double seconds) { return fmt::format("{:.3g} h", seconds / 3600); }
+std::string time_words(double seconds) {
+  constexpr double minute = 60, hour = 3600;
+  if (seconds < 2 * minute) return fmt::format("{:.3g} s", seconds);
+  return seconds < 2 * hour ? fmt::format("{:.3g} min", seconds / minute) : fmt::format("{:.3g} h", seconds / hour);
+}
 
 /// Of all motions together, each once.
 double seconds_of(const std::vector<LogMotion>& motions) {
@@ -49,7 +53,7 @@ std::string duty_text(const std::string& name, const std::string& study, const C
   std::string text = fmt::format(
       "# hours_per_week: of hours as in the log, with stands and without gaps ({}).\n"
       "study: {}\nduties:\n  - name: {}\n    hours_per_week: 80\n    programs:\n",
-      hours(course.log_seconds), study, name);
+      time_words(course.log_seconds), study, name);
   for (const LogMotion& motion : motions)
     text += fmt::format("      - {{job: {}, repeats_per_hour: {:.6g}}}\n", motion.name,
                         static_cast<double>(motion.count) * 3600 / seconds);
@@ -60,7 +64,7 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
                                    const std::vector<LogMotion>& motions) {
   std::vector<std::string> lines{
       fmt::format("{} rows, {:.3g} per second, {}; the robot stands still in {} of it", log.rows,
-                  1 / log.interval, hours(course.log_seconds), hours(course.stand_seconds))};
+                  1 / log.interval, time_words(course.log_seconds), time_words(course.stand_seconds))};
   if (log.left_out > 0)
     lines.push_back(fmt::format("{} rows left out, first line {}: numbers are missing", log.left_out,
                                 log.first_left_out));
@@ -72,7 +76,7 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
         fmt::format("{} rows with an earlier time than the row before: time goes on from there", log.back));
   if (course.gaps > 0)
     lines.push_back(
-        fmt::format("{} gaps of {} together are not counted", course.gaps, hours(course.gap_seconds)));
+        fmt::format("{} gaps of {} together are not counted", course.gaps, time_words(course.gap_seconds)));
   lines.push_back(fmt::format("smoothed by at most {:.2g} deg", course.largest_smoothing * degrees));
   for (const TooFast& fast : course.too_fast)
     lines.push_back(fmt::format(
@@ -92,11 +96,11 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
                                 course.line(cycles.parts[motion.part].begin)));
   }
   lines.push_back(rests == 0 ? "no rest"
-                             : fmt::format("rest without repeats: {} motions, {}", rests, hours(rest)));
+                             : fmt::format("rest without repeats: {} motion{}, {}", rests, rests == 1 ? "" : "s", time_words(rest)));
   const double all = seconds_of(motions);
   lines.push_back(fmt::format(
-      "estimate for the study with a dresspack like spot_welding: {:.2g} h of one core, {:.2g} GB",
-      all * seconds_per_second / 3600, all * megabytes_per_second / 1000));
+      "estimate for the study with a dresspack like spot_welding: {} of one core, {:.2g} MB",
+      time_words(all * seconds_per_second), all * megabytes_per_second));
   return lines;
 }
 
