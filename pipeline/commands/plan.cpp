@@ -45,8 +45,8 @@ std::vector<Warning> doubts_of(std::optional<double> risk_percent) {
       WarningKind::motion, "--risk",
       fmt::format("the risk is {:g} % (limit {:g} .. {:g})", *risk_percent, least, most),
       *risk_percent < least ? "a share instead of per cent" : "a dresspack is hardly ever replaced",
-      *risk_percent < least ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
-                            : "--risk 10")};
+      *risk_percent > 0 && *risk_percent < least ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
+                                                 : "--risk 10")};
 }
 
 /// Duties whose programs have warnings that spoil a plan.

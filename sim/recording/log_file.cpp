@@ -24,6 +24,8 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double short_stand = 0.5;  // [s] stands shorter than this keep their rows
 constexpr double start =
     0.05;  // [s] at the end of a stand, whose rows are of the motion: a slow start is no jump
+constexpr double shortest_pause = 10, pause_intervals = 100;  // [s], [1]: dwells of a process are shorter, loggers skip a few rows
+constexpr double longest_interval = 2;            // [s]: a move of a robot takes as long
 constexpr double coarsest_clock = 1;              // [s] of logs with times of day
 constexpr double most_faults = 0.01;              // of the rows: more are another kind of file
 constexpr std::size_t few_faults = 10;            // that a short log may have, too
@@ -67,11 +69,12 @@ class Rows {
     } else if (!same_.empty()) {
       const double step = stamp - last_stamp_;
       if (step < 0) {
-        ++made_.back;
+        if (++made_.back == 1) made_.first_back = static_cast<int>(line);
         begin_ += step - made_interval();
       } else if (intervals_.size() < rows_of_interval) {
         intervals_.push_back(step / static_cast<double>(same_.size()));
       }
+      if (step > shortest_pause && step > pause_intervals * made_interval()) note_pause(step, line);
       spread(step < 0 ? made_interval() : step);
       last_stamp_ = stamp;
     }
@@ -96,6 +99,14 @@ class Rows {
     const auto middle = intervals_.begin() + static_cast<long>(intervals_.size() / 2);
     std::nth_element(intervals_.begin(), middle, intervals_.end());
     return *middle;
+  }
+
+  void note_pause(double step, std::uint32_t line) {
+    ++made_.pauses;
+    made_.pause_seconds += step;
+    if (step <= made_.longest_pause) return;
+    made_.longest_pause = step;
+    made_.line_of_pause = static_cast<int>(line);
   }
 
   /// Rows of one stamp, until the next one.
@@ -304,6 +315,9 @@ Recording read_log(const std::filesystem::path& file, const pipeline::Robot& rob
   rows.finish();
   made.left_out = pass.left_out;
   made.first_left_out = pass.first_left_out;
+  if (made.interval > longest_interval)
+    throw InputError({file.string()}, fmt::format("has rows that are {:.3g} s apart (limit {:g} s), between which a robot moves", made.interval, longest_interval),
+                     "record more often; if its times are milliseconds, divide them by 1000");
   if (made.back > few_faults && static_cast<double>(made.back) > most_faults * static_cast<double>(made.rows))
     throw InputError(
         {file.string()},

@@ -36,13 +36,17 @@ struct Recording {
   std::size_t same_stamp = 0;        ///< with the stamp of the row before
   std::size_t back = 0;              ///< whose stamp lies before that of the row before
   int first_left_out = 0;            ///< line
+  int first_back = 0;                ///< line
+  int pauses = 0;                    ///< without rows, longer than a hundred intervals and 10 s
+  double pause_seconds = 0, longest_pause = 0;
+  int line_of_pause = 0;             ///< behind the longest one
 
   std::size_t size() const { return times.size(); }
   const double* at(std::size_t row) const { return &angles[row * axes]; }
 };
 
 /// progress: called with the share that is read. Errors: InputError: another kind of file (it names a converter), names of columns,
-/// angles without a unit, times that are none, a row outside the robot's limits, more than a hundredth of the rows without
+/// angles without a unit, times that are none or more than 2 s apart, a row outside the robot's limits, more than a hundredth of the rows without
 /// numbers or back in time.
 Recording read_log(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options,
                    const std::function<void(double)>& progress = {});

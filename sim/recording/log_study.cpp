@@ -73,7 +73,13 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
                                 log.same_stamp));
   if (log.back > 0)
     lines.push_back(
-        fmt::format("{} rows with an earlier time than the row before: time goes on from there", log.back));
+        fmt::format("{} rows with an earlier time than the row before, first line {}: time goes on from there", log.back,
+                    log.first_back));
+  if (log.pauses > 0)
+    lines.push_back(fmt::format(
+        "warning: {} pauses without rows, {} together, the longest {} before line {}: they count as standing where the robot keeps its "
+        "pose. If the logger was off or a time is wrong, the rates are too low: cut the log there",
+        log.pauses, time_words(log.pause_seconds), time_words(log.longest_pause), log.line_of_pause));
   if (course.gaps > 0)
     lines.push_back(
         fmt::format("{} gaps of {} together are not counted", course.gaps, time_words(course.gap_seconds)));

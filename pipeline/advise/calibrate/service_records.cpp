@@ -209,7 +209,8 @@ class Export {
       refuse(cells, reason, fmt::format("reason '{}' does not say whether the dresspack failed", why),
              "write failed, preventive or nothing (in use)");
     const bool is_date = day_from_export(written).has_value();
-    if (!is_date && end_in(written) != End::in_use)
+    const bool has_digit = written.find_first_of("0123456789") != std::string::npos;
+    if (!is_date && (has_digit || end_in(written) != End::in_use))
       refuse(cells, replaced, fmt::format("'{}' is no date", written),
              std::string(date_remedy) + " or 12.07.2027, or nothing while it is in use");
     row.to = is_date ? day(cells, replaced) : request_.today;

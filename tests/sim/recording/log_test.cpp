@@ -118,6 +118,20 @@ TEST_CASE(
   CHECK(log.first_left_out == 8);
 }
 
+TEST_CASE("log: a logger that was off, a wrong time and times in milliseconds are named") {
+  std::string text = "time,J1_deg,J2_deg\n";
+  for (int k = 0; k < 40; ++k)  // line k + 2; off for 500 s before line 22, one time wrong in line 32
+    text += std::to_string(k == 30 ? 100 : 0.1 * k + (k < 20 ? 0 : 500)) + "," + std::to_string(100 + k) + ",0\n";
+  const Recording log = read(text);
+  CHECK(log.back == 1);
+  CHECK(log.first_back == 32);
+  CHECK(log.pauses == 2);
+  CHECK(log.longest_pause == Approx(500).margin(1));
+  CHECK(log.line_of_pause == 22);
+  CHECK(log.pause_seconds == Approx(500 + 403).margin(1));
+  CHECK_THAT(message_of([] { read("time,J1_deg,J2_deg\n0,100,0\n100,101,0\n200,102,0\n"); }), Contains("milliseconds"));
+}
+
 TEST_CASE("log: columns of the measured angles among others, and what names no angles") {
   const std::string both = "timestamp,target_q_0,target_q_1,actual_q_0,actual_q_1,actual_qd_0,actual_qd_1\n";
   const Recording log = read(both + "0,9,9,0.5,-0.5,9,9\n0.1,9,9,0.6,-0.6,9,9\n");

@@ -105,6 +105,8 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
       {titles + "A,a,03/02/2024,,\n", "plant.csv:2:5: error: '03/02/2024' is no date", "YYYY-MM-DD"},
       {titles + "A,a,2024-02-30,,\n", "plant.csv:2:5: error: '2024-02-30' is no date", "YYYY-MM-DD"},
       {titles + "A,a,2027-02-03,,\n", "plant.csv:2:5: error: 2027-02-03 is after today", "--today"},
+      {titles + "A,a,2024-02-03,21/07/2025,preventive\n", "plant.csv:2:16: error: '21/07/2025' is no date", "YYYY-MM-DD"},
+      {titles + "A,a,2024-02-03,45859,\n", "plant.csv:2:16: error: '45859' is no date", "YYYY-MM-DD"},
       {titles + "A,a,2024-02-03,soon,\n", "plant.csv:2:16: error: 'soon' is no date",
        "nothing while it is in use"},
       {titles + "A,a,2024-02-03,2024-01-03,failed\n", "plant.csv:2:16: error: replaced on 2024-01-03, before",
