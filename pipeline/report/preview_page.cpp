@@ -96,10 +96,12 @@ std::string bend_words(const SpanPreview& span, bool bends) {
         "with {:.0f} mm "
         "(turn the clamps toward each other, or move them apart)",
         allowed, best->length, 1e3 * best->bend_radius);
+  const bool outside = span.length < first->length || span.length > last->length;
   return fmt::format(
-      "; at rest and without the robot {:.2f} .. {:.2f} m keep the bend radius of {:.0f} mm that is allowed (motion and contact bend "
-      "it more)",
-      first->length, last->length, allowed);
+      "; of the lengths that were tried at rest and without the robot, {} the bend radius of {:.0f} mm that is allowed (motion and "
+      "contact bend it more){}",
+      first == last ? fmt::format("{:.2f} m keeps", first->length) : fmt::format("{:.2f} .. {:.2f} m keep", first->length, last->length),
+      allowed, outside && !bends ? fmt::format("; {:.3f} m keeps it with the robot", span.length) : "");
 }
 
 std::string words(const SpanPreview& span, bool bends) {
