@@ -187,6 +187,8 @@ sim::LogOptions log_options(const Request& request) {
 void note_log(const Request& request, const pipeline::StageCall& call, pipeline::Progress& progress) {
   const std::string name = call.output.stem().string();
   const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
+  if (call.output.empty())
+    throw pipeline::InputError({"--log"}, "needs a file of duties to write", "name it: -o shift.yaml");
   if (call.output.extension() != ".yaml" || !std::all_of(name.begin(), name.end(), fits))
     throw pipeline::InputError({call.output.string()}, "is no name for a file of duties",
                                "name it with letters, digits, - and _: -o shift.yaml");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "pipeline/advise/plan/plan_words.h"
@@ -170,7 +171,7 @@ std::string years_table(const Fleet& fleet, const Plan& plan) {
     const YearOfPlan& year = plan.years[y];
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{:g} .. {:g}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
-        y + 1, printed(year.planned + year.unplanned, 2), year.low, year.high, printed(year.planned, 2), printed(year.unplanned, 2));
+        y + 1, printed(year.planned + year.unplanned, 2), std::floor(year.low), std::ceil(year.high), printed(year.planned, 2), printed(year.unplanned, 2));
   }
   std::string text =
       "<h3>Spare dresspacks</h3>\n<div class=\"wide\"><table>\n<thead><tr><th>year from today</th><th class=\"number\">expected</th>"

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/readable.h"
@@ -91,9 +92,10 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
   text += '\n';
   for (std::size_t y = 0; y < plan.years.size(); ++y) {
     const YearOfPlan& year = plan.years[y];
-    text += fmt::format("Year {} from today: {} spare dresspacks ({:g} .. {:g} in 90 of 100 plants): {} planned, {} after failures.\n",
-                        y + 1, readable(year.planned + year.unplanned, 2), year.low, year.high, readable(year.planned, 2),
-                        readable(year.unplanned, 2));
+    text += fmt::format("Year {} from today: {} spare dresspacks ({:g} .. {:g} in 90 of 100 plants): {} planned, {} after failures, "
+                        "also of their replacements.\n",
+                        y + 1, readable(year.planned + year.unplanned, 2), std::floor(year.low), std::ceil(year.high),
+                        readable(year.planned, 2), readable(year.unplanned, 2));
   }
   if (fleet.has_costs)
     text += fmt::format("Cost until {}: {} by this plan, {} if only failed dresspacks are replaced.\n", day_text(plan.end),
