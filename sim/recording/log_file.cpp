@@ -315,7 +315,10 @@ Recording read_log(const std::filesystem::path& file, const pipeline::Robot& rob
   rows.finish();
   made.left_out = pass.left_out;
   made.first_left_out = pass.first_left_out;
-  if (made.interval > longest_interval)
+  bool moves = false;
+  for (std::size_t k = made.axes; k < made.angles.size(); ++k)
+    moves |= std::abs(made.angles[k] - made.angles[k % made.axes]) > options.still;
+  if (moves && made.interval > longest_interval)
     throw InputError({file.string()}, fmt::format("has rows that are {:.3g} s apart (limit {:g} s), between which a robot moves", made.interval, longest_interval),
                      "record more often; if its times are milliseconds, divide them by 1000");
   if (made.back > few_faults && static_cast<double>(made.back) > most_faults * static_cast<double>(made.rows))
