@@ -1,14 +1,16 @@
 // The course of the axes in a log: smooth, without long stands, without gaps.
 //
-// Between two stands the course is a cubic spline (R5) at rest at both ends. A log with rows closer than 0.04 s is smoothed before:
-// knots every 0.05 s, the value of each from a parabola through the rows within 0.05 s of it (least squares). Where the course
-// is further than the bound from a row, knots are put at half the distance, twice; if this is not enough, the rows
-// themselves become knots. So noise of half the bound does not become acceleration, and no row is further from the course than the
-// bound. Rows of 0.04 s and more are knots: noise n there is an acceleration of about 12 n / (0.04 s)^2, 380 deg/s2 for 0.05 deg
-// and 60 deg/s2 at 10 Hz. Axes of robots reach 300 to 3,000 deg/s2.
+// Between two stands the course is a cubic spline (R5) at rest at both ends. A log with rows closer than 0.04 s is
+// smoothed before: knots every 0.05 s, the value of each from a parabola through the rows within 0.05 s of it (least
+// squares). Where the course is further than the bound from a row, knots are put at half the distance, twice; if this
+// is not enough, the rows themselves become knots. So noise of half the bound does not become acceleration, and no
+// row is further from the course than the bound. Rows of 0.04 s and more are knots: noise n there is an acceleration
+// of about 12 n / (0.04 s)^2, 380 deg/s2 for 0.05 deg and 60 deg/s2 at 10 Hz. Axes of robots reach 300 to 3,000
+// deg/s2.
 //
-// Stands count at most 3 s: by then the hose hangs still. A gap, longer than 5 intervals and 0.5 s, in which the robot got further than
-// in two intervals at full speed, becomes a move from rest to rest at most at half the axes' speeds; its time is not counted.
+// Stands count at most 3 s: by then the hose hangs still. A gap, longer than 5 intervals and 0.5 s, in which the
+// robot got further than in two intervals at full speed, becomes a move from rest to rest at most at half the axes'
+// speeds; its time is not counted.
 #pragma once
 
 #include <Eigen/Core>

@@ -83,7 +83,8 @@ class Places {
     std::sort(sorted_.begin(), sorted_.end());
   }
 
-  /// Later samples, from `from` on, at which the axes come nearest to those of sample k, in their order: one for each visit.
+  /// Later samples, from `from` on, at which the axes come nearest to those of sample k, in their order:
+  /// one for each visit.
   std::vector<std::size_t> visits(std::size_t k, std::size_t from, std::size_t most) const {
     std::vector<std::uint32_t> near;
     for (int a = -1; a <= 1; ++a)

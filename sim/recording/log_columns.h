@@ -1,10 +1,11 @@
 // Which columns of a log hold the time and the angles of the robot's axes.
 //
-// Columns whose names differ only in a number are a group: actual_q_0 .. actual_q_5, J1 .. J6, "Axis 1 [deg]". The angles are the
-// group with as many columns as the robot has axes whose words say most of measured positions: `actual` counts more than
-// `position`, and `target` or a word of another quantity less. Without such a group the names of a known arm count (axis_names.h).
-// Sources of names: Universal Robots' RTDE recorder (timestamp, actual_q_0, ..), rostopic echo -p (%time, field.name0,
-// field.position0, ..), loggers for ABB (timestamp, cmd_num, J1, ..) and for RTDE (pc_ts, q_0, qd_0, ..) in public repositories.
+// Columns whose names differ only in a number are a group: actual_q_0 .. actual_q_5, J1 .. J6, "Axis 1 [deg]". The
+// angles are the group with as many columns as the robot has axes whose words say most of measured positions:
+// `actual` counts more than `position`, and `target` or a word of another quantity less. Without such a group the
+// names of a known arm count (axis_names.h). Sources of names: Universal Robots' RTDE recorder (timestamp,
+// actual_q_0, ..), rostopic echo -p (%time, field.name0, field.position0, ..), loggers for ABB (timestamp, cmd_num,
+// J1, ..) and for RTDE (pc_ts, q_0, qd_0, ..) in public repositories.
 #pragma once
 
 #include <optional>

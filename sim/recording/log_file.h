@@ -1,8 +1,9 @@
 // A log of joint angles as it is exported: a text of rows with a separator, of any length and rate.
 //
-// Separator: the first of ; tab , | blank that the line of names has. Decimal commas are read unless the separator is a comma.
-// Rows with a missing number, and names that stand again between the rows, are left out and counted. Rows of one stamp: equal ones
-// count once, others are spread evenly until the next stamp (a clock of whole seconds). Stamps that go back begin anew.
+// Separator: the first of ; tab , | blank that the line of names has. Decimal commas are read unless the separator is
+// a comma. Rows with a missing number, and names that stand again between the rows, are left out and counted. Rows of
+// one stamp: equal ones count once, others are spread evenly until the next stamp (a clock of whole seconds). Stamps
+// that go back begin anew.
 //
 // Standstill costs nothing: rows that stay within `still` of the first of them for half a second become two equal rows.
 #pragma once
@@ -45,9 +46,9 @@ struct Recording {
   const double* at(std::size_t row) const { return &angles[row * axes]; }
 };
 
-/// progress: called with the share that is read. Errors: InputError: another kind of file (it names a converter), names of columns,
-/// angles without a unit, times that are none or more than 2 s apart, a row outside the robot's limits, more than a hundredth of the rows without
-/// numbers or back in time.
+/// progress: called with the share that is read. Errors: InputError: another kind of file (it names a converter),
+/// names of columns, angles without a unit, times that are none or more than 2 s apart, a row outside the robot's
+/// limits, more than a hundredth of the rows without numbers or back in time.
 Recording read_log(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options,
                    const std::function<void(double)>& progress = {});
 

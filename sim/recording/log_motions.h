@@ -1,4 +1,5 @@
-// The motions of a log: one per cycle that repeats, and the rest. Rows of joint angles with times, for motion.rows: spline.
+// The motions of a log: one per cycle that repeats, and the rest. Rows of joint angles with times, for
+// motion.rows: spline.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,12 +22,13 @@ struct LogMotion {
   double duration() const { return times.back(); }
 };
 
-/// A cycle is the part of those alike whose damage is nearest to their mean, by the sum of the fifth powers of the axes' successive
-/// ranges (the slope of strain-life curves of copper is near it). It is turned so that it begins behind its longest stand, else at
-/// its slowest moment, and closed: the difference of its ends, within the bound, is spread over its motion. Its longest stand is
-/// shortened if the cycle takes longer than the mean of those alike.
-/// The rest has the cycles taken out. Where they were, a difference of poses vanishes within 1 s. It is cut at stands after 10 min, or
-/// anywhere after 20 min or 50,000 rows. A motion that begins or ends in motion gets a ramp of 0.3 s.
+/// A cycle is the part of those alike whose damage is nearest to their mean, by the sum of the fifth powers of the
+/// axes' successive ranges (the slope of strain-life curves of copper is near it). It is turned so that it begins
+/// behind its longest stand, else at its slowest moment, and closed: the difference of its ends, within the bound, is
+/// spread over its motion. Its longest stand is shortened if the cycle takes longer than the mean of those alike. The
+/// rest has the cycles taken out. Where they were, a difference of poses vanishes within 1 s. It is cut at stands
+/// after 10 min, or anywhere after 20 min or 50,000 rows. A motion that begins or ends in motion gets a ramp
+/// of 0.3 s.
 std::vector<LogMotion> motions_of(const Course& course, const Cycles& cycles, double bound);
 
 /// A table with the columns time_s and axis_1_deg ..

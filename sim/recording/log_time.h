@@ -6,14 +6,15 @@
 
 namespace dresslife::sim {
 
-/// Dates: 2027-03-01, 2027/03/01, 01.03.2027, 01-03-2027, and 03/01/2027 with the month first. Times of day: 08:15:30.125 or
-/// with a comma, with Z or +01:00, or AM and PM. Between date and time: a blank or T.
+/// Dates: 2027-03-01, 2027/03/01, 01.03.2027, 01-03-2027, and 03/01/2027 with the month first. Times of day:
+/// 08:15:30.125 or with a comma, with Z or +01:00, or AM and PM. Between date and time: a blank or T.
 class LogTime {
  public:
   /// seconds: of a unit of numbers; absent: the size of the first number decides (unit_of_clock).
   explicit LogTime(std::optional<double> seconds) : unit_(seconds) {}
 
-  /// Seconds from a fixed begin; a time of day before the last one by more than 12 h is of the next day. Absent: no time.
+  /// Seconds from a fixed begin; a time of day before the last one by more than 12 h is of the next day.
+  /// Absent: no time.
   std::optional<double> read(std::string_view text);
 
  private:
