@@ -2,6 +2,14 @@
 
 namespace dresslife::sim {
 
+Expression name_at(const std::string& name, const Place& place) {
+  Expression e;
+  e.kind = Expression::Kind::name;
+  e.text = name;
+  e.place = place;
+  return e;
+}
+
 void Code::index() {
   local_.assign(modules.size(), {});
   for (const Routine& routine : routines)

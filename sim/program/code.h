@@ -41,6 +41,9 @@ struct Expression {
   int depth = 1;  ///< levels of items
 };
 
+/// The variable of that name.
+Expression name_at(const std::string& name, const Place& place);
+
 struct Statement;
 
 struct Branch {

@@ -16,11 +16,6 @@ constexpr const char* position_form =
 
 int whole(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
 
-Frame inverse(const Frame& frame) {
-  const Quaternion back = frame.orientation.conjugate();
-  return {back * Vector3(-frame.position), back};
-}
-
 bool nothing(const FanucPosition& offset) {
   return std::all_of(offset.values.begin(), offset.values.end(), [](double v) { return v == 0; });
 }

@@ -21,19 +21,6 @@ constexpr double position_levels[] = {0, 0.0125, 0.025, 0.05, 0.1, 0.2, 0.3, 0.4
 /// Variables as a speed or a time: V=I000 counts 0.1 mm/s, VJ=I000 0.01 %, T=I000 0.01 s.
 double unit_of_variable(const std::string& tag) { return tag == "v" || tag == "vr" ? 0.1 : 0.01; }
 
-Frame inverse(const Frame& frame) {
-  const Quaternion back = frame.orientation.conjugate();
-  return {back * Vector3(-frame.position), back};
-}
-
-Expression name_at(const std::string& name, const Place& place) {
-  Expression e;
-  e.kind = Expression::Kind::name;
-  e.text = name;
-  e.place = place;
-  return e;
-}
-
 /// A position as the tree's values hold it (add_inform_types).
 struct Position {
   std::vector<double> numbers;  ///< pulses, deg, or mm and deg

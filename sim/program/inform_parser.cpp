@@ -34,10 +34,6 @@ Expression number_at(const Place& place, double number) {
   return e;
 }
 
-Expression name_at(const Place& place, std::string name) {
-  return made(Expression::Kind::name, place, std::move(name));
-}
-
 /// Without what stands behind an instruction as a comment: SET P001 PX124 'start. A line that begins so is one as a whole.
 std::string_view without_comment(std::string_view line) {
   bool quoted = false;
@@ -168,15 +164,16 @@ class Words {
     if (name == "on" || name == "off") return number_at(at, name == "on");
     const bool indexed = at_ < text_.size() && text_[at_] == '[';
     const bool called = at_ < text_.size() && text_[at_] == '(';
-    if (!indexed && !called) return name_at(at, inform_name(name));
+    if (!indexed && !called) return name_at(inform_name(name), at);
     ++at_;
     Expression index = level(1, depth + 1);
     if (!take_sign(indexed ? "]" : ")")) fail("has an index that is not closed");
     if (indexed) name += "[]";
     if (index.kind == Expression::Kind::number && (indexed || name.ends_with('#')))
       return name_at(
-          at, inform_name(indexed ? fmt::format("{}{:.0f}", name.substr(0, name.size() - 2), index.number)
-                                  : fmt::format("{}({:.0f})", name, index.number)));
+          inform_name(indexed ? fmt::format("{}{:.0f}", name.substr(0, name.size() - 2), index.number)
+                              : fmt::format("{}({:.0f})", name, index.number)),
+          at);
     return made(Expression::Kind::call, at, name, {std::move(index)});
   }
 
@@ -535,7 +532,7 @@ class InformParser {
     s.name = beside ? "pstart" : "job:" + job;
     s.text = fmt::format("{} JOB:{}", beside ? "PSTART" : "CALL", job);
     if (beside) {
-      s.arguments.push_back(name_at(s.place, "job:" + job));
+      s.arguments.push_back(name_at("job:" + job, s.place));
       return into.push_back(std::move(s));
     }
     for (int i = 1; !at.at_end() && i <= arguments;) {
@@ -669,7 +666,8 @@ class InformParser {
                                                               : "station";
         s.arguments.push_back(std::move(target));
       } else if (same_word(next, "UNTIL") || same_word(next, "FPT") || same_word(next, "NWAIT")) {
-        Expression word = name_at(at.place(), at.word());
+        const Place place = at.place();
+        Expression word = name_at(at.word(), place);
         word.option = word.text;
         s.arguments.push_back(std::move(word));
         if (same_word(next, "UNTIL")) at.condition();

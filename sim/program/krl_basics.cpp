@@ -53,14 +53,6 @@ Value at_most(const Value& value, const std::optional<double>& most) {
 
 namespace krl {
 
-Expression name_at(const std::string& name, const Place& place) {
-  Expression e;
-  e.kind = Expression::Kind::name;
-  e.text = name;
-  e.place = place;
-  return e;
-}
-
 Expression field_at(const std::string& name, const std::string& field, const Place& place) {
   Expression e = part_of(name_at(name, place), Expression::Kind::field, place);
   e.text = field;

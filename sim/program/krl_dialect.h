@@ -154,8 +154,7 @@ namespace krl {
 /// DEF_ACC_CP as KUKA delivers it [m/s2]: without $config.dat it stands on both sides of a percentage.
 constexpr double standard_path_acceleration = 2.3;
 
-/// An expression for a variable or a part of it: "$vel" "cp", "tool_data" 3.
-Expression name_at(const std::string& name, const Place& place);
+/// A part of a variable: "$vel" "cp", "tool_data" 3.
 Expression field_at(const std::string& name, const std::string& field, const Place& place);
 Expression element_at(const std::string& name, int index, const Place& place);
 

@@ -52,9 +52,4 @@ std::array<double, 6> numbers_of(const Frame& frame) {
   return {p.x(), p.y(), p.z(), a / degree, b / degree, c / degree};
 }
 
-Frame inverse(const Frame& frame) {
-  const Quaternion back = frame.orientation.conjugate();
-  return {back * Vector3(-frame.position), back};
-}
-
 }  // namespace dresslife::sim::krl

@@ -41,7 +41,6 @@ bool is_unset(const Value& value);  ///< with everything in it
 Coordinates coordinates(const Value& record, const char* const (&names)[6]);
 Frame frame_from(const std::array<double, 6>& numbers);
 std::array<double, 6> numbers_of(const Frame& frame);
-Frame inverse(const Frame& frame);
 
 }  // namespace krl
 

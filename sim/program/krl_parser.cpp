@@ -454,18 +454,7 @@ class KrlParser : StatementParser {
     s.kind = Kind::choose;
     s.arguments.push_back(at_.expression());
     skip_line_ends();
-    while (!at_.take_word("endswitch")) {
-      Branch branch;
-      branch.place = at_.place();
-      if (at_.take_word("case")) {
-        do branch.conditions.push_back(at_.expression());
-        while (at_.take_sign(","));
-      } else {
-        at_.need_word("default");
-      }
-      branch.body = body({"endswitch", "case", "default"});
-      s.branches.push_back(std::move(branch));
-    }
+    cases(s, "endswitch", [&] { return body({"endswitch", "case", "default"}); });
   }
 
   /// The moves of the block with the mark "in_spline", and with what WITH sets for all of them.

@@ -100,6 +100,23 @@ class StatementParser {
     return statements;
   }
 
+  /// The branches of TEST (RAPID) and SWITCH (KRL), up to the word `end`. body: reads the statements of one.
+  template <class Body>
+  void cases(Statement& s, const char* end, const Body& body) {
+    while (!at_.take_word(end)) {
+      Branch branch;
+      branch.place = at_.place();
+      if (at_.take_word("case")) {
+        do branch.conditions.push_back(at_.expression());
+        while (at_.take_sign(","));
+      } else {
+        at_.need_word("default");
+      }
+      branch.body = body();
+      s.branches.push_back(std::move(branch));
+    }
+  }
+
   /// A label or a jump to one, at its name.
   Statement labelled(Statement::Kind kind);
 

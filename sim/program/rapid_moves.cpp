@@ -55,11 +55,6 @@ std::vector<double> external_of(const Value& extax, const std::vector<double>& s
   return axes;
 }
 
-Frame inverse(const Frame& frame) {
-  const Quaternion back = frame.orientation.conjugate();
-  return {back * Vector3(-frame.position), back};
-}
-
 /// What a move's part is called and where it was last written.
 void remember(Instruction& move, const char* part, const Expression& written, Interpreter& run) {
   const Place place = run.origin(written);

@@ -303,19 +303,10 @@ class RapidParser : StatementParser {
   void test_statement(Statement& s) {
     s.kind = Kind::choose;
     s.arguments.push_back(at_.expression());
-    while (!at_.take_word("endtest")) {
-      Branch branch;
-      branch.place = at_.place();
-      if (at_.take_word("case")) {
-        do branch.conditions.push_back(at_.expression());
-        while (at_.take_sign(","));
-      } else {
-        at_.need_word("default");
-      }
+    cases(s, "endtest", [&] {
       at_.need_sign(":");
-      branch.body = body({"endtest", "case", "default"});
-      s.branches.push_back(std::move(branch));
-    }
+      return body({"endtest", "case", "default"});
+    });
   }
 
   void return_statement(Statement& s) {

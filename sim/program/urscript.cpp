@@ -16,11 +16,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-Frame inverse(const Frame& frame) {
-  const Quaternion back = frame.orientation.conjugate();
-  return {back * Vector3(-frame.position), back};
-}
-
 /// What a move of the language takes, in order, and what holds where it is left out (script manual).
 struct Signature {
   const char* name;

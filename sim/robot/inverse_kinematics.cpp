@@ -21,11 +21,6 @@ constexpr double singular_wrist = 1e-9;  // sine between axes 4 and 6 below whic
 constexpr double out_of_reach = 1e-9;    // of a cosine: rounding at a stretched arm
 constexpr double limit_rounding = 1e-9;  // [rad]
 
-Frame inverse(const Frame& frame) {
-  const Quaternion back = frame.orientation.conjugate();
-  return {back * Vector3(-frame.position), back};
-}
-
 Quaternion turn(const Vector3& axis, double angle) { return Quaternion(Eigen::AngleAxisd(angle, axis)); }
 
 /// Angle of a turn about `axis` that takes `from` to `to`, both seen along the axis.

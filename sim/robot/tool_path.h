@@ -8,11 +8,6 @@
 
 namespace dresslife::sim {
 
-inline Frame inverse_of(const Frame& frame) {
-  const Quaternion back = frame.orientation.conjugate();
-  return {back * Vector3(-frame.position), back};
-}
-
 /// Which tool moves in which work object: tool in the flange and object in the world, or, stationary, the
 /// tool in the world and the object in the flange.
 struct Tooling {
@@ -21,10 +16,10 @@ struct Tooling {
 
   /// The flange in the world when the tool is at `pose` in the object, and back.
   Frame flange(const Frame& pose) const {
-    return stationary ? tool * inverse_of(object * pose) : object * pose * inverse_of(tool);
+    return stationary ? tool * inverse(object * pose) : object * pose * inverse(tool);
   }
   Frame pose(const Frame& flange) const {
-    return stationary ? inverse_of(flange * object) * tool : inverse_of(object) * flange * tool;
+    return stationary ? inverse(flange * object) * tool : inverse(object) * flange * tool;
   }
 };
 

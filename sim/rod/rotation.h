@@ -24,6 +24,11 @@ struct Frame {
   }
 };
 
+inline Frame inverse(const Frame& frame) {
+  const Quaternion back = frame.orientation.conjugate();
+  return {back * Vector3(-frame.position), back};
+}
+
 /// The matrix of a x: skew(a) b = a x b.
 inline Matrix3 skew(const Vector3& a) {
   Matrix3 m;

@@ -30,9 +30,9 @@ struct Bending {
 Bending bend(const std::string& settings) {
   Scratch scratch;
   const std::string job = std::string(DRESSLIFE_SOURCE_DIR) + "/config/jobs/bending_cable.yaml";
-  REQUIRE(run(scratch, "dresslife-sim", "'" + job + "' --quiet -o motion.h5").status == 0);
-  REQUIRE(run(scratch, "dresslife-strain", "motion.h5 --quiet -o strain.h5 " + settings).status == 0);
-  REQUIRE(run(scratch, "dresslife-fatigue", "strain.h5 --quiet -o life.h5").status == 0);
+  must_run(scratch, "dresslife-sim", "'" + job + "' --quiet -o motion.h5");
+  must_run(scratch, "dresslife-strain", "motion.h5 --quiet -o strain.h5 " + settings);
+  must_run(scratch, "dresslife-fatigue", "strain.h5 --quiet -o life.h5");
 
   const pipeline::FileReader strain(scratch / "strain.h5", pipeline::strain_format());
   const pipeline::FileReader life(scratch / "life.h5", pipeline::life_format());

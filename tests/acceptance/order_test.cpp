@@ -85,10 +85,7 @@ TEST_CASE("an order changes with inputs within their uncertainty only if its cer
       study += "  " + program + "_" + input + ": {motion: " + program +
                (input == "dwell" ? "_dwell.yaml" : ".yaml") + ", simulation.most_repeats: 2" +
                (input == "mesh" ? "" : ", simulation.segments: 16") + (key.empty() ? "" : ", " + key) + "}\n";
-  const Outcome outcome =
-      run(scratch, "dresslife", "run '" + scratch.write("order.yaml", study).string() + "'");
-  INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
+  must_run(scratch, "dresslife", "run '" + scratch.write("order.yaml", study).string() + "'");
 
   // (input) of handling and rolling
   std::map<std::string, std::array<Lives, 2>> lives;

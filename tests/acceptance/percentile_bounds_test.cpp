@@ -166,9 +166,7 @@ TEST_CASE("bounds of p10, p50 and p90 lie on both sides of them in random jobs")
 
   Exceptions found;
   for (const std::string study : {"hoses", "rigs"}) {
-    const Outcome outcome = run(scratch, "dresslife", "run " + study + ".yaml --quiet");
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    must_run(scratch, "dresslife", "run " + study + ".yaml --quiet");
     compare(scratch / ("runs/" + study + "/ranking.csv"), found);
   }
   CHECK(found.jobs == hose_jobs + rig_jobs);

@@ -17,18 +17,13 @@ namespace {
 const std::string rigs = std::string(DRESSLIFE_SOURCE_DIR) + "/config/rigs/";
 
 void strain_of(const Scratch& scratch, const std::string& job, const std::string& strain_settings = "") {
-  const Outcome sim = run(scratch, "dresslife-sim", job + " --quiet -o motion.h5");
-  INFO(sim.err);
-  REQUIRE(sim.status == 0);
-  const Outcome strain =
-      run(scratch, "dresslife-strain", "motion.h5 --quiet -o strain.h5 " + strain_settings);
-  INFO(strain.err);
-  REQUIRE(strain.status == 0);
+  must_run(scratch, "dresslife-sim", job + " --quiet -o motion.h5");
+  must_run(scratch, "dresslife-strain", "motion.h5 --quiet -o strain.h5 " + strain_settings);
 }
 
 double life_of(const Scratch& scratch, const std::string& job, const std::string& strain_settings = "") {
   strain_of(scratch, job, strain_settings);
-  REQUIRE(run(scratch, "dresslife-fatigue", "strain.h5 --quiet -o life.h5").status == 0);
+  must_run(scratch, "dresslife-fatigue", "strain.h5 --quiet -o life.h5");
   return pipeline::FileReader(scratch / "life.h5", pipeline::life_format()).number_attribute("life_repeats");
 }
 

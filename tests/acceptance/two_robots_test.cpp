@@ -92,11 +92,10 @@ TEST_CASE("two robots, shipped study: the table of the README, and the hard prog
     // The starts of its cables come to one rest. Others have several, and another one is the median for another inside.
     const fs::path job = scratch / "runs/two_robots/hard";
     const std::string strain = inside + "_strain.h5", life = inside + "_life.h5";
-    REQUIRE(run(scratch, "dresslife-strain",
-                "'" + (job / "motion.h5").string() + "' --quiet --set 'strain.slip=[friction, " + inside +
-                    ", " + inside + "]' -o " + strain)
-                .status == 0);
-    REQUIRE(run(scratch, "dresslife-fatigue", strain + " --quiet -o " + life).status == 0);
+    must_run(scratch, "dresslife-strain",
+             "'" + (job / "motion.h5").string() + "' --quiet --set 'strain.slip=[friction, " + inside + ", " +
+                 inside + "]' -o " + strain);
+    must_run(scratch, "dresslife-fatigue", strain + " --quiet -o " + life);
     REQUIRE(std::isfinite(hours_of(scratch / life, "life_hours")));
     CHECK(hours_of(job / "life.h5", "life_hours_all_" + inside) ==
           Approx(hours_of(scratch / life, "life_hours")).epsilon(told));

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
-#include <functional>
 #include <random>
 #include <vector>
 
 #include "fatigue/damage.h"
+#include "tests/bench/best_seconds.h"
 
 namespace {
 
@@ -47,16 +46,6 @@ float three_point_ranges(const std::vector<float>& reversals) {
     open.push_back(next);
   }
   return sum;
-}
-
-double best_seconds(const std::function<void()>& work) {
-  double best = 1e300;
-  for (int repeat = 0; repeat < 5; ++repeat) {
-    const std::clock_t begin = std::clock();
-    work();
-    best = std::min(best, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-  }
-  return best;
 }
 
 }  // namespace

@@ -16,12 +16,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
-#include <functional>
 #include <vector>
 
 #include "fatigue/damage.h"
 #include "strain/evaluation.h"
+#include "tests/bench/best_seconds.h"
 #include "tests/strain/dresspacks.h"
 
 namespace {
@@ -68,16 +67,6 @@ float three_point_ranges(const std::vector<float>& history) {
   }
   turn(last);
   return sum;
-}
-
-double best_seconds(const std::function<void()>& work) {
-  double best = 1e300;
-  for (int repeat = 0; repeat < 5; ++repeat) {
-    const std::clock_t begin = std::clock();
-    work();
-    best = std::min(best, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-  }
-  return best;
 }
 
 pipeline::Material copper() {  // S. Backman's thesis (2018), table 2

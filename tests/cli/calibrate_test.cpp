@@ -38,10 +38,7 @@ double learned(const std::string& calibration, const std::string& parameter, con
 }
 
 double life_hours(const Scratch& scratch, const std::string& sets) {
-  const Outcome outcome =
-      run(scratch, "dresslife", "run job.yaml --quiet --set uncertainty.enabled=false " + sets);
-  INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
+  must_run(scratch, "dresslife", "run job.yaml --quiet --set uncertainty.enabled=false " + sets);
   const std::string csv = content(scratch / "runs/job/ranking.csv");
   const std::string names = csv.substr(0, csv.find('\n')), values = csv.substr(csv.find('\n') + 1);
   std::istringstream keys(names), cells(values);
@@ -63,9 +60,8 @@ TEST_CASE("calibrate: wires that lived longer than predicted lengthen what a job
                 "observations:\n" +
                     row("long", "    cycles: " + std::to_string(10 * cycles) +
                                     "\n    outcome: broken\n    specimens: 3\n    unshared_log10: 0.05\n"));
-  const Outcome outcome = run(scratch, "dresslife", "calibrate o.yaml --quiet");
+  const Outcome outcome = must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
   INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
   CHECK(outcome.out.find("friction_inside") != std::string::npos);
   CHECK(outcome.out.find("no test depends on it") != std::string::npos);
   const std::string file = unmarked_content(scratch / "runs/calibrate_o/calibration.yaml");
@@ -89,7 +85,7 @@ TEST_CASE("calibrate: wires that lived longer than predicted lengthen what a job
   CHECK(again.err.find("stages ran") == std::string::npos);
   scratch.write("o.yaml", "observations:\n" + row("as_predicted", "    cycles: " + std::to_string(cycles) +
                                                                      "\n    outcome: broken\n"));
-  REQUIRE(run(scratch, "dresslife", "calibrate o.yaml --quiet").status == 0);
+  must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
   const double other = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
   CHECK(other > 0.5 * before);
   CHECK(other < 2 * before);
@@ -103,7 +99,7 @@ TEST_CASE("calibrate: run-outs that were predicted teach hardly anything, and no
   for (const double times : {1e-4, 1.0, 10.0}) {
     scratch.write("o.yaml", "observations:\n" + row("ended", "    cycles: " + std::to_string(times * cycles) +
                                                                  "\n    outcome: run_out\n"));
-    REQUIRE(run(scratch, "dresslife", "calibrate o.yaml --quiet").status == 0);
+    must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
     const double after = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
     constexpr double by_lot =
         0.95;  // medians of draws are good to some hundredths of a deviation, which is a factor of 3
@@ -122,8 +118,8 @@ TEST_CASE(
       "dresspack: {cable: {from: spot_welding, part: signal cable}}\nstrain: {slip: [free, friction, friction]";
   scratch.write("job.yaml", "motion: {rig: {kind: axial, elongation_percent: 0.01}}\n" + cable +
                                 ", friction_factor: 1.6}\n");
-  REQUIRE(run(scratch, "dresslife-sim", "job.yaml -o motion.h5 --quiet").status == 0);
-  REQUIRE(run(scratch, "dresslife-strain", "motion.h5 -o strain.h5 --quiet").status == 0);
+  must_run(scratch, "dresslife-sim", "job.yaml -o motion.h5 --quiet");
+  must_run(scratch, "dresslife-strain", "motion.h5 -o strain.h5 --quiet");
   const FileReader strain(scratch / "strain.h5", strain_format());
   const auto curvature = strain.read<double>("/bending/curvature"),
              moment = strain.read<double>("/bending/moment");
@@ -143,9 +139,7 @@ TEST_CASE(
       "observations:\n" +
           row("bend", "    bending: bend.csv\n",
               "{dresspack: {cable: {from: spot_welding, part: signal cable}}, strain: {slip: [free, friction, friction]}}"));
-  const Outcome outcome = run(scratch, "dresslife", "calibrate o.yaml --quiet");
-  INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
+  must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
   const std::string file = content(scratch / "runs/calibrate_o/calibration.yaml");
   const double friction = learned(file, "friction_inside", "value");
   CHECK(friction > 1.6 / 1.3);
@@ -162,9 +156,7 @@ TEST_CASE(
       "observations:\n" +
           row("swing", fmt::format("    decrement: {}\n    decrement_without_slip: 0.03\n", decrement),
               "{dresspack: {cable: {from: spot_welding, part: signal cable}}, strain: {slip: [free, friction, friction]}}"));
-  const Outcome swing = run(scratch, "dresslife", "calibrate o.yaml --quiet");
-  INFO(swing.err + swing.out);
-  REQUIRE(swing.status == 0);
+  must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
   const std::string swung = content(scratch / "runs/calibrate_o/calibration.yaml");
   CHECK(learned(swung, "friction_inside", "value_p10") < 1.6);
   CHECK(learned(swung, "friction_inside", "value_p90") > 1.6);
@@ -179,12 +171,11 @@ TEST_CASE("calibrate: the prior predicts the hours that a run predicts") {
   const std::string job =
       "{motion: {rig: {kind: torsion, length_m: 1, twist_deg_per_m: 180}}, dresspack: spot_welding, strain: {cable_elements_per_segment: 2}}";
   scratch.write("job.yaml", job);
-  REQUIRE(run(scratch, "dresslife", "run job.yaml --quiet --set uncertainty.ratings=none").status == 0);
+  must_run(scratch, "dresslife", "run job.yaml --quiet --set uncertainty.ratings=none");
   scratch.write("o.yaml", "observations:\n  - name: one\n    job: " + job +
                               "\n    what: twisted\n    source: made for the tests\n    hours: 1\n    outcome: run_out\n    unshared_log10: 0.01\n");
-  const Outcome outcome = run(scratch, "dresslife", "calibrate o.yaml --quiet");
+  const Outcome outcome = must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
   INFO(outcome.out << outcome.err);
-  REQUIRE(outcome.status == 0);
   std::string line = outcome.out.substr(outcome.out.find("\none ") + 5);
   line = line.substr(line.find(" h ") + 3);
   std::erase(line, ',');
@@ -225,9 +216,8 @@ TEST_CASE("calibrate: a maintenance system's table in one command teaches the jo
   table += "R0;" + day(before * 8) + ";;\nR1;" + day(before * 8.4) + ";;\n";
   scratch.write("plant.csv", table);
   const std::string command = "calibrate plant.csv --job job.yaml --quiet --records-since 2000-01-03 --today " + day(before * 13);
-  const Outcome outcome = run(scratch, "dresslife", command);
+  const Outcome outcome = must_run(scratch, "dresslife", command);
   INFO(outcome.out << outcome.err);
-  REQUIRE(outcome.status == 0);
   CHECK(outcome.out.find("12 dresspacks: 10 failed, 0 were removed before, 2 are in use") != std::string::npos);
   CHECK(outcome.out.find("10 of 12 failed") != std::string::npos);
   CHECK(outcome.out.find("Life of 'job' changes by one deviation of a parameter, as a factor: ") != std::string::npos);

@@ -63,9 +63,7 @@ TEST_CASE("check: what it warns of in the shipped jobs, a run warns of, too") {
     const JobCheck check = check_of(file, sets);
     CHECK(check.refusal.empty());
     if (check.warnings.empty()) continue;  // nothing to be found again
-    const Outcome outcome = run(scratch, "dresslife", line);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    must_run(scratch, "dresslife", line);
     const FileReader life(scratch / (job + motion + "/" + job + "/" + job + "/life.h5"), life_format(),
                           FileReader::Scope::attributes);
     std::set<WarningKind> kinds;

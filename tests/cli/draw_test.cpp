@@ -8,19 +8,12 @@ using namespace dresslife::tests;
 
 namespace {
 
-std::size_t count_of(const std::string& text, const std::string& words) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlaps") {
   Scratch scratch;
-  const Outcome drawn = run(scratch, "dresslife", "draw thesis_welding -o hose.svg");
+  const Outcome drawn = must_run(scratch, "dresslife", "draw thesis_welding -o hose.svg");
   INFO(drawn.err);
-  REQUIRE(drawn.status == 0);
   // 10 cables of 7 conductors of 92 wires of 0.15 mm.
   CHECK(drawn.out.find("6440 wires of 113.8 mm2") != std::string::npos);
   // Ten times the 0.0019, 0.226 and 4.14 N m2 that an independent calculation found for one cable.
@@ -43,9 +36,8 @@ TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlap
 
 TEST_CASE("draw shows what a dresspack holds beside wires, and says that it has no life here") {
   Scratch scratch;
-  const Outcome drawn = run(scratch, "dresslife", "draw handling -o hose.svg");
+  const Outcome drawn = must_run(scratch, "dresslife", "draw handling -o hose.svg");
   INFO(drawn.err);
-  REQUIRE(drawn.status == 0);
   // pi/4 (12^2 - 8^2) mm2 of 1200 kg/m3 and pi/4 8^2 of water; 50 MPa pi/64 (12^4 - 8^4) mm4.
   CHECK(drawn.out.find("hose for water, bore 8 mm, 0.126 kg/m, E I 0.0408 N m2 (ESTIMATE); no life here") !=
         std::string::npos);
@@ -106,7 +98,7 @@ TEST_CASE("draw replaces pictures and nothing else") {
   CHECK(refused.status == 1);
   CHECK(refused.err.find("mine.yaml: error: is there already and was not written by dresslife") == 0);
   CHECK(content(scratch / "mine.yaml") == "keep: me\n");
-  REQUIRE(run(scratch, "dresslife", "draw control_cable -o cable.svg").status == 0);
+  must_run(scratch, "dresslife", "draw control_cable -o cable.svg");
   CHECK(run(scratch, "dresslife", "draw sensor_cable -o cable.svg").status == 0);
   CHECK(content(scratch / "cable.svg").find("sensor_cable") != std::string::npos);
   const Outcome job = run(scratch, "dresslife", "draw mine.yaml");

@@ -58,9 +58,7 @@ std::vector<double> damage_of(const Scratch& scratch, const std::string& job) {
        {std::pair<std::string, std::string>{"sim", ".yaml -o " + job + ".motion.h5"},
         {"strain", ".motion.h5 -o " + job + ".strain.h5"},
         {"fatigue", ".strain.h5 -o " + job + ".life.h5"}}) {
-    const Outcome outcome = run(scratch, "dresslife-" + program, job + files);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    must_run(scratch, "dresslife-" + program, job + files);
   }
   const pipeline::FileReader life(scratch / (job + ".life.h5"), pipeline::life_format());
   return life.read<double>("/dresspack/damage");
@@ -100,9 +98,7 @@ TEST_CASE("the relative life of a rated cable is the same beside another dresspa
                        "}\n  - {name: cable, dresspack: " + rated + ", routing: " + there + "}\n"));
   scratch.write("alone.yaml", job_of("dresspack: " + rated + "\nrouting: " + there + "\n"));
   const auto per_hour = [&](const std::string& job) {
-    const Outcome outcome = run(scratch, "dresslife", "run " + job + ".yaml --quiet");
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    must_run(scratch, "dresslife", "run " + job + ".yaml --quiet");
     std::istringstream lines(content(scratch / ("runs/" + job + "/ranking.csv")));
     std::vector<std::vector<std::string>> rows;
     for (std::string line; std::getline(lines, line);) {
@@ -131,9 +127,8 @@ TEST_CASE("a study of two dresspacks ranks by the worse and tells which it is") 
                                    routing(1.1, 0) + "}\n  - {name: cable, dresspack: " + thin +
                                    ", routing: " + routing(1.15, 0.6) + "}\n"));
   scratch.write("study.yaml", "base: job.yaml\nvary: {dresspacks.2.routing.free_length_m: [1.15, 1.3]}\n");
-  const Outcome outcome = run(scratch, "dresslife", "run study.yaml");
+  const Outcome outcome = must_run(scratch, "dresslife", "run study.yaml");
   INFO(outcome.err << outcome.out);
-  REQUIRE(outcome.status == 0);
   const std::string ranking = content(scratch / "runs/study/ranking.csv");
   const std::size_t line = ranking.find('\n');
   CHECK(ranking.substr(0, line).find(",worst_dresspack,") != std::string::npos);

@@ -69,10 +69,9 @@ duties:
     programs: [{job: one, percent_of_time: 50}, {job: other, percent_of_time: 50}]
     history: [{duty: alone, hours: 0.0001}]
 )");
-  const Outcome outcome = run(scratch, "dresslife", "duty duties.yaml --quiet");
+  const Outcome outcome = must_run(scratch, "dresslife", "duty duties.yaml --quiet");
   INFO(outcome.out << outcome.err);
-  REQUIRE(outcome.status == 0);
-  REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml --quiet");
   const std::string ranking = content(scratch / "runs/study/ranking.csv"), duty = content(scratch / "runs/study/duty_duties.csv");
   constexpr double kept_digits = 2e-5;  // a life response has six digits of log10 of a life: 5e-6 ln 10
   for (const char* p : {"p10", "p50", "p90"}) {
@@ -115,9 +114,8 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   scratch.write("duties.yaml", "study: study.yaml\nduties: [{name: d, programs: [{job: one, percent_of_time: 0.1}]}]\n");
   scratch.write("fleet.csv", "name,duty,installed\nnew one,d,\nold one,d,2026-11-22\n");
   const std::string plan = "plan fleet.csv --duties duties.yaml --today 2026-11-23 --quiet --windows ";
-  const Outcome outcome = run(scratch, "dresslife", plan + "2026-12-21..2026-12-23,2027-03-01");
+  const Outcome outcome = must_run(scratch, "dresslife", plan + "2026-12-21..2026-12-23,2027-03-01");
   INFO(outcome.out << outcome.err);
-  REQUIRE(outcome.status == 0);
   CHECK(outcome.out.find("2026-12-21 .. 2026-12-23: replace 2\n  new one, old one\n") != std::string::npos);
   const std::string table = content(scratch / "runs/study/plan_fleet.csv");
   CHECK(cell(table, "old one", "replace_in") == "2026-12-21");
@@ -126,9 +124,8 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   // With costs a test has a value, and another fleet has a plan beside it.
   scratch.write("fleet.csv", "name,duty,installed,planned_cost,unplanned_cost\nnew one,d,,10,90\nold one,d,2026-11-22,10,90\n");
   scratch.write("other.csv", "name,duty,installed,planned_cost,unplanned_cost\nnew one,d,,10,90\nold one,d,2026-11-22,10,90\nmore,d,,10,90\n");
-  const Outcome beside = run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv");
+  const Outcome beside = must_run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv");
   INFO(beside.out << beside.err);
-  REQUIRE(beside.status == 0);
   CHECK((beside.out.find("A test before the first window makes plans cheaper until") != std::string::npos ||
          beside.out.find("No test of what the dresspacks have in common") != std::string::npos));
   CHECK(beside.out.find("what if") != std::string::npos);

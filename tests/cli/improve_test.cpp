@@ -50,9 +50,8 @@ std::vector<std::string> results_of(const fs::path& folder, const std::string& j
 TEST_CASE("improve finds a job that lives longer, and says by what") {
   Scratch scratch;
   write_small_study(scratch);
-  const Outcome told = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet");
+  const Outcome told = must_run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet");
   INFO(told.out << told.err);
-  REQUIRE(told.status == 0);
   CHECK(told.out.find("As it is: ") == 0);
   CHECK(told.out.find("    --set 'routing.free_length_m=0.9") != std::string::npos);
   CHECK(told.out.find(" of 100 samples\n") != std::string::npos);
@@ -90,7 +89,7 @@ TEST_CASE("a search that is killed ends where it would have ended") {
   Scratch scratch;
   write_small_study(scratch);
   const std::string line = "improve better.yaml --trials 10 --quiet -j 2 -o ";
-  REQUIRE(run(scratch, "dresslife", line + "whole").status == 0);
+  must_run(scratch, "dresslife", line + "whole");
   // Killed once the sixth trial is there, then begun again.
   const Outcome killed =
       run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' " + line +
@@ -102,7 +101,7 @@ TEST_CASE("a search that is killed ends where it would have ended") {
                              "kill -9 $pid; wait $pid; echo $?");
   REQUIRE(killed.out == "137\n");
   REQUIRE_FALSE(fs::exists(scratch / "killed/better_improve/improve.csv"));
-  REQUIRE(run(scratch, "dresslife", line + "killed").status == 0);
+  must_run(scratch, "dresslife", line + "killed");
   CHECK(content(scratch / "killed/better_improve/improve.csv") ==
         content(scratch / "whole/better_improve/improve.csv"));
 }
@@ -111,10 +110,9 @@ TEST_CASE("improve tells the front of two aims, of which the jobs as they are ma
   Scratch scratch;
   write_small_study(scratch);
   const Outcome told =
-      run(scratch, "dresslife",
-          "improve better.yaml --trials 6 --rehearsals 0 --second hose_length --off 0 --quiet");
+      must_run(scratch, "dresslife",
+               "improve better.yaml --trials 6 --rehearsals 0 --second hose_length --off 0 --quiet");
   INFO(told.out << told.err);
-  REQUIRE(told.status == 0);
   CHECK(told.out.find("\nLongest lives for their hose_length:\n") != std::string::npos);
   CHECK(told.out.find("\n    as it is  ") != std::string::npos);
   CHECK(told.out.find(" 0 h ") == std::string::npos);
@@ -124,8 +122,7 @@ TEST_CASE("improve keeps trials whole where the study says so") {
   Scratch scratch;
   write_small_study(scratch);
   scratch.write("whole.yaml", content(scratch / "better.yaml") + "keep: all\n");
-  REQUIRE(run(scratch, "dresslife", "improve whole.yaml --trials 3 --rehearsals 0 --off 0 --quiet").status ==
-          0);
+  must_run(scratch, "dresslife", "improve whole.yaml --trials 3 --rehearsals 0 --off 0 --quiet");
   CHECK(results_of(scratch / "runs/whole_improve", "trial_").size() == 9);
 }
 
@@ -194,9 +191,8 @@ routing:
   free_length_m: 2.035
 simulation: {segments: 20, sample_rate_Hz: 25}
 )");
-  const Outcome ways = run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 1");
+  const Outcome ways = must_run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 1");
   INFO(ways.out << ways.err);
-  REQUIRE(ways.status == 0);
   const std::string table = content(scratch / "runs/job_reprogram/as_it_is.csv");
   CHECK(table.find("lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch\n") == 0);
   CHECK(table.find("\nall lines,") != std::string::npos);
@@ -231,9 +227,9 @@ routing:
 simulation: {segments: 20, sample_rate_Hz: 25}
 )");
   const std::string program = content(scratch / "short.mod");
-  const Outcome ways = run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 2 --set dresspack.least_bend_radius_mm=100");
+  const Outcome ways = must_run(
+      scratch, "dresslife", "reprogram job.yaml --quiet --lines 2 --set dresspack.least_bend_radius_mm=100");
   INFO(ways.out << ways.err);
-  REQUIRE(ways.status == 0);
   CHECK(content(scratch / "short.mod") == program);
   const std::string table = content(scratch / "runs/job_reprogram/as_it_is.csv");
   INFO(table);

@@ -38,9 +38,8 @@ void write_log(const Scratch& scratch) {
 TEST_CASE("log: the life of a log of one cycle is that of the cycle") {
   const Scratch scratch;
   write_log(scratch);
-  const Outcome read = run(scratch, "dresslife", "import log.csv --log " + job + " -o shift.yaml");
+  const Outcome read = must_run(scratch, "dresslife", "import log.csv --log " + job + " -o shift.yaml");
   INFO(read.err);
-  REQUIRE(read.status == 0);
   CHECK_THAT(read.out, Catch::Contains("cycle_1: 3 times") && Catch::Contains("no rest") &&
                            Catch::Contains("estimate"));
   CHECK_THAT(content(scratch / "shift.yaml"),
@@ -67,7 +66,7 @@ TEST_CASE("log: files of the user stay, and what is no log is refused") {
   CHECK(content(scratch / "shift/cycle_1.csv") == "mine\n");
   CHECK_FALSE(fs::exists(scratch / "shift.yaml"));
   fs::remove(scratch / "shift/cycle_1.csv");
-  REQUIRE(run(scratch, "dresslife", line).status == 0);
+  must_run(scratch, "dresslife", line);
   CHECK(run(scratch, "dresslife", line).status == 0);  // its own files may be written again
   scratch.write("shift.yaml", content(scratch / "shift.yaml") + "# edited\n");
   CHECK(run(scratch, "dresslife", line).status == 1);

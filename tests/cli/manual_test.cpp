@@ -14,8 +14,7 @@ TEST_CASE("the key and file references in the READMEs are fresh") {
     const std::string text = content(fs::path(DRESSLIFE_SOURCE_DIR) / page);
     const std::size_t at = text.find(marker);
     REQUIRE(at != std::string::npos);
-    const Outcome manual = run(scratch, "dresslife", std::string("manual ") + what);
-    REQUIRE(manual.status == 0);
+    const Outcome manual = must_run(scratch, "dresslife", std::string("manual ") + what);
     INFO("run scripts/manual to refresh " << page);
     CHECK(text.substr(at + marker.size()) == "\n" + manual.out);
   }
@@ -24,8 +23,7 @@ TEST_CASE("the key and file references in the READMEs are fresh") {
 TEST_CASE("manual prints one key, by its path, the end of its path or its name") {
   Scratch scratch;
   const auto paths = [&](const std::string& key) {
-    const Outcome manual = run(scratch, "dresslife", "manual " + key);
-    REQUIRE(manual.status == 0);
+    const Outcome manual = must_run(scratch, "dresslife", "manual " + key);
     std::string found;
     std::istringstream lines(manual.out);
     for (std::string line; std::getline(lines, line);)

@@ -23,12 +23,6 @@ void check_refused(const Scratch& scratch, const Outcome& outcome, const std::st
     CHECK(entry.path().extension() != ".part");
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
 }  // namespace
 
 TEST_CASE("dresslife-sim refuses a job with one line that names the place") {
@@ -60,7 +54,7 @@ TEST_CASE("dresslife-sim refuses a job with one line that names the place") {
       {"motion: {", "motion: {{", "job.yaml:1:"},
   };
   for (const Case& c : cases) {
-    scratch.write("job.yaml", replaced(job, c.from, c.to));
+    scratch.write("job.yaml", edited(job, c.from, c.to));
     INFO(c.to);
     check_refused(scratch, run(scratch, "dresslife-sim", "job.yaml -o motion.h5"), c.words, "motion.h5");
   }
@@ -81,7 +75,7 @@ TEST_CASE("dresslife-sim says when, in which step and by how much a dresspack is
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("job.yaml",
-                replaced(content(scratch / "job.yaml"), "free_length_m: 0.9", "free_length_m: 0.75"));
+                edited(content(scratch / "job.yaml"), "free_length_m: 0.9", "free_length_m: 0.75"));
   const Outcome outcome = run(scratch, "dresslife-sim", "job.yaml -o motion.h5");
   check_refused(scratch, outcome, "job.yaml:", "motion.h5");
   CHECK(outcome.err.find("too short") != std::string::npos);
@@ -91,7 +85,7 @@ TEST_CASE("dresslife-sim says when, in which step and by how much a dresspack is
 TEST_CASE("the later stages refuse files that are not theirs, cut off or damaged") {
   Scratch scratch;
   write_small_job(scratch);
-  REQUIRE(run(scratch, "dresslife-sim", "job.yaml -o motion.h5").status == 0);
+  must_run(scratch, "dresslife-sim", "job.yaml -o motion.h5");
   const std::string whole = content(scratch / "motion.h5");
 
   scratch.write("cut.h5", whole.substr(0, whole.size() / 2));
@@ -132,14 +126,15 @@ TEST_CASE("import writes what a program asks to one file, reads it back filled i
   CHECK_FALSE(fs::exists(scratch / "cell.yaml"));
   const std::string file = content(scratch / "answers.yaml");
   // One that stays empty ends the import; the file stays as it is, and so does its user's work in it.
-  const std::string half = replaced(file, "{name: 'ready', value: ''}", "{name: 'ready', value: 'TRUE'}");
+  const std::string half = edited(file, "{name: 'ready', value: ''}", "{name: 'ready', value: 'TRUE'}");
   scratch.write("answers.yaml", half);
   CHECK(run(scratch, "dresslife-import", call).status == 1);
   CHECK(content(scratch / "answers.yaml") == half);
   CHECK_FALSE(fs::exists(scratch / "cell.yaml"));
-  std::string whole = replaced(half, "{name: 'pick', value: ''}",
-                               "{name: 'pick', value: '[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]'}");
-  whole = replaced(whole, "{name: 'gun', position_mm: []", "{name: 'gun', position_mm: [0, 0, 150]");
+  std::string whole =
+      edited(half, "{name: 'pick', value: ''}",
+             "{name: 'pick', value: '[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]'}");
+  whole = edited(whole, "{name: 'gun', position_mm: []", "{name: 'gun', position_mm: [0, 0, 150]");
   scratch.write("answers.yaml", whole);
   const Outcome read = run(scratch, "dresslife-import", call);
   INFO(read.err);

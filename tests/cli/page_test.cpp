@@ -68,9 +68,7 @@ TEST_CASE(
     "a run writes a page for each job, the report links to it, and it is written again only when needed") {
   Scratch scratch;
   write_small_job(scratch);
-  const Outcome first = run(scratch, "dresslife", "run job.yaml");
-  INFO(first.err);
-  REQUIRE(first.status == 0);
+  must_run(scratch, "dresslife", "run job.yaml");
   const fs::path page = scratch / "runs/job/job/page.html";
   REQUIRE(fs::exists(page));
   CHECK(content(scratch / "runs/job/report.html").find("<a href=\"job/page.html\">") != std::string::npos);
@@ -117,7 +115,7 @@ TEST_CASE(
   CHECK(content(page) == unmarked);
 
   // Files that are not of one motion make no page.
-  REQUIRE(run(scratch, "dresslife-sim", "job.yaml --set simulation.segments=10 -o other.h5").status == 0);
+  must_run(scratch, "dresslife-sim", "job.yaml --set simulation.segments=10 -o other.h5");
   fs::copy_file(scratch / "other.h5", scratch / "runs/job/job/motion.h5",
                 fs::copy_options::overwrite_existing);
   const Outcome mixed = run(scratch, "dresslife", "page runs/job/job");
@@ -128,7 +126,7 @@ TEST_CASE(
 TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the numbers of life.h5") {
   Scratch scratch;
   write_small_job(scratch);
-  REQUIRE(run(scratch, "dresslife", "run job.yaml").status == 0);
+  must_run(scratch, "dresslife", "run job.yaml");
   const std::string seen = in_browser(scratch, "runs/job/job/page.html", what_a_reader_does);
   if (seen.empty()) return;
   INFO(seen);
@@ -174,7 +172,7 @@ TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws")
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("lengths.yaml", "base: job.yaml\nvary: {routing.free_length_m: [0.88, 0.92]}\n");
-  REQUIRE(run(scratch, "dresslife", "run lengths.yaml --quiet").status == 0);
+  must_run(scratch, "dresslife", "run lengths.yaml --quiet");
   const std::string report = content(scratch / "runs/lengths/report.html"),
                     table = content(scratch / "runs/lengths/ranking.csv");
   const auto holds = [](const std::string& page, const std::string& words) {
@@ -218,7 +216,7 @@ TEST_CASE("the page of a study in a browser: sorted, filtered, two jobs side by 
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("lengths.yaml", "base: job.yaml\nvary: {routing.free_length_m: [0.88, 0.9, 0.92]}\n");
-  REQUIRE(run(scratch, "dresslife", "run lengths.yaml").status == 0);
+  must_run(scratch, "dresslife", "run lengths.yaml");
   const std::string seen = in_browser(scratch, "runs/lengths/report.html", R"(
     const jobs = () => evaluate(`[...document.querySelectorAll('#ranking tbody tr')].filter(r => !r.hidden)
         .map(r => r.dataset.job.slice(-4)).join()`);

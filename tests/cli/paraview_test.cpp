@@ -101,12 +101,8 @@ std::vector<double> part(const std::vector<double>& all, std::size_t row, std::s
 TEST_CASE("ParaView reads every moment of a job: places, fields and links as its files hold them") {
   Scratch scratch;
   write_spindle_job(scratch);
-  const Outcome ran = run(scratch, "dresslife", "run job.yaml --quiet");
-  INFO(ran.out << ran.err);
-  REQUIRE(ran.status == 0);
-  const Outcome made = run(scratch, "dresslife", "export runs/job/job --paraview job.xdmf");
-  INFO(made.err);
-  REQUIRE(made.status == 0);
+  must_run(scratch, "dresslife", "run job.yaml --quiet");
+  must_run(scratch, "dresslife", "export runs/job/job --paraview job.xdmf");
   if (std::system("command -v pvpython >/dev/null 2>&1") != 0) {
     WARN("pvpython is not installed: ParaView was not asked");
     return;

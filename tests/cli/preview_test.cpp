@@ -12,9 +12,8 @@ using dresslife::pipeline::preview_format;
 TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
   Scratch scratch;
   write_small_job(scratch);
-  const Outcome told = run(scratch, "dresslife", "preview job.yaml");
+  const Outcome told = must_run(scratch, "dresslife", "preview job.yaml");
   INFO(told.err);
-  REQUIRE(told.status == 0);
   // The clamps begin 0.8 m apart and come as near as hypot(0.7, 0.05).
   CHECK(
       told.out.find(
@@ -52,9 +51,8 @@ TEST_CASE("preview opens a job that is refused where it is refused") {
   Scratch scratch;
   write_small_job(scratch);
   const Outcome told =
-      run(scratch, "dresslife", "preview job.yaml --set routing.free_length_m=0.75 -o short.html");
+      must_run(scratch, "dresslife", "preview job.yaml --set routing.free_length_m=0.75 -o short.html");
   INFO(told.err);
-  REQUIRE(told.status == 0);
   CHECK(told.out.find("The simulation refuses the job: ") != std::string::npos);
   CHECK(told.out.find("dresspack is 50.0 mm too short at 0.000 s") != std::string::npos);
   CHECK(told.out.find("apart: too short. 0.82 .. 1.20 m work") != std::string::npos);
@@ -77,9 +75,8 @@ routing:
   tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
   free_length_m: 1.9
 )");
-  const Outcome told = run(scratch, "dresslife", "preview job.yaml");
+  const Outcome told = must_run(scratch, "dresslife", "preview job.yaml");
   INFO(told.out << told.err);
-  REQUIRE(told.status == 0);
   CHECK(told.out.find("mm deep through link_") != std::string::npos);
   CHECK(told.out.find("bring a clamp ") != std::string::npos);
   const std::size_t end = told.out.find(" m from its base clamp"), begin = told.out.rfind(' ', end - 1);
@@ -96,9 +93,7 @@ routing:
 
 TEST_CASE("a click on a link shows a clamp there, and a clamp that is dragged tells its length and clearance") {
   Scratch scratch;
-  const Outcome told = run(scratch, "dresslife", "preview irb6640_spot_welding");
-  INFO(told.err);
-  REQUIRE(told.status == 0);
+  must_run(scratch, "dresslife", "preview irb6640_spot_welding");
   // The first clamp as it is; a click in the middle of link_2's shapes; a drag from the clamp to there.
   const std::string seen = in_browser(scratch, "irb6640_spot_welding_preview.html", R"(
     const yaml = () => evaluate('document.getElementById("clamp-yaml").textContent');
@@ -167,9 +162,8 @@ TEST_CASE("the preview's file: curves of the right length from clamp to clamp") 
   double missing[2]{};  // of the length, at worst, by the chords of 24 and 96 segments
   for (const int fine : {0, 1}) {
     const int segments = fine ? 96 : 24;
-    REQUIRE(run(scratch, "dresslife-sim",
-                fmt::format("job.yaml --preview -o preview.h5 --set simulation.segments={}", segments))
-                .status == 0);
+    must_run(scratch, "dresslife-sim",
+             fmt::format("job.yaml --preview -o preview.h5 --set simulation.segments={}", segments));
     const FileReader file(scratch / "preview.h5", preview_format());
     CHECK(file.text_attribute("refusal").empty());
     const auto centres = file.read<double>("/segment/position"),

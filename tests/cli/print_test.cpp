@@ -93,10 +93,9 @@ TEST_CASE("pages of a job, a study and a preview can be printed and read on a ph
   write_small_job(scratch);
   scratch.write("a_job_whose_name_does_not_fit_on_a_phone.yaml", content(scratch / "job.yaml"));
   scratch.write("lengths.yaml", "base: job.yaml\nvary: {routing.free_length_m: [0.88, 0.9]}\n");
-  REQUIRE(run(scratch, "dresslife", "run lengths.yaml --quiet").status == 0);
-  REQUIRE(run(scratch, "dresslife",
-              "preview a_job_whose_name_does_not_fit_on_a_phone.yaml --set routing.free_length_m=0.75")
-              .status == 0);
+  must_run(scratch, "dresslife", "run lengths.yaml --quiet");
+  must_run(scratch, "dresslife",
+           "preview a_job_whose_name_does_not_fit_on_a_phone.yaml --set routing.free_length_m=0.75");
   check_page(scratch, "runs/lengths/free_length_m=0.9/page.html");
   check_page(scratch, "runs/lengths/report.html");
   check_page(scratch, "a_job_whose_name_does_not_fit_on_a_phone_preview.html");

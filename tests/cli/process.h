@@ -2,7 +2,6 @@
 #pragma once
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include <string>
 
 #include "pipeline/base/ownership.h"
+#include "tests/pipeline/scratch.h"
 
 namespace dresslife::tests {
 
@@ -23,48 +23,33 @@ struct Outcome {
   std::string out, err;
 };
 
-/// A folder of its own for one test, gone afterwards.
-class Scratch {
- public:
-  Scratch() {
-    std::string pattern = (fs::temp_directory_path() / "dresslife-XXXXXX").string();
-    if (!::mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-    folder_ = pattern;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
+using pipeline::count_of;
+using pipeline::edited;
+using pipeline::replaced_all;
+using pipeline::Scratch;
 
-  fs::path operator/(const std::string& name) const { return folder_ / name; }
-  const fs::path& folder() const { return folder_; }
-  fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
-  }
+inline std::string content(const fs::path& file) { return pipeline::bytes_of(file); }
 
- private:
-  fs::path folder_;
-};
-
-inline std::string content(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+/// Runs a line of shell in the scratch folder.
+inline Outcome run_shell(const Scratch& scratch, const std::string& line) {
+  const fs::path out = scratch / ".out", err = scratch / ".err";
+  const std::string command = "cd '" + scratch.folder().string() + "' && { " + line + "\n} >'" +
+                              out.string() + "' 2>'" + err.string() + "' </dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
 }
 
 /// Runs `program arguments` from our build in the scratch folder. Arguments are shell words.
 inline Outcome run(const Scratch& scratch, const std::string& program, const std::string& arguments) {
-  const fs::path out = scratch / ".out", err = scratch / ".err";
-  const std::string command = "cd '" + scratch.folder().string() + "' && '" DRESSLIFE_BIN_DIR "/" + program +
-                              "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() +
-                              "' </dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
+  return run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/" + program + "' " + arguments);
+}
+
+/// The same for a program that must succeed: any other exit status ends the test with the program's output.
+inline Outcome must_run(const Scratch& scratch, const std::string& program, const std::string& arguments) {
+  const Outcome outcome = run(scratch, program, arguments);
+  INFO(program << ' ' << arguments << '\n' << outcome.out << outcome.err);
+  REQUIRE(outcome.status == 0);
+  return outcome;
 }
 
 /// How often a test repeats what it draws by lot: `times`, or more in the long form of the faults
@@ -77,15 +62,6 @@ inline int rounds(int times) {
 /// A file's text after the line of its mark.
 inline std::string unmarked_content(const fs::path& file) {
   return std::string(pipeline::without_mark(content(file)));
-}
-
-/// Runs a line of shell in the scratch folder.
-inline Outcome run_shell(const Scratch& scratch, const std::string& line) {
-  const fs::path out = scratch / ".out", err = scratch / ".err";
-  const std::string command = "cd '" + scratch.folder().string() + "' && { " + line + "\n} >'" +
-                              out.string() + "' 2>'" + err.string() + "' </dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
 }
 
 /// A quick job without a robot: a short cable between two clamps, one of which swings to and fro for a
@@ -123,6 +99,16 @@ simulation:
   sample_rate_Hz: 50
 strain: {slip: stick}
 )");
+}
+
+/// The dresspack of the small job as a file, hose.yaml.
+inline void write_small_hose(const Scratch& scratch) {
+  const std::string job = content(scratch / "job.yaml");
+  const std::size_t begin = job.find("dresspack:\n") + 11, end = job.find("routing:\n");
+  std::string hose;
+  std::istringstream lines(job.substr(begin, end - begin));
+  for (std::string line; std::getline(lines, line);) hose += line.substr(2) + "\n";
+  scratch.write("hose.yaml", hose);
 }
 
 /// A dresspack: a thin hose that bends easily, and wires enough to have a life.

@@ -62,9 +62,8 @@ std::vector<double> numbers_in(std::string cell) {
 TEST_CASE("rate: a cable's lives in every shipped rig stand beside its maker's rating") {
   Scratch scratch;
   scratch.write("lead.yaml", cable);
-  const Outcome outcome = run(scratch, "dresslife", "rate lead.yaml --quiet");
+  const Outcome outcome = must_run(scratch, "dresslife", "rate lead.yaml --quiet");
   INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
   const std::string csv = content(scratch / "runs/rate_lead/rate.csv");
   std::size_t rigs = 0;
   for (const auto& entry : fs::directory_iterator(source + "/config/rigs")) {
@@ -110,9 +109,8 @@ TEST_CASE("validate: run-outs and breaks are judged, and a model that says for e
                               one("ever",
                                   "    cycles: 1e+9\n    outcome: broken\n    vary: "
                                   "{fatigue.endurance_strain: [0.01]}\n"));
-  const Outcome outcome = run(scratch, "dresslife", "validate o.yaml --quiet");
+  const Outcome outcome = must_run(scratch, "dresslife", "validate o.yaml --quiet");
   INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
   CHECK(row_of(outcome.out, "early").ends_with("| agrees |"));
   CHECK(row_of(outcome.out, "late").find("MISS: too short by") != std::string::npos);
   CHECK(row_of(outcome.out, "soon").find("MISS: too long by") != std::string::npos);
@@ -152,9 +150,8 @@ TEST_CASE("validate: the shipped table is what the code says") {
     some += all.substr(at, std::min(all.find("\n  - name: ", at), all.size() - 1) + 1 - at);
   }
   scratch.write("some.yaml", some);
-  const Outcome outcome = run(scratch, "dresslife", "validate some.yaml --quiet");
+  const Outcome outcome = must_run(scratch, "dresslife", "validate some.yaml --quiet");
   INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
   for (const std::string& name : names) {
     const auto shipped = cells_of(row_of(page, name)), now = cells_of(row_of(outcome.out, name));
     INFO(name);

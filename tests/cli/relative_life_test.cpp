@@ -55,9 +55,8 @@ Relative relative_of(const std::string& csv) {
 
 Relative run_one(const Scratch& scratch, const std::string& name, const std::string& job) {
   scratch.write(name + ".yaml", job);
-  const Outcome outcome = run(scratch, "dresslife", "run " + name + ".yaml --quiet");
+  const Outcome outcome = must_run(scratch, "dresslife", "run " + name + ".yaml --quiet");
   INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
   const Relative relative = relative_of(content(scratch / ("runs/" + name + "/ranking.csv")));
   CHECK((outcome.out.find("one hour does the damage of ") != std::string::npos) == !relative.cable.empty());
   const std::string page = content(scratch / ("runs/" + name + "/report.html"));

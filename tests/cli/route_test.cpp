@@ -26,9 +26,8 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
   const std::string line =
       "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 150 --rehearsals 40 --off 0 --quiet "
       "--set simulation.segments=16 --job found.yaml";
-  const Outcome told = run(scratch, "dresslife", line);
+  const Outcome told = must_run(scratch, "dresslife", line);
   INFO(told.err);
-  REQUIRE(told.status == 0);
   CHECK(told.out.find("base_clamp: {link: link_3, ") == 0);
   CHECK(told.out.find("tool_clamp: {link: link_6, ") != std::string::npos);
   CHECK(told.out.find("No program was given") != std::string::npos);
@@ -175,9 +174,7 @@ TEST_CASE("screen grades every change of a job, and says which is no job") {
   scratch.write(
       "list.yaml",
       "- {routing.free_length_m: 0.9}\n- {routing.free_length_m: 0.7}\n- {routing.free_length_m: -1}\n");
-  const Outcome told = run(scratch, "dresslife-sim", "job.yaml --screen list.yaml -o screening.h5 --quiet");
-  INFO(told.err);
-  REQUIRE(told.status == 0);
+  must_run(scratch, "dresslife-sim", "job.yaml --screen list.yaml -o screening.h5 --quiet");
   const Outcome shown = run(scratch, "dresslife", "show screening.h5");
   INFO(shown.out + shown.err);
   CHECK(shown.status == 0);
@@ -193,8 +190,7 @@ TEST_CASE("screen grades every change of a job, and says which is no job") {
     return FileReader(scratch / "screening.h5", screening_format()).read<double>("/candidate/beyond");
   };
   const std::vector<double> by_geometry = beyond();
-  REQUIRE(run(scratch, "dresslife-sim", "job.yaml --screen list.yaml --rehearse -o screening.h5 --quiet")
-              .status == 0);
+  must_run(scratch, "dresslife-sim", "job.yaml --screen list.yaml --rehearse -o screening.h5 --quiet");
   const std::vector<double> in_a_run = beyond();
   REQUIRE(in_a_run.size() == by_geometry.size());
   constexpr std::size_t bend = 2, limits = 7;

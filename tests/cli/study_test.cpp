@@ -19,12 +19,6 @@ std::string stages_ran(const Outcome& outcome) {
   return outcome.err.substr(outcome.err.rfind(' ', end - 1) + 1, end - outcome.err.rfind(' ', end - 1) - 1);
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
 }  // namespace
 
 TEST_CASE("a study runs every job, and again only what changed") {
@@ -73,7 +67,7 @@ TEST_CASE("a study runs every job, and again only what changed") {
   CHECK(stages_ran(run_study()) == "2");
   CHECK(content(scratch / "runs/study/ranking.csv") != ranking);
   // Settings of the middle stage: that and the last.
-  scratch.write("job.yaml", replaced(job, "slip: stick", "slip: free"));
+  scratch.write("job.yaml", edited(job, "slip: stick", "slip: free"));
   CHECK(stages_ran(run_study()) == "4");
   // The poses beside the job: everything. Words alone: nothing.
   scratch.write("job.yaml", "# a remark\n" + job);
@@ -81,7 +75,7 @@ TEST_CASE("a study runs every job, and again only what changed") {
   CHECK(content(scratch / "runs/study/ranking.csv") == ranking);
   scratch.write("job.yaml", job);
   CHECK(stages_ran(run_study()) == "0");
-  scratch.write("poses.csv", replaced(content(scratch / "poses.csv"), "0.8,", "0.801,"));
+  scratch.write("poses.csv", edited(content(scratch / "poses.csv"), "0.8,", "0.801,"));
   CHECK(stages_ran(run_study()) == "6");
 }
 
@@ -99,7 +93,7 @@ TEST_CASE("a lost result is made again, the others stay") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", study_text);
-  REQUIRE(run(scratch, "dresslife", "run study.yaml").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml");
   fs::remove(scratch / "runs/study/bending_stiffness_Nm2=3/strain.h5");
   const std::string life = content(scratch / "runs/study/bending_stiffness_Nm2=3/life.h5");
   CHECK(stages_ran(run(scratch, "dresslife", "run study.yaml")) == "2");
@@ -134,7 +128,7 @@ TEST_CASE("names in a study and in --set are looked up beside the job too") {
   fs::create_directories(scratch / "elsewhere/materials");
   fs::rename(scratch / "poses.csv", scratch / "elsewhere/poses.csv");
   std::string copper = content(fs::path(DRESSLIFE_SOURCE_DIR) / "config/materials/copper.yaml");
-  scratch.write("elsewhere/materials/our_copper.yaml", replaced(copper, "name: copper", "name: our_copper"));
+  scratch.write("elsewhere/materials/our_copper.yaml", edited(copper, "name: copper", "name: our_copper"));
   scratch.write("elsewhere/job.yaml", content(scratch / "job.yaml"));
   scratch.write("study.yaml", "base: elsewhere/job.yaml\njobs: {ours: {fatigue.material: our_copper}}\n");
   const Outcome study = run(scratch, "dresslife", "run study.yaml");
@@ -148,7 +142,7 @@ TEST_CASE("status tells to do, done and stale") {
   write_small_job(scratch);
   scratch.write("study.yaml", study_text);
   CHECK(run(scratch, "dresslife", "status study.yaml").out.find("0 of 2 jobs done") != std::string::npos);
-  REQUIRE(run(scratch, "dresslife", "run study.yaml").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml");
   CHECK(run(scratch, "dresslife", "status study.yaml").out.find("2 of 2 jobs done") != std::string::npos);
   scratch.write("job.yaml", content(scratch / "job.yaml") + "fatigue: {stress: elastic}\n");
   const Outcome stale = run(scratch, "dresslife", "status study.yaml");
@@ -160,7 +154,7 @@ TEST_CASE("a stale job keeps its last result, and status says which key, file or
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", study_text);
-  REQUIRE(run(scratch, "dresslife", "run study.yaml").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml");
   const std::string job = content(scratch / "job.yaml"), poses = content(scratch / "poses.csv");
   const std::string ranking = content(scratch / "runs/study/ranking.csv");
   const auto lives_of = [](const std::string& csv) {  // per row: job and lives, best first
@@ -188,13 +182,13 @@ TEST_CASE("a stale job keeps its last result, and status says which key, file or
   CHECK(page.find("Damage along the dresspack") != std::string::npos);
 
   scratch.write("job.yaml", job);
-  scratch.write("poses.csv", replaced(poses, "0.8,", "0.801,"));
+  scratch.write("poses.csv", edited(poses, "0.8,", "0.801,"));
   CHECK(status().find("poses.csv has changed\n") != std::string::npos);
   CHECK(lives_of(report()) == lives_of(ranking));
   scratch.write("poses.csv", poses);
 
   // A run that fails with the settings of now takes nothing of the last result.
-  scratch.write("job.yaml", replaced(job, "free_length_m: ", "free_length_m: 0.1 # "));
+  scratch.write("job.yaml", edited(job, "free_length_m: ", "free_length_m: 0.1 # "));
   CHECK(run(scratch, "dresslife", "run study.yaml").status == 1);
   const std::string failed = content(scratch / "runs/study/ranking.csv");
   CHECK(lives_of(failed) == lives_of(ranking));
@@ -205,7 +199,7 @@ TEST_CASE("a stale job keeps its last result, and status says which key, file or
   CHECK(lives_of(report()) == lives_of(ranking));
 
   scratch.write("job.yaml", job);
-  REQUIRE(run(scratch, "dresslife", "run study.yaml").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml");
   CHECK(content(scratch / "runs/study/ranking.csv") == ranking);
 }
 
@@ -231,7 +225,7 @@ TEST_CASE("clean removes what a study does not keep and jobs that it has no more
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("s.yaml", "base: job.yaml\njobs: {a: {}, b: {}}\n");
-  REQUIRE(run(scratch, "dresslife", "run s.yaml --quiet").status == 0);
+  must_run(scratch, "dresslife", "run s.yaml --quiet");
   scratch.write("runs/s/b/notes.txt", "mine");
   scratch.write("runs/s/own/notes.txt", "mine");
   scratch.write("s.yaml", "base: job.yaml\nkeep: lives\njobs: {a: {}}\n");

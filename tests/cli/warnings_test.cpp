@@ -181,15 +181,15 @@ TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv a
 TEST_CASE("a log keeps the warnings of a stage whose result was there already, and of one that ran again") {
   const Scratch scratch;
   write_jobs(scratch);
-  REQUIRE(run(scratch, "dresslife", "run cable.yaml").status == 0);
+  must_run(scratch, "dresslife", "run cable.yaml");
   const fs::path folder = scratch / "runs/cable/cable";
   const std::vector<Warning> before = warnings_in(folder / "life.h5");
   REQUIRE(before.size() >= 2);  // overlap and material
-  REQUIRE(run(scratch, "dresslife", "run cable.yaml --set fatigue.operating_hours_per_week=40").status == 0);
+  must_run(scratch, "dresslife", "run cable.yaml --set fatigue.operating_hours_per_week=40");
   CHECK(warnings_in(folder / "life.h5") == before);
   const std::string log = content(folder / "log");
   for (const Warning& warning : before) CHECK_THAT(log, Contains(warning.line() + "\n"));
   fs::remove(folder / "strain.h5");  // its stage makes the same again, the last one has nothing to do
-  REQUIRE(run(scratch, "dresslife", "run cable.yaml --set fatigue.operating_hours_per_week=40").status == 0);
+  must_run(scratch, "dresslife", "run cable.yaml --set fatigue.operating_hours_per_week=40");
   CHECK(content(folder / "log") == log);
 }

@@ -18,7 +18,7 @@ TEST_CASE("an allocation that fails, or all from one on, ends each program with 
   scratch.write("swing.mod",
                 "MODULE swing\n  CONST jointtarget home := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
                 "  PROC main()\n    MoveAbsJ home, v500, fine, tool0;\n  ENDPROC\nENDMODULE\n");
-  REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml --quiet");
   const unsigned seed = std::random_device{}();
   std::mt19937 random(seed);
   std::cout << "failing allocations with seed " << seed << '\n';

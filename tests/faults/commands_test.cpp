@@ -37,12 +37,7 @@ const std::vector<Command> commands{
 /// Results of a study and a user's own files beside them.
 void write_inputs(const Scratch& scratch) {
   write_small_job(scratch);
-  const std::string job = content(scratch / "job.yaml");
-  const std::size_t begin = job.find("dresspack:\n") + 11, end = job.find("routing:\n");
-  std::string hose;
-  std::istringstream lines(job.substr(begin, end - begin));
-  for (std::string line; std::getline(lines, line);) hose += line.substr(2) + "\n";
-  scratch.write("hose.yaml", hose);
+  write_small_hose(scratch);
   scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}}\n");
   const std::string module =
       "MODULE swing\n  CONST jointtarget home := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  PROC main()\n    "
@@ -53,10 +48,10 @@ void write_inputs(const Scratch& scratch) {
       module +
           "    IF di1=1 THEN\n      MoveAbsJ home, v100, fine, tool0;\n    ENDIF\n  ENDPROC\nENDMODULE\n");
   scratch.write("list.yaml", "- {routing.free_length_m: 0.95}\n");
-  REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml --quiet");
   // The same results are those of a study that keeps less.
   scratch.write("lives.yaml", "base: job.yaml\njobs: {a: {}}\nkeep: lives\n");
-  REQUIRE(run(scratch, "dresslife", "run lives.yaml --quiet").status == 0);
+  must_run(scratch, "dresslife", "run lives.yaml --quiet");
   scratch.write("runs/study/a/notes.txt", "mine\n");
   scratch.write("runs/lives/a/notes.txt", "mine\n");
   scratch.write("notes.txt", "mine\n");

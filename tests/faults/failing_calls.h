@@ -56,6 +56,18 @@ inline std::vector<int> some_of(int total, int count, std::mt19937& random) {
   return all;
 }
 
+/// A study's results: every file's bytes but those of the runner's own bookkeeping.
+inline std::map<std::string, std::string> results(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).string();
+    const bool own = name.find(".stage") != std::string::npos || name == ".lock" || name == "build.ninja" ||
+                     entry.path().filename() == "log";
+    if (entry.is_regular_file() && !own) files[name] = content(entry.path());
+  }
+  return files;
+}
+
 /// Whether a folder, with those in it, holds a file that was not finished.
 inline bool holds_parts(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder))

@@ -100,7 +100,7 @@ TEST_CASE("a job that does not fit is refused before it begins, with the key to 
   CHECK(sim.err.find("(--job-memory allows 3 MB); choose ") != std::string::npos);
   CHECK(sim.err.ends_with(", or allow more\n"));
   CHECK_FALSE(fs::exists(scratch / "motion.h5"));
-  REQUIRE(run(scratch, "dresslife-sim", "job.yaml -o motion.h5").status == 0);
+  must_run(scratch, "dresslife-sim", "job.yaml -o motion.h5");
   const Outcome strain = run(scratch, "dresslife-strain", "motion.h5 -o strain.h5 --job-memory 3");
   CHECK(strain.err.find("choose ") != std::string::npos);
   CHECK_FALSE(fs::exists(scratch / "strain.h5"));
@@ -124,7 +124,7 @@ TEST_CASE("a study's logs tell what each stage takes, and a job that does not fi
 TEST_CASE("more than can be numbered or held is refused before time is spent on it") {
   const Scratch scratch;
   write_small_job(scratch);
-  REQUIRE(run(scratch, "dresslife-sim", "job.yaml -o motion.h5 --quiet").status == 0);
+  must_run(scratch, "dresslife-sim", "job.yaml -o motion.h5 --quiet");
   const auto refused = [&](const std::string& program, const std::string& arguments,
                            const std::string& words) {
     const Outcome outcome = run(scratch, program, arguments + " -o out.h5 --job-time 30");

@@ -25,17 +25,6 @@ const std::vector<Kind> kinds_of_reads{
     {"read", "flip", ".part"},     {"look", "EIO", "dresslife"}, {"open", "EIO", "dresslife-"},
     {"list", "EIO", "dresslife-"}, {"lock", "ENOTSUP", ""}};
 
-std::map<std::string, std::string> results(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = fs::relative(entry.path(), folder).string();
-    const bool own = name.find(".stage") != std::string::npos || name == ".lock" || name == "build.ninja" ||
-                     entry.path().filename() == "log";
-    if (entry.is_regular_file() && !own) files[name] = content(entry.path());
-  }
-  return files;
-}
-
 }  // namespace
 
 TEST_CASE("each read, look and lock that fails in a stage fails it in words, or does no harm") {
@@ -43,7 +32,7 @@ TEST_CASE("each read, look and lock that fails in a stage fails it in words, or 
   write_small_job(scratch);
   std::map<std::string, std::string> right;
   for (const Stage& stage : stages) {
-    REQUIRE(run(scratch, stage.program, stage.input + " -o " + stage.output).status == 0);
+    must_run(scratch, stage.program, stage.input + " -o " + stage.output);
     right[stage.output] = content(scratch / stage.output);
   }
   fs::create_directories(scratch / "out");
@@ -85,7 +74,7 @@ TEST_CASE("each read and look that fails in a command over results is told, and 
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\nvary: {dresspack.bending_stiffness_Nm2: [2, 3]}\n");
-  REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml --quiet");
   const auto right = results(scratch / "runs/study");
   const std::string status = run(scratch, "dresslife", "status study.yaml").out;
   fs::copy(scratch / "runs", scratch / "whole", fs::copy_options::recursive);
@@ -114,9 +103,7 @@ TEST_CASE("each read and look that fails in a command over results is told, and 
             REQUIRE(bytes == right.at(name));
         }
         ++(outcome.status == 0 ? whole : refused);
-        const Outcome again = run(scratch, "dresslife", "run study.yaml --quiet");
-        INFO(again.err);
-        REQUIRE(again.status == 0);
+        must_run(scratch, "dresslife", "run study.yaml --quiet");
         REQUIRE(results(scratch / "runs/study") == right);
       }
     }
@@ -128,7 +115,7 @@ TEST_CASE("no bit that turns in a file of results while a page is made from it c
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}}\n");
-  REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml --quiet");
   const fs::path page = scratch / "runs/study/a/page.html";
   const std::string right = content(page);
   const auto fail_at = [&](int at) {

@@ -171,9 +171,8 @@ TEST_CASE("a search takes no fault of the machine for a bad routing") {
   const std::string search = "improve better.yaml --rehearsals 2 --off 0 --quiet --trials ";
   Scratch undisturbed;
   write_inputs(undisturbed);
-  REQUIRE(run(undisturbed, "dresslife", search + "2").status == 0);
-  const Outcome right = run(undisturbed, "dresslife", search + "4");
-  REQUIRE(right.status == 0);
+  must_run(undisturbed, "dresslife", search + "2");
+  const Outcome right = must_run(undisturbed, "dresslife", search + "4");
   const std::string allocation =
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
       "write";
@@ -185,7 +184,7 @@ TEST_CASE("a search takes no fault of the machine for a bad routing") {
                                       {"dresslife-fatigue", allocation}}) {
     Scratch scratch;
     write_inputs(scratch);
-    REQUIRE(run(scratch, "dresslife", search + "2").status == 0);
+    must_run(scratch, "dresslife", search + "2");
     const Outcome failed = run_with(scratch,
                                     std::string("env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=") + call +
                                         " FAULT_AT=1 FAULT_MORE=all FAULT_PROGRAM=" + program +
@@ -205,9 +204,9 @@ TEST_CASE("a file system that cannot say what a path leads to changes no patch o
   Scratch scratch;
   write_inputs(scratch);
   scratch.write("short.yaml", "base: robot.yaml\njobs: {a: {}}\n");
-  REQUIRE(run(scratch, "dresslife", "run short.yaml --quiet").status == 0);
+  must_run(scratch, "dresslife", "run short.yaml --quiet");
   const std::string arguments = "robot.yaml --ways runs/short/a/life.h5 --lines 1 -o ways.h5 --quiet";
-  REQUIRE(run(scratch, "dresslife-import", arguments).status == 0);
+  must_run(scratch, "dresslife-import", arguments);
   const std::string right = content(scratch / "ways.h5");
   // Of the program and of its folder: these name the files of the patch.
   for (const std::string& path : {(scratch / "turn.mod").string(), std::string("dresslife-")})

@@ -100,8 +100,7 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
   write_small_job(scratch);
   write_cluster(scratch, "small.yaml", 1, 3);
   scratch.write("shards.yaml", "base: job.yaml\nvary: {dresspack.bending_stiffness_Nm2: [2, 3, 4]}\n");
-  const Outcome whole = run(scratch, "dresslife", "run shards.yaml -o whole --quiet");
-  REQUIRE(whole.status == 0);
+  const Outcome whole = must_run(scratch, "dresslife", "run shards.yaml -o whole --quiet");
   const Outcome array =
       slurm.shell("'" DRESSLIFE_BIN_DIR "/dresslife' submit shards.yaml --cluster small.yaml");
   INFO(array.out << array.err);

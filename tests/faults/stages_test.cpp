@@ -30,9 +30,7 @@ class Chain {
   Chain() {
     write_small_job(scratch);
     for (const Stage& stage : stages) {
-      const Outcome outcome = run(scratch, stage.program, stage.command(stage.output));
-      INFO(outcome.err);
-      REQUIRE(outcome.status == 0);
+      must_run(scratch, stage.program, stage.command(stage.output));
       files[stage.output] = content(scratch / stage.output);
     }
   }
@@ -254,7 +252,7 @@ TEST_CASE("closed and full streams are survived and told by the status") {
   CHECK(closed.status == 0);
   CHECK(content(scratch / "s.h5") == chain.files.at("strain.h5"));  // nothing that was said went into it
   scratch.write("study.yaml", "base: job.yaml\n");
-  REQUIRE(run(scratch, "dresslife", "run study.yaml").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml");
   for (const std::string what :
        {"run study.yaml", "status study.yaml", "report study.yaml", "manual keys", "--help"}) {
     const Outcome full = run_shell(scratch, bin + "' " + what + " > /dev/full");

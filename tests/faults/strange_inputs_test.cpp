@@ -102,7 +102,7 @@ TEST_CASE("a pipe, a device, a socket and a terabyte of nothing are refused as a
       return text.replace(text.find("INPUT"), 5, by);
     };
     if (reader.arguments.starts_with("motion.h5"))
-      REQUIRE(run(scratch, "dresslife-sim", "job.yaml -o motion.h5").status == 0);
+      must_run(scratch, "dresslife-sim", "job.yaml -o motion.h5");
     for (const std::string& name : make_strange_files(scratch, reader.ending)) {
       if (rounds(1) == 1 && random() % 3 != 0) continue;
       std::string arguments = reader.arguments;
@@ -136,7 +136,7 @@ TEST_CASE("a strange file in the place of a result stops nothing but what needs 
     Scratch scratch;
     write_small_job(scratch);
     scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}}\n");
-    REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+    must_run(scratch, "dresslife", "run study.yaml --quiet");
     const fs::path file = scratch / ("runs/study/a/" + name);
     fs::remove(file);
     REQUIRE(::mkfifo(file.c_str(), 0600) == 0);
@@ -163,7 +163,7 @@ TEST_CASE("no run waits for a pipe or writes through a link among the notes of a
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}}\n");
   scratch.write("mine.txt", "mine\n");
-  REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml --quiet");
   const std::string changed = "run study.yaml --quiet --set strain.gate=0.0007";
   for (const std::string name : {"a/.stage/strain.log", ".stage/.ninja_log", ".stage/.ninja_deps"})
     for (const bool is_pipe : {true, false}) {

@@ -26,18 +26,6 @@ const char* study_text = R"(base: job.yaml
 vary: {dresspack.bending_stiffness_Nm2: [2, 3, 4]}
 )";
 
-/// A study's results: every file's bytes but those of the runner's own bookkeeping.
-std::map<std::string, std::string> results(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = fs::relative(entry.path(), folder).string();
-    const bool own = name.find(".stage") != std::string::npos || name == ".lock" || name == "build.ninja" ||
-                     entry.path().filename() == "log";
-    if (entry.is_regular_file() && !own) files[name] = content(entry.path());
-  }
-  return files;
-}
-
 /// Starts a program in the scratch folder and leaves it alone.
 pid_t start(const Scratch& scratch, const std::string& program, const std::vector<std::string>& arguments) {
   const pid_t process = ::fork();

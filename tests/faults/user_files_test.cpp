@@ -42,12 +42,7 @@ void write_inputs(const Scratch& scratch) {
   scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}, b: {}}\n");
   scratch.write("duties.yaml", "study: study.yaml\nduties: [{name: d, programs: [{job: a, percent_of_time: 0.1}]}]\n");
   scratch.write("fleet.csv", "name,duty,installed\nr,d,\n");
-  const std::string job = content(scratch / "job.yaml");
-  const std::size_t begin = job.find("dresspack:\n") + 11, end = job.find("routing:\n");
-  std::string hose;
-  std::istringstream lines(job.substr(begin, end - begin));
-  for (std::string line; std::getline(lines, line);) hose += line.substr(2) + "\n";
-  scratch.write("hose.yaml", hose);
+  write_small_hose(scratch);
   scratch.write("lives.yaml",
                 "observations:\n  - name: flex\n    what: data sheet\n    job:\n      motion: {rig: {kind: rolling_flex, "
                 "radius_diameters: 10, travel_m: 1}}\n      dresspack: {cable: control_cable}\n    cycles: 1e+7\n    outcome: "
@@ -97,7 +92,7 @@ TEST_CASE("no command replaces, empties or removes what is not ours, and each na
   Scratch before, after;
   write_inputs(before);
   write_inputs(after);
-  REQUIRE(run(after, "dresslife", "run study.yaml -j 2 --quiet").status == 0);
+  must_run(after, "dresslife", "run study.yaml -j 2 --quiet");
   const unsigned seed = std::random_device{}();
   std::mt19937 random(seed);
   std::cout << "things of the user with seed " << seed;
@@ -116,9 +111,7 @@ TEST_CASE("no command replaces, empties or removes what is not ours, and each na
     std::vector<std::string> outputs;
     in_a_copy([&](const Scratch& scratch) {
       const auto was = things_in(scratch.folder());
-      const Outcome outcome = run(scratch, command.program, command.arguments);
-      INFO(outcome.out << outcome.err);
-      REQUIRE(outcome.status == 0);
+      must_run(scratch, command.program, command.arguments);
       for (const auto& [name, thing] : things_in(scratch.folder()))
         if (thing != "folder" && (!was.contains(name) || was.at(name) != thing)) outputs.push_back(name);
       REQUIRE(!holds_parts(scratch.folder()));
@@ -175,7 +168,7 @@ TEST_CASE("a run that would replace a file of the user ends before it computes")
 TEST_CASE("files of the user beside results stay through every command, whatever goes of the results") {
   Scratch scratch;
   write_inputs(scratch);
-  REQUIRE(run(scratch, "dresslife", "run study.yaml -j 2 --quiet").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml -j 2 --quiet");
   std::vector<std::string> mine;
   for (const auto& [name, thing] : things_in(scratch / "runs"))
     if (thing == "folder") mine.push_back("runs/" + name + "/mine");
@@ -244,8 +237,8 @@ TEST_CASE("force: it replaces a file of the user, and never one that the command
 TEST_CASE("a file of ours that a user edits is theirs, one without edits is made again when it is damaged") {
   Scratch scratch;
   write_inputs(scratch);
-  REQUIRE(run(scratch, "dresslife", "run study.yaml -j 2 --quiet").status == 0);
-  REQUIRE(run(scratch, "dresslife-import", "swing.mod -o swing.yaml").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml -j 2 --quiet");
+  must_run(scratch, "dresslife-import", "swing.mod -o swing.yaml");
   const std::string imported = content(scratch / "swing.yaml") + "# a note of mine\n";
   scratch.write("swing.yaml", imported);
   CHECK(run(scratch, "dresslife-import", "swing.mod -o swing.yaml").status == 1);
@@ -259,7 +252,7 @@ TEST_CASE("a file of ours that a user edits is theirs, one without edits is made
                          "since; move it away") != std::string::npos);
   CHECK(content(scratch / "runs/study/a/job.yaml") == edited);
   fs::remove(scratch / "runs/study/a/job.yaml");
-  REQUIRE(run(scratch, "dresslife", "run study.yaml").status == 0);
+  must_run(scratch, "dresslife", "run study.yaml");
   for (const std::string name : {"ranking.csv", "report.html", "a/page.html", "build.ninja"}) {
     const fs::path file = scratch / ("runs/study/" + name);
     const std::string right = content(file);

@@ -10,6 +10,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
 using Catch::Contains;
@@ -290,13 +291,8 @@ TEST_CASE(
 }
 
 TEST_CASE("stiffness: what has none, and words that are none, are refused with a remedy") {
-  const auto refusal = [](const std::vector<std::string>& sets) -> std::string {
-    try {
-      job_with(sets);
-    } catch (const InputError& problem) {
-      return problem.what();
-    }
-    return "nothing refused";
+  const auto refusal = [](const std::vector<std::string>& sets) {
+    return message_of([&] { job_with(sets); });
   };
   CHECK_THAT(refusal({"dresspack.bending_stiffness_Nm2=from_the_construction"}),
              Contains("must be a number or from_construction, the unit is in the key: N m2"));

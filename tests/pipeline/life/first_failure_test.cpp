@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "tests/catch.h"
+#include "tests/pipeline/life/straight_response.h"
 
 using namespace dresslife::pipeline;
 
@@ -24,23 +25,9 @@ const double model_decades = uncertain_parameters()[model].deviation() / std::lo
 
 double normal(double z) { return std::erfc(-z / std::sqrt(2.0)) / 2; }
 
-/// log10 life 5 +- 0.1 (10 and 90 %) by scatter, -a friction - b slack + c strength, all straight.
 LifeResponse straight(double a, double b, double c, double median = 5) {
-  LifeResponse response;
-  response.construction = "hose", response.material = "copper";
-  response.knowledge = prior_of({});
+  LifeResponse response = straight_response(a, b, c, median);
   response.knowledge.covariance(motion, motion) = 0;  // as where no robot moves; tested by itself
-  response.planned = {{median - 0.1, median, median + 0.1}};
-  response.points.clear(), response.inside.clear(), response.worst_life.clear();
-  response.strength = {-2, 0, 2};
-  for (const double f : {0.0, -1.5, 1.5})
-    for (const double s : {0.0, -1.5, 1.5}) {
-      response.points.push_back({});
-      response.inside.push_back(Inside::as_is);
-      response.points.back()[friction] = f, response.points.back()[slack] = s;
-      for (const double of_strength : response.strength)
-        response.worst_life.push_back(median + 0.3 - a * f - b * s + c * of_strength);
-    }
   return response;
 }
 

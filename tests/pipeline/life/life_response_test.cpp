@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "tests/catch.h"
+#include "tests/pipeline/life/straight_response.h"
 
 using namespace dresslife::pipeline;
 
@@ -20,25 +21,6 @@ constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = i
                       model = index_of(Uncertain::model);
 const double model_decades = uncertain_parameters()[model].deviation() / std::log(10.0);
 
-/// log10 life 5 +- 0.1 (10 and 90 %) by scatter, -a friction - b slack + c strength, all straight.
-LifeResponse straight(double a, double b, double c) {
-  LifeResponse response;
-  response.construction = "hose", response.material = "copper";
-  response.knowledge = prior_of({});
-  response.planned = {{4.9, 5, 5.1}};
-  response.points.clear(), response.inside.clear(), response.worst_life.clear();
-  response.strength = {-2, 0, 2};
-  for (const double f : {0.0, -1.5, 1.5})
-    for (const double s : {0.0, -1.5, 1.5}) {
-      response.points.push_back({});
-      response.inside.push_back(Inside::as_is);
-      response.points.back()[friction] = f, response.points.back()[slack] = s;
-      for (const double of_strength : response.strength)
-        response.worst_life.push_back(5.3 - a * f - b * s + c * of_strength);
-    }
-  return response;
-}
-
 ParameterPoint at(std::size_t parameter, double z) {
   ParameterPoint point{};
   point[parameter] = z;
@@ -48,7 +30,7 @@ ParameterPoint at(std::size_t parameter, double z) {
 }  // namespace
 
 TEST_CASE("a straight response is straight between its points and beyond them") {
-  const LifeResponse response = straight(0.6, 0.2, 0.4);
+  const LifeResponse response = straight_response(0.6, 0.2, 0.4);
   for (const double z : {-2.5, -1.5, -0.4, 0.0, 0.9, 3.0}) {
     CHECK(response.change(at(friction, z)) == Approx(-0.6 * z).margin(rounding));
     CHECK(response.change(at(slack, z)) == Approx(-0.2 * z).margin(rounding));
@@ -61,7 +43,7 @@ TEST_CASE("a straight response is straight between its points and beyond them") 
 }
 
 TEST_CASE("each side of the median has the spread of its own percentile") {
-  LifeResponse response = straight(0, 0, 0);
+  LifeResponse response = straight_response(0, 0, 0);
   response.planned = {{2, 3, 3.4}};
   for (const auto& [tenths, life] : {std::pair{-1, 2.0}, std::pair{0, 3.0}, std::pair{1, 3.4}})
     CHECK(response.log10_life({}, tenths * 1.2815515655446004) == Approx(life));
@@ -95,7 +77,7 @@ TEST_CASE("how long a life without end is decides nothing about lives that cause
 }
 
 TEST_CASE("a parameter by itself joins the crossed ones, whatever they are") {
-  LifeResponse response = straight(0.6, 0.2, 0);
+  LifeResponse response = straight_response(0.6, 0.2, 0);
   response.points.push_back({}), response.points.back()[index_of(Uncertain::play)] = 1.5;
   response.inside.push_back(Inside::as_is);
   response.worst_life.insert(response.worst_life.end(), 3, 5.3 + 0.3);
@@ -114,7 +96,7 @@ struct RandomTable {
   std::map<std::size_t, std::vector<double>> nodes{
       {friction, {-1.5, 0, 1, 2.5}}, {slack, {-2, 0, 1}}, {play, {0, 0.5, 2}},
       {strength, {-2, -0.5, 0, 1}},  {slope, {-1, 0, 3}}, {scatter, {-1, 0, 0.5}}};
-  LifeResponse response = straight(0, 0, 0);
+  LifeResponse response = straight_response(0, 0, 0);
 
   double random() { return std::uniform_real_distribution<double>(4, 6)(engine); }
   void add(Inside inside, double f, double s, double p) {
@@ -245,7 +227,7 @@ TEST_CASE(
 }
 
 TEST_CASE("what is never damaged lives without end, whatever the model's factor is") {
-  LifeResponse response = straight(0.6, 0, 0);
+  LifeResponse response = straight_response(0.6, 0, 0);
   response.planned = {{LifeResponse::undamaged, LifeResponse::undamaged, LifeResponse::undamaged}};
   for (double& life : response.worst_life) life = LifeResponse::undamaged;
   CHECK(std::isinf(response.log10_life({}, -2)));
@@ -254,7 +236,7 @@ TEST_CASE("what is never damaged lives without end, whatever the model's factor 
 
 TEST_CASE("beyond the rests of all starts a life is that of the last one") {
   constexpr std::size_t rest = index_of(Uncertain::rest);
-  LifeResponse response = straight(0.6, 0.2, 0);
+  LifeResponse response = straight_response(0.6, 0.2, 0);
   for (const auto& [z, life] : {std::pair(-0.7, 4.3), {0.9, 6.3}}) {
     response.points.push_back({}), response.points.back()[rest] = z;
     response.inside.push_back(Inside::as_is);
@@ -266,7 +248,7 @@ TEST_CASE("beyond the rests of all starts a life is that of the last one") {
 }
 
 TEST_CASE("a text from before there were rests is read: the same lives") {
-  const LifeResponse response = straight(0.6, 0.2, 0.4);
+  const LifeResponse response = straight_response(0.6, 0.2, 0.4);
   std::istringstream lines(response.text());
   constexpr std::size_t rest = index_of(Uncertain::rest);
   std::string older;
@@ -290,7 +272,7 @@ TEST_CASE("a text from before there were rests is read: the same lives") {
 }
 
 TEST_CASE("a response and its text lead to each other, no other text is one") {
-  const LifeResponse response = straight(0.6, 0.2, 0.4);
+  const LifeResponse response = straight_response(0.6, 0.2, 0.4);
   const LifeResponse again = LifeResponse::from_text(response.text());
   CHECK(again.text() == response.text());
   CHECK(again.log10_life(at(friction, 0.7), 0.3) ==

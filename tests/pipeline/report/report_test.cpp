@@ -25,13 +25,6 @@ JobResult job_with(const Scratch& scratch, const std::string& file, const Sample
   return {name.empty() ? file : name, scratch / (file + ".h5"), ""};
 }
 
-std::size_t count_of(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
-    ++count;
-  return count;
-}
-
 /// Every tag is closed in the order of opening, every attribute quoted: what a browser does not have to
 /// guess.
 std::string first_fault(const std::string& page) {

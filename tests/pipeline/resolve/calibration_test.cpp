@@ -32,10 +32,6 @@ observations:
 )" + to_yaml(tree);
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
-}
-
 /// The place in the file and the words.
 std::string refusal(const std::string& calibration) {
   const Scratch scratch;
@@ -62,7 +58,7 @@ TEST_CASE("calibration: the keys of a job that names one go to its medians") {
   CHECK(job_text(again) == job_text(job));
   CHECK(again.fatigue.strength_factor == job.fatigue.strength_factor);
   const std::string before = part_text(job, JobPart::fatigue), sim = part_text(job, JobPart::sim);
-  scratch.write("learned.yaml", replaced(two_learned(), "0.25", "0.26"));
+  scratch.write("learned.yaml", edited(two_learned(), "0.25", "0.26"));
   CHECK(part_text(read_job(file), JobPart::fatigue) != before);
   CHECK(part_text(read_job(file), JobPart::sim) == sim);
 }
@@ -85,23 +81,23 @@ TEST_CASE("calibration: draws are its own, of what it does not know the prior's"
 
 TEST_CASE("calibration: bad files are refused at their place") {
   CHECK(refusal(two_learned()) == "");
-  CHECK(refusal(replaced(two_learned(), "strength,", "strenght,"))
+  CHECK(refusal(edited(two_learned(), "strength,", "strenght,"))
             .starts_with("learned.yaml:4:5: error: 'strenght' is no uncertain"));
-  CHECK(refusal(replaced(two_learned(), "friction_inside", "strength")).find("'strength' stands twice") !=
+  CHECK(refusal(edited(two_learned(), "friction_inside", "strength")).find("'strength' stands twice") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned(), "dresslife-calibration", "dresslife-life")).find("has the format") !=
+  CHECK(refusal(edited(two_learned(), "dresslife-calibration", "dresslife-life")).find("has the format") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned(), "version: 2", "version: 9")).find("is of version 9") !=
+  CHECK(refusal(edited(two_learned(), "version: 2", "version: 9")).find("is of version 9") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned(), "[0.25, -0.1]", "[0.25]")).find("has 1 covariances") !=
+  CHECK(refusal(edited(two_learned(), "[0.25, -0.1]", "[0.25]")).find("has 1 covariances") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned(), "[0.25, -0.1]", "[0.25, 0.1]")).find("not symmetric") !=
+  CHECK(refusal(edited(two_learned(), "[0.25, -0.1]", "[0.25, 0.1]")).find("not symmetric") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned(), "[0.25, -0.1]", "[0.01, -0.1]")).find("not symmetric and positive") !=
+  CHECK(refusal(edited(two_learned(), "[0.25, -0.1]", "[0.01, -0.1]")).find("not symmetric and positive") !=
         std::string::npos);
-  CHECK(refusal(replaced(two_learned(), "0.25", ".nan")) != "");
+  CHECK(refusal(edited(two_learned(), "0.25", ".nan")) != "");
   CHECK(refusal("just words\n").find("holds no calibration") != std::string::npos);
-  CHECK(refusal(replaced(two_learned(), "parameters", "parameter")).find("unknown key") != std::string::npos);
+  CHECK(refusal(edited(two_learned(), "parameters", "parameter")).find("unknown key") != std::string::npos);
   const Scratch scratch;
   const auto lost = scratch.write("job.yaml", sample_job + "calibration: nowhere.yaml\n");
   CHECK(message_of([&] { read_job(lost); }).find("nowhere.yaml") != std::string::npos);
@@ -148,7 +144,8 @@ TEST_CASE("calibration: a job with other settings than its tests is refused, and
   const std::string friction = answer(two_learned(), {wires + "friction_coefficient=0.5"});
   CHECK(has(friction, "was learned with friction_coefficient 0.3 and radial_line_load_N_per_m "));
   CHECK(has(friction, "(this job has friction_coefficient 0.5 and radial_line_load_N_per_m "));
-  const std::string constants = answer(replaced(two_learned(), "fatigue_strength_MPa ", "fatigue_strength_MPa 1"), {});
+  const std::string constants =
+      answer(edited(two_learned(), "fatigue_strength_MPa ", "fatigue_strength_MPa 1"), {});
   CHECK(has(constants, "was learned with fatigue_strength_MPa 1"));
   CHECK(has(constants, " of material 'copper' (this job has fatigue_strength_MPa "));
   // Tests under several values teach for each of them.

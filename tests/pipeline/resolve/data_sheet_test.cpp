@@ -11,6 +11,7 @@
 #include "pipeline/job/dresspack.h"
 #include "pipeline/settings/fields.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
 
@@ -45,12 +46,7 @@ Component cable_of(const std::string& keys) {
 }
 
 std::string refusal_of(const std::string& keys) {
-  try {
-    cable_of(keys);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return message_of([&] { cable_of(keys); });
 }
 
 double wire_area(const Component& part) {
@@ -160,14 +156,7 @@ TEST_CASE("a sheet's line is what its keys are") {
       expanded(
           "{cores: 4, cores_per_group: 2, cross_section_mm2: 0.25, wire_diameter_mm: 0.1, group_lay_length_mm: 25, "
           "wire_lay_length_mm: 12, core_diameter_mm: 1.2, outer_diameter_mm: 9, jacket_thickness_mm: 0.9}"));
-  const auto refusal = [&](const std::string& sheet) {
-    try {
-      expanded(sheet);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto refusal = [&](const std::string& sheet) { return message_of([&] { expanded(sheet); }); };
   CHECK_THAT(refusal("7 x 0.5 mm2, screen 85 %, wire 0.1 mm"),
              Catch::Contains("'screen 85 %' of a data sheet is not understood") &&
                  Catch::Contains("write phrases as in"));

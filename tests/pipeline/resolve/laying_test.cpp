@@ -4,6 +4,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
 
@@ -14,12 +15,7 @@ Job job_with(const std::vector<std::string>& sets) {
 }
 
 std::string refusal(const std::vector<std::string>& sets) {
-  try {
-    job_with(sets);
-  } catch (const InputError& problem) {
-    return problem.what();
-  }
-  return "nothing refused";
+  return message_of([&] { job_with(sets); });
 }
 
 bool is_loose(const std::vector<std::string>& sets) {

@@ -8,14 +8,8 @@ using namespace dresslife::sim::test;
 namespace {
 
 RodProperties pulled_hose(int segments, const SlidingClamp& slider) {
-  RodProperties p;
-  p.segments = segments;
-  p.length = 1.2;
-  p.mass_per_length = 2.5;
+  RodProperties p = hose(segments, 1.2);
   p.diameter = 0.05;
-  p.bending_stiffness = 5;
-  p.torsional_stiffness = 4;
-  p.axial_stiffness = 1e5;
   p.damping_time = 0.02;
   p.slider = slider;
   return p;

@@ -4,8 +4,7 @@
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife::sim;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
+using namespace dresslife::tests;
 
 namespace {
 

@@ -1,6 +1,5 @@
 // What every language reckons and decides: random expressions, with as few parentheses as their meaning allows.
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "tests/catch.h"
@@ -8,8 +7,7 @@
 
 using namespace dresslife;
 using namespace dresslife::sim;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
+using namespace dresslife::tests;
 
 namespace {
 
@@ -23,7 +21,6 @@ struct Syntax {
   std::vector<std::pair<std::string, double (*)(double, double)>> whole;  // operators of whole numbers
 };
 
-constexpr double degree = std::numbers::pi / 180;
 double sine(double x) { return std::sin(x * degree); }
 double cosine(double x) { return std::cos(x * degree); }
 double tangent(double x) { return std::tan(x * degree); }

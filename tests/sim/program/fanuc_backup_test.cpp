@@ -1,16 +1,14 @@
 #include "sim/program/fanuc_backup.h"
 
-#include <unistd.h>
-
-#include <fstream>
-
 #include "pipeline/job/motion.h"
 #include "sim/program/backup.h"
-#include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;
 using namespace dresslife::sim;
+using namespace dresslife::tests;
+using dresslife::pipeline::Scratch;
 namespace fs = std::filesystem;
 
 namespace {
@@ -56,28 +54,8 @@ const char* macros = R"([*SYSTEM*]$MACROTABLE  Storage: SHADOW  Access: RO  : AR
      Field: $MACROTABLE[1].$PROG_NAME Access: RO: STRING[37] = 'MOV_HOME'
 )";
 
-/// A folder that is gone with its test.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("dresslife_fanuc_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  void write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path / name).parent_path());
-    std::ofstream(path / name) << text;
-  }
-};
-
 std::string program(const std::string& name, const std::string& lines) {
   return "/PROG  " + name + "\n/MN\n" + lines + "/POS\n/END\n";
-}
-
-pipeline::Motion motion(const fs::path& path, const std::string& routine = "") {
-  pipeline::Motion made;
-  made.program = path;
-  made.routine = routine;
-  return made;
 }
 
 }  // namespace
@@ -103,7 +81,7 @@ TEST_CASE("fanuc backup: variable files give registers, positions, frames and ma
 }
 
 TEST_CASE("fanuc backup: what lies beside a listing is read with it, a folder is a program") {
-  const Folder folder;
+  const Scratch folder;
   folder.write("POSREG.VA", positions);
   folder.write("numreg.va", numbers);
   folder.write("sysframe.va", frames);
@@ -116,36 +94,36 @@ TEST_CASE("fanuc backup: what lies beside a listing is read with it, a folder is
   folder.write("errall.ls", "ERRALL.LS     Robot Name ROBOT\nF Number: F00000\n");
   folder.write("idle.ls", program("IDLE", "   1:  DO[1]=ON ;\n"));
 
-  for (const fs::path& given : {folder.path / "MAIN.LS", folder.path}) {
-    const Program read = read_program(motion(given));
+  for (const fs::path& given : {folder / "MAIN.LS", folder.folder()}) {
+    const Program read = read_program(motion_by(given));
     REQUIRE(read.instructions.size() == 3);
     CHECK(read.instructions[0].routine == "mov_home");
     CHECK(read.instructions[0].target.joints[5] == Approx(0.5 * std::acos(-1) / 180).epsilon(1e-12));
     CHECK(read.tools.at(read.instructions[1].tool).name == "UTOOL[2]");
     CHECK(read.work_objects.at(read.instructions[1].work_object).frame.position.x() == Approx(1.56358));
   }
-  const FanucFolder found = fanuc_folder(folder.path);
+  const FanucFolder found = fanuc_folder(folder.folder());
   CHECK(found.listings.size() == 4);
   CHECK(found.variables.size() == 4);
   CHECK(found.mains == std::vector<std::string>{"main"});
 
   folder.write("other.ls", program("OTHER", "   1:J PR[1] 50% FINE ;\n"));
-  CHECK(read_program(motion(folder.path, "other")).instructions.size() == 1);
-  CHECK(read_program(motion(folder.path)).instructions.size() == 3);  // MAIN is the one of several
-  fs::remove(folder.path / "MAIN.LS");
+  CHECK(read_program(motion_by(folder.folder(), "other")).instructions.size() == 1);
+  CHECK(read_program(motion_by(folder.folder())).instructions.size() == 3);  // MAIN is the one of several
+  fs::remove(folder / "MAIN.LS");
   folder.write("cell.ls", program("CELL", "   1:  CALL WORK(1) ;\n"));
-  CHECK_THROWS_WITH(read_program(motion(folder.path)),
+  CHECK_THROWS_WITH(read_program(motion_by(folder.folder())),
                     Catch::Contains("holds 3 programs that no other one calls; choose with --routine: cell, "
                                     "mov_home, other"));
 }
 
 TEST_CASE(
     "fanuc backup: listings in two languages lie in folders of their own, beside one set of registers") {
-  const Folder folder;
+  const Scratch folder;
   folder.write("posreg.va", positions);
   folder.write("english/home.ls", program("HOME", "   1:J PR[1] 50% FINE ;\n"));
-  CHECK(read_program(motion(folder.path / "english" / "home.ls")).instructions.size() == 1);
-  CHECK(read_program(motion(folder.path)).instructions.size() == 1);
+  CHECK(read_program(motion_by(folder / "english/home.ls")).instructions.size() == 1);
+  CHECK(read_program(motion_by(folder.folder())).instructions.size() == 1);
   folder.write("german/home.ls", program("HOME", "   1:J PR[1] 50% FINE ;\n"));
-  CHECK_THROWS_WITH(read_program(motion(folder.path)), Catch::Contains("several robots or languages"));
+  CHECK_THROWS_WITH(read_program(motion_by(folder.folder())), Catch::Contains("several robots or languages"));
 }

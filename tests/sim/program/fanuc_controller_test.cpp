@@ -1,17 +1,14 @@
 // What a Fanuc controller does with listings as they lie on it, each with its reason.
-#include <numbers>
 
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;
 using namespace dresslife::sim;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
+using namespace dresslife::tests;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double rounding = 1e-9;  // of millimetres and angles through a dozen products
 
 const std::string joints = R"(P[1]{
@@ -75,8 +72,7 @@ struct Asked {
 };
 
 /// The lines as the program CELL, with further files (name, text).
-Reading run(const std::string& lines, const Asked& asked = {},
-            const std::vector<std::pair<std::string, std::string>>& more = {}) {
+Reading run(const std::string& lines, const Asked& asked = {}, const Files& more = {}) {
   ImportOptions options;
   options.values = asked.values;
   options.choose = asked.choose;
@@ -85,8 +81,7 @@ Reading run(const std::string& lines, const Asked& asked = {},
   options.routine = asked.routine;
   const std::vector<NamedFrame> tools{{"UTOOL[2]", {Vector3(0, 0, 0.4), Quaternion::Identity()}, false}};
   const std::vector<NamedFrame> objects{{"UFRAME[3]", {Vector3(1, 0, 0), Quaternion::Identity()}, false}};
-  std::vector<std::pair<std::string, std::string>> files{
-      {"cell.ls", "/PROG  CELL\n/ATTR\n/MN\n" + lines + "/POS\n" + joints + poses + "/END\n"}};
+  Files files{{"cell.ls", "/PROG  CELL\n/ATTR\n/MN\n" + lines + "/POS\n" + joints + poses + "/END\n"}};
   files.insert(files.end(), more.begin(), more.end());
   return Reader{Language::fanuc, options, tools, objects}(files);
 }
@@ -339,10 +334,11 @@ TEST_CASE(
 }
 
 TEST_CASE("fanuc: what an undecided branch may set is asked for where a move needs it, whatever was given or backed up") {
-  const std::vector<std::pair<std::string, std::string>> backup{
-      {"sysframe.va", "[*SYSTEM*]$MNUTOOL  Storage: CMOS  Access: RW  : ARRAY[1,9] OF POSITION\n     [1,2] =\n  Group: 1   "
-                      "Config: N D B, 0, 0, 0\n  X:     0.000   Y:     0.000   Z:   100.000\n  W:     0.000   P:     0.000   "
-                      "R:     0.000\n"}};
+  const Files backup{
+      {"sysframe.va",
+       "[*SYSTEM*]$MNUTOOL  Storage: CMOS  Access: RW  : ARRAY[1,9] OF POSITION\n     [1,2] =\n  Group: 1   "
+       "Config: N D B, 0, 0, 0\n  X:     0.000   Y:     0.000   Z:   100.000\n  W:     0.000   P:     0.000   "
+       "R:     0.000\n"}};
   for (const auto& [sets, what] :
        {std::pair("$MCR.$GENOVERRIDE=10", "moves under an OVERRIDE that is known only while the robot runs"),
         std::pair("$PRGOVERRIDE=10", "moves under an $PRGOVERRIDE that is known only while the robot runs"),
@@ -363,7 +359,7 @@ TEST_CASE("fanuc: what an undecided branch may set is asked for where a move nee
     const std::string lines = fmt::format("   1:L P[3] 100mm/sec FINE ;\n   2:  IF (DI[1]=ON) THEN ;\n   3:  {} ;\n"
                                           "   4:  ENDIF ;\n   5:L P[8] 100mm/sec FINE ;\n", sets);
     const Asked known{.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}}};
-    for (const auto& files : {std::vector<std::pair<std::string, std::string>>{}, backup}) {
+    for (const auto& files : {Files{}, backup}) {
       const Reading r = run(lines, known, files);
       REQUIRE(!r.problems.empty());
       CHECK(r.problems[0].what == what);
@@ -541,8 +537,7 @@ TEST_CASE("fanuc moves: what changes a target is followed, or named") {
 }
 
 TEST_CASE("fanuc programs: names with hyphens, logs beside, doubles, faults in programs that never run") {
-  const std::vector<std::pair<std::string, std::string>> one{
-      {"-bcked2-.ls", listing("-BCKED2-\t  Macro", "   1:J P[1] 100% FINE ;\n")}};
+  const Files one{{"-bcked2-.ls", listing("-BCKED2-\t  Macro", "   1:J P[1] 100% FINE ;\n")}};
   CHECK(Reader{Language::fanuc}(one).program.instructions.size() == 1);
   CHECK(stops(run("   1:  CALL -BCKED2- ;\n", {}, one)) == std::vector<int>{1});
   const std::string broken = "/PROG  BROKEN\n/MN\n   1:  FOR R[1]=1 TO 3 ;\n/END\n";

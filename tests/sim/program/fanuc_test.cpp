@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "sim/program/fanuc_run.h"
 #include "tests/catch.h"
@@ -8,12 +7,10 @@
 
 using namespace dresslife;
 using namespace dresslife::sim;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
+using namespace dresslife::tests;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double rounding = 1e-12;  // of a few products of numbers near 1
 
 const std::string positions = R"(/POS
@@ -37,8 +34,7 @@ P[2:"weld"]{
 
 Reading run(const std::string& lines, const ImportOptions& options = {}, const std::string& more = "") {
   const std::vector<NamedFrame> tools{{"UTOOL[1]", {Vector3(0, 0, 0.4), Quaternion::Identity()}, false}};
-  std::vector<std::pair<std::string, std::string>> files{
-      {"cell.ls", "/PROG CELL\n/ATTR\nCOMMENT = \"\";\n/MN\n" + lines + positions}};
+  Files files{{"cell.ls", "/PROG CELL\n/ATTR\nCOMMENT = \"\";\n/MN\n" + lines + positions}};
   if (!more.empty()) files.push_back({"more.ls", "/PROG MORE\n/MN\n" + more + positions});
   return Reader{Language::fanuc, options, tools}(files);
 }

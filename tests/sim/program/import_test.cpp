@@ -14,9 +14,7 @@
 
 using namespace dresslife;
 using namespace dresslife::sim;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
-using dresslife::tests::samples;
+using namespace dresslife::tests;
 
 namespace {
 

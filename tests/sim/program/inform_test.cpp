@@ -5,12 +5,10 @@
 
 using namespace dresslife;
 using namespace dresslife::sim;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
+using namespace dresslife::tests;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double rounding = 1e-12;  // of a few products of numbers near 1
 
 const std::string rconf = "///RCONF 1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n";
@@ -32,15 +30,9 @@ std::string job(const std::string& name, const std::string& positions, const std
 }
 
 Reading run(const std::string& positions, const std::string& lines, const ImportOptions& options = {},
-            std::vector<std::pair<std::string, std::string>> more = {frames}) {
+            Files more = {frames}) {
   more.insert(more.begin(), {"A.JBI", job("A", positions, lines)});
   return Reader{Language::inform, options}(more);
-}
-
-ImportOptions given(std::map<std::string, std::string> values) {
-  ImportOptions options;
-  options.values = std::move(values);
-  return options;
 }
 
 /// The lines that moved the robot, in their order.
@@ -48,12 +40,6 @@ std::vector<int> lines_of(const Reading& r) {
   std::vector<int> lines;
   for (const Instruction& i : r.program.instructions) lines.push_back(i.where.line);
   return lines;
-}
-
-bool skips(const Reading& r, const std::string& words, bool may_move) {
-  return std::any_of(r.program.skipped.begin(), r.program.skipped.end(), [&](const Skipped& s) {
-    return s.what.find(words) != std::string::npos && s.may_move == may_move;
-  });
 }
 
 const std::map<std::string, std::string> counts{{"pulses_per_degree", "[1000,2000,-500,100,100,50]"}};

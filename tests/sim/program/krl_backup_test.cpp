@@ -1,8 +1,7 @@
 // KUKA backups: which programs and lists are read, and where the robot begins.
 
-#include "sim/program/import.h"
-#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
+#include "tests/sim/program/reading.h"
 
 using namespace dresslife;
 using dresslife::pipeline::Scratch;
@@ -40,9 +39,7 @@ void write_backup(const Scratch& folder, const std::string& called) {
 }
 
 pipeline::Motion read(const std::filesystem::path& path, const std::string& routine = "") {
-  pipeline::Motion asked;
-  asked.program = path;
-  asked.routine = routine;
+  const pipeline::Motion asked = tests::motion_by(path, routine);
   return sim::motion_of(sim::read_program(asked), asked);
 }
 

@@ -1,20 +1,14 @@
 // What a KUKA controller makes of programs as they lie on it: each case says what it does and why.
-#include <numbers>
 
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;
 using namespace dresslife::sim;
-using dresslife::tests::held_frames;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
+using namespace dresslife::tests;
 
 namespace {
 
-using Files = std::vector<std::pair<std::string, std::string>>;
-
-constexpr double degree = std::numbers::pi / 180;
 constexpr double rounding = 1e-12;  // of a few products of numbers near 1
 
 const std::string config =
@@ -37,14 +31,6 @@ Reading run(const std::string& body, const std::string& data = "", const Files& 
 
 std::string axes(double first) { return fmt::format("{{A1 {},A2 -90,A3 90,A4 0,A5 30,A6 0}}", first); }
 const std::string pose = "{X 1000,Y 0,Z 1000,A 0,B 90,C 0}";
-
-/// Angles of axis 1 over the moves [deg].
-std::vector<double> first_axes(const Reading& reading) {
-  std::vector<double> angles;
-  for (const Instruction& move : reading.program.instructions)
-    if (!move.target.joints.empty()) angles.push_back(std::round(move.target.joints[0] / degree));
-  return angles;
-}
 
 double tool_length(const Reading& reading, std::size_t move) {
   const int tool = reading.move(move).tool;
@@ -96,7 +82,7 @@ TEST_CASE("krl: a data list's names are its program's own") {
       kb_list{"KB.DAT", "DEFDAT kb\nDECL E6AXIS XP1=" + axes(11) + "\nENDDAT\n"};
   const Reading both = Reader{Language::krl}({ka, kb, ka_list, kb_list});
   REQUIRE(both.problem() == "no such problem");
-  CHECK(first_axes(both) == std::vector<double>{1, 11, 1});
+  CHECK(first_axes(both.program) == std::vector<double>{1, 11, 1});
   const Reading one = Reader{Language::krl}({ka, kb, ka_list, held_frames});
   REQUIRE(one.problems.size() == 1);
   CHECK(one.problem().starts_with("kb.src:2:5: error: moves to 'xp1', which no file read declares"));
@@ -107,7 +93,7 @@ TEST_CASE("krl: what says GLOBAL, and the system's lists, are everybody's") {
                                       "\nDECL E6AXIS L1=" + axes(6) + "\nENDDAT\n"}};
   const Reading global = run("PTP G1", "", others);
   REQUIRE(global.problem() == "no such problem");
-  CHECK(first_axes(global) == std::vector<double>{5});
+  CHECK(first_axes(global.program) == std::vector<double>{5});
   CHECK(run("PTP L1", "", others).problems.size() == 1);
 }
 
@@ -116,7 +102,7 @@ TEST_CASE("krl: routines behind the first of a file are its own unless they say 
                         {{"a.src", "DEF a()\nhelp()\nEND\nDEF help()\nPTP " + axes(1) + "\nEND\n"},
                          {"b.src", "DEF b()\nhelp()\nEND\nDEF help()\nPTP " + axes(2) + "\nEND\n"}});
   REQUIRE(r.problem() == "no such problem");
-  CHECK(first_axes(r) == std::vector<double>{1, 2, 0});
+  CHECK(first_axes(r.program) == std::vector<double>{1, 2, 0});
   const Reading missing =
       run("help()\nPTP " + axes(0), "", {{"a.src", "DEF a()\nEND\nDEF help()\nPTP " + axes(1) + "\nEND\n"}});
   REQUIRE(missing.program.skipped.size() == 1);
@@ -148,7 +134,7 @@ TEST_CASE("krl: INT divides in whole numbers, REAL does not, and INT takes REAL 
       run("INT a,b\nREAL x\na=1\nb=a-(3*(a/3))\nPTP {A1 b,A2 0,A3 0,A4 0,A5 0,A6 0}\nPTP {A1 "
           "7/2}\nx=7\nPTP {A1 10*(x/2)}\na=2.5\nPTP {A1 a}\na=-7\nPTP {A1 a/2}\nPTP {A1 7.0/2*2}");
   REQUIRE(r.problem() == "no such problem");
-  CHECK(first_axes(r) == std::vector<double>{1, 3, 35, 3, -3, 7});
+  CHECK(first_axes(r.program) == std::vector<double>{1, 3, 35, 3, -3, 7});
 }
 
 TEST_CASE("krl: parameters take the types of their declarations, and come back unless they only go in") {
@@ -157,14 +143,14 @@ TEST_CASE("krl: parameters take the types of their declarations, and come back u
           "up(k)\nINT k\nk=k+1\nEND\nDEF keep(k:IN)\nINT k\nk=k+5\nEND\nDEF half(x:IN)\nREAL x\nPTP {A1 "
           "20*(x/2)}");
   REQUIRE(r.problem() == "no such problem");
-  CHECK(first_axes(r) == std::vector<double>{2, 2, 30});
+  CHECK(first_axes(r.program) == std::vector<double>{2, 2, 30});
 }
 
 TEST_CASE("krl: FOR goes on from what its body makes of the counter") {
   const Reading r =
       run("INT n\nFOR n=1 TO 6\nPTP {A1 n,A2 0,A3 0,A4 0,A5 0,A6 0}\nn=n+1\nENDFOR\nPTP {A1 n}");
   REQUIRE(r.problem() == "no such problem");
-  CHECK(first_axes(r) == std::vector<double>{1, 3, 5, 7});
+  CHECK(first_axes(r.program) == std::vector<double>{1, 3, 5, 7});
 }
 
 TEST_CASE("krl: the counter behind a FOR whose end is not known is not known") {
@@ -180,8 +166,8 @@ TEST_CASE("krl: the counter behind a FOR whose end is not known is not known") {
     CHECK(run(loop + body + use, "", {}, {Language::krl, none}).problems.size() == 1);
   }
   CHECK(run(loop + "$FLAG[1]=TRUE\n" + use).problems.size() == 1);
-  CHECK(first_axes(run("INT n\nFOR n=1 TO 1\n$FLAG[1]=TRUE\nENDFOR\nIF n==2 THEN\nPTP " + axes(2) +
-                       "\nENDIF")) == std::vector<double>{2});
+  CHECK(first_axes(run("INT n\nFOR n=1 TO 1\n$FLAG[1]=TRUE\nENDFOR\nIF n==2 THEN\nPTP " + axes(2) + "\nENDIF")
+                       .program) == std::vector<double>{2});
 }
 
 TEST_CASE("krl: WITH sets speed, approximation, tool and base for its move alone") {
@@ -277,15 +263,15 @@ TEST_CASE("krl: a move to where the robot stands is none") {
   for (const char* here : {"PTP $AXIS_ACT", "PTP $POS_ACT", "SPTP $AXIS_ACT", "LIN $POS_ACT"}) {
     const Reading r = run(std::string("$VEL.CP=1\n") + here + "\nPTP " + axes(3));
     REQUIRE(r.problem() == "no such problem");
-    CHECK(first_axes(r) == std::vector<double>{3});
+    CHECK(first_axes(r.program) == std::vector<double>{3});
   }
   const Reading kept = run("DECL E6AXIS h\nh = $AXIS_ACT_MEAS ; here\nPTP h\nPTP " + axes(3));
   REQUIRE(kept.problem() == "no such problem");
-  CHECK(first_axes(kept) == std::vector<double>{3});
+  CHECK(first_axes(kept.program) == std::vector<double>{3});
   CHECK(run("DECL E6AXIS h\nh=$AXIS_ACT\nPTP " + axes(3) + "\nPTP h").problems.size() == 1);  // back there
   const Reading known = run("DECL E6AXIS h\nPTP " + axes(3) + "\nh=$AXIS_ACT\nh.A1=h.A1+4\nPTP h");
   REQUIRE(known.problem() == "no such problem");
-  CHECK(first_axes(known) == std::vector<double>{3, 7});
+  CHECK(first_axes(known.program) == std::vector<double>{3, 7});
   CHECK(run("DECL E6AXIS h\nh=$AXIS_ACT\nh.A1=h.A1+4\nPTP h").problems.size() == 1);
 }
 
@@ -351,11 +337,12 @@ TEST_CASE("krl: a target without a value is told apart from one that nobody decl
   // What the user gives for it counts until the program writes to it, as for an input by its name.
   Reader given{Language::krl};
   given.options.values = {{"pa", axes(7)}, {"gi", "3"}};
-  CHECK(first_axes(run("DECL E6AXIS pa\nPTP pa\npa=" + axes(8) + "\nPTP pa", "", {}, given)) ==
+  CHECK(first_axes(run("DECL E6AXIS pa\nPTP pa\npa=" + axes(8) + "\nPTP pa", "", {}, given).program) ==
         std::vector<double>{7, 8});
   CHECK(
       first_axes(run("SIGNAL gi $IN[1] TO $IN[8]\nDECL REAL r\nr=gi\nPTP {A1 r,A2 -90,A3 90,A4 0,A5 30,A6 0}",
-                     "", {}, given)) == std::vector<double>{3});
+                     "", {}, given)
+                     .program) == std::vector<double>{3});
   // One line for all uses of a missing name.
   const Reading missing = run("PTP xa\nPTP xa\nPTP xb\nPTP xa");
   CHECK(missing.problems.size() == 2);
@@ -366,7 +353,7 @@ TEST_CASE("krl: a loop that only waits for an input goes on, outputs or not") {
       "LOOP\n$OUT[1]=FALSE\nIF $IN[1]==TRUE THEN\n$OUT[1]=TRUE\nPTP " + axes(1) + "\nENDIF\n";
   const Reading r = run(loop + "ENDLOOP");
   REQUIRE(r.problem() == "no such problem");
-  CHECK(first_axes(r) == std::vector<double>{1});
+  CHECK(first_axes(r.program) == std::vector<double>{1});
   CHECK_THAT(run("DECL INT n\nn=0\n" + loop + "n=n+1\nENDLOOP").problem(),
              Catch::Contains("branches on what is known"));
 }
@@ -509,7 +496,7 @@ TEST_CASE("krl: arrays are handed over, and mistakes count where they run") {
                         "\nsub(lr[,])\nEND\nDEF sub(x[,]:OUT)\nDECL "
                         "REAL x[,]\nPTP {A1 x[1,1]}\nEND\nDEF never()\nPTP ((\nIF TRUE THEN\n");
   REQUIRE(r.problem() == "no such problem");
-  CHECK(first_axes(r) == std::vector<double>{0, 5});
+  CHECK(first_axes(r.program) == std::vector<double>{0, 5});
   CHECK_FALSE(run("never()\nEND\nDEF never()\nPTP ((").problems.empty());
 }
 
@@ -523,7 +510,7 @@ TEST_CASE("krl: a program's number from the line's controller is asked for") {
   with.options.values["PGNO"] = "2";
   const Reading given = run(cell, "", {}, with);
   REQUIRE(given.problem() == "no such problem");
-  CHECK(first_axes(given) == std::vector<double>{2});
+  CHECK(first_axes(given.program) == std::vector<double>{2});
 }
 
 TEST_CASE("krl: structures of the program's own") {
@@ -531,7 +518,7 @@ TEST_CASE("krl: structures of the program's own") {
       run("DECL place q\nq.at={A1 4,A2 0,A3 0,A4 0,A5 0,A6 0}\nq.n=2.6\nPTP q.at\nPTP {A1 q.n}\nPTP {A1 "
           "q.list[2]}",
           "STRUC place AXIS at,INT n,list[3]\nDECL place r", {});
-  CHECK(first_axes(r) == std::vector<double>{4, 3});
+  CHECK(first_axes(r.program) == std::vector<double>{4, 3});
   CHECK(r.problems.size() == 1);  // list[2] has no value
 }
 
@@ -550,7 +537,7 @@ TEST_CASE("krl: automatic operation, waiting loops and the states of variables a
                         "IF VARSTATE(\"n\")==#DECLARED THEN\nPTP " +
                         axes(2) + "\nENDIF\nn='H1E'/4\nPTP {A1 n}");
   REQUIRE(r.problem() == "no such problem");
-  CHECK(first_axes(r) == std::vector<double>{2, 7});
+  CHECK(first_axes(r.program) == std::vector<double>{2, 7});
 }
 
 TEST_CASE("krl: structures that would fill the memory are left without values") {
@@ -577,7 +564,7 @@ TEST_CASE("krl: what an interrupt writes is unknown while it may happen, and a s
   const Reading elsewhere =
       run("search()\nIF hit THEN\nPTP " + axes(1) + "\nENDIF" + handler, "GLOBAL BOOL hit=FALSE",
           {{"s.src", "DEF search()\nINTERRUPT ON 21\nPTP " + axes(2) + "\nEND\n"}});
-  CHECK(first_axes(elsewhere) == std::vector<double>{2});
+  CHECK(first_axes(elsewhere.program) == std::vector<double>{2});
   const Reading other = run(
       "INTERRUPT DECL 21 WHEN $IN[1] DO found()\nsearch()\nIF hit THEN\nPTP " + axes(1) + "\nENDIF" + handler,
       "GLOBAL BOOL hit=FALSE", {{"s.src", "DEF search()\nINTERRUPT ON 21\nPTP " + axes(2) + "\nEND\n"}});
@@ -627,7 +614,7 @@ TEST_CASE("krl: an interrupt's handler that moves does not write to its targets"
           "DEF away()\nBRAKE\nPTP home\nRESUME",
           "DECL AXIS home=" + axes(7));
   CHECK(r.problem() == "no such problem");
-  CHECK(first_axes(r) == std::vector<double>{7});
+  CHECK(first_axes(r.program) == std::vector<double>{7});
 }
 
 TEST_CASE("krl: CIRC with CA goes round by the angle, not to its target") {
@@ -697,7 +684,7 @@ TEST_CASE("krl: bits and letters count") {
                           " THEN\nPTP " + axes(1) + "\nENDIF");
     INFO(r.problem());
     CHECK(r.problems.empty());
-    return first_axes(r).size() == 2;
+    return first_axes(r.program).size() == 2;
   };
   CHECK(taken("a='B1010'", "(a B_AND 'B0110')==2"));
   CHECK(taken("a=10 B_OR 1", "a==11"));
@@ -711,7 +698,7 @@ TEST_CASE("krl: external axes move alone, and are where the robot stands") {
   // PTP {E1 5} leaves the robot where it is; $POS_ACT of an E6POS has the external axes in it.
   const Reading alone = run("PTP {A1 1,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 3}\nPTP {E1 5}\nASYPTP {E1 9}");
   REQUIRE(alone.problem() == "no such problem");
-  CHECK(first_axes(alone) == std::vector<double>{1, 1});
+  CHECK(first_axes(alone.program) == std::vector<double>{1, 1});
   CHECK(alone.move(1).target.external_axes == std::vector<double>{5});
   REQUIRE(alone.program.skipped.size() == 2);  // and the axis that a job's robot needs
   CHECK(alone.program.skipped[0].may_move);
@@ -736,17 +723,17 @@ TEST_CASE("krl: nothing behind an endless loop is run, and one that makes none o
   // The controller never comes to what stands behind. `n` may be written over the network, which is reported.
   const Reading quiet = run("PTP " + axes(1) + "\nLOOP\nn=1\nENDLOOP\nPTP " + axes(2), "INT n");
   REQUIRE(quiet.problem() == "no such problem");
-  CHECK(first_axes(quiet) == std::vector<double>{1});
+  CHECK(first_axes(quiet.program) == std::vector<double>{1});
   const std::string machine =
       "PTP " + axes(1) + "\nn=0\nLOOP\nIF n==1 THEN\nPTP " + axes(2) + "\nENDIF\nENDLOOP";
   const Reading waits = run(machine, "INT n");
   REQUIRE(waits.problem() == "no such problem");
-  CHECK(first_axes(waits) == std::vector<double>{1});
+  CHECK(first_axes(waits.program) == std::vector<double>{1});
   REQUIRE(waits.program.skipped.size() == 1);
   CHECK(waits.program.skipped[0].may_move);
   ImportOptions chosen;
   chosen.assume["5"] = Assumption::then_branch;
-  CHECK(first_axes(run(machine, "INT n", {}, {Language::krl, chosen})) == std::vector<double>{1, 2});
+  CHECK(first_axes(run(machine, "INT n", {}, {Language::krl, chosen}).program) == std::vector<double>{1, 2});
 }
 
 TEST_CASE("krl: what a submit program writes to may have any value") {
@@ -763,8 +750,8 @@ TEST_CASE("krl: what a submit program writes to may have any value") {
   CHECK(r.problem().find("'ready' may be written by the submit program sps.sub") != std::string::npos);
   ImportOptions given;
   given.values["ready"] = "TRUE";
-  CHECK(first_axes(run(body, data, submit, {Language::krl, given})) == std::vector<double>{1, 2, 3});
-  CHECK(first_axes(run(body, data)) == std::vector<double>{1, 3});
+  CHECK(first_axes(run(body, data, submit, {Language::krl, given}).program) == std::vector<double>{1, 2, 3});
+  CHECK(first_axes(run(body, data).program) == std::vector<double>{1, 3});
 }
 
 TEST_CASE("krl: all that a move lacks is asked for in one round") {
@@ -782,7 +769,7 @@ TEST_CASE("krl: all that a move lacks is asked for in one round") {
 
 TEST_CASE("krl: RSI_MOVECORR leads the robot away, and back where the program says") {
   const Reading led = run("PTP " + axes(1) + "\nRSI_MOVECORR()\nPTP " + axes(2));
-  CHECK(first_axes(led) == std::vector<double>{1, 2});
+  CHECK(first_axes(led.program) == std::vector<double>{1, 2});
   REQUIRE_FALSE(led.program.skipped.empty());
   CHECK(led.program.skipped[0].may_move);
   CHECK(led.program.skipped[0].what == "RSI_MOVECORR: a sensor leads the robot");

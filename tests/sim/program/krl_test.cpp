@@ -1,26 +1,21 @@
 #include "sim/program/krl_spline.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;
 using namespace dresslife::sim;
-using dresslife::tests::held_frames;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
+using namespace dresslife::tests;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double rounding = 1e-12;  // of a few products of numbers near 1
 
 Reading run(const std::string& body, const std::string& data = "",
             const std::vector<NamedFrame>& tools = {}) {
-  std::vector<std::pair<std::string, std::string>> files{
-      {"cell.src", "&ACCESS RVP\nDEF cell()\n" + body + "\nEND\n"}};
+  Files files{{"cell.src", "&ACCESS RVP\nDEF cell()\n" + body + "\nEND\n"}};
   if (!data.empty()) files.push_back({"cell.dat", "DEFDAT cell PUBLIC\n" + data + "\nENDDAT\n"});
   files.push_back(held_frames);
   return Reader{Language::krl, {}, tools}(files);

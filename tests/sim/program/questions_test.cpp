@@ -1,18 +1,14 @@
 // What a program asks: all of it in one round, under names that are unique, in a file that can be filled in.
-#include <fstream>
-
 #include "sim/program/answers.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;
 using namespace dresslife::sim;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
+using namespace dresslife::tests;
 
 namespace {
-
-using Files = std::vector<std::pair<std::string, std::string>>;
 
 /// Every question of a reading, "kind name".
 std::set<std::string> questions(const Reading& reading) {
@@ -438,12 +434,10 @@ TEST_CASE("questions: the file of answers can be filled in and is read back as i
   std::string file = answers_text(asked.problems, before);
   INFO(file);
   CHECK(question_count(asked.problems) == 4);
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / "dresslife_answers_test.yaml";
+  const pipeline::Scratch scratch;
   const auto read_back = [&] {
-    std::ofstream(path) << file;
     pipeline::Motion motion;
-    add_answers(path, motion);
-    std::filesystem::remove(path);
+    add_answers(scratch.write("answers.yaml", file), motion);
     return motion;
   };
   const auto value_of = [](const pipeline::Motion& motion, const std::string& name) {

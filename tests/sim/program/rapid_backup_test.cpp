@@ -1,9 +1,7 @@
 // ABB backups: which modules are read, and of which task.
-#include <numbers>
 
-#include "sim/program/import.h"
-#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
+#include "tests/sim/program/reading.h"
 
 using namespace dresslife;
 using dresslife::pipeline::Scratch;
@@ -17,19 +15,9 @@ std::string module(const std::string& name, const std::string& routine, const st
   return "MODULE " + name + "\nPROC " + routine + "()\n" + body + "ENDPROC\nENDMODULE\n";
 }
 
-sim::Program read(const std::filesystem::path& path) {
-  pipeline::Motion asked;
-  asked.program = path;
-  return sim::read_program(asked);
-}
+sim::Program read(const std::filesystem::path& path) { return sim::read_program(tests::motion_by(path)); }
 
-/// Angles of axis 1 over the moves [deg].
-std::vector<double> first_axes(const sim::Program& program) {
-  std::vector<double> angles;
-  for (const sim::Instruction& move : program.instructions)
-    angles.push_back(std::round(move.target.joints.at(0) * 180 / std::numbers::pi));
-  return angles;
-}
+using tests::first_axes;
 using Angles = std::vector<double>;
 
 /// A task whose contents name main and pick, not old; `slash` parts folder and file.

@@ -1,16 +1,13 @@
-#include <numbers>
 
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;
 using namespace dresslife::sim;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
+using namespace dresslife::tests;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double rounding = 1e-12;  // of a few products of numbers near 1
 
 const std::string data = R"(MODULE Data

@@ -1,6 +1,11 @@
 // Programs in tests: read from text, moves and problems as one-line texts.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +13,10 @@
 #include "sim/program/import.h"
 
 namespace dresslife::tests {
+
+inline constexpr double degree = std::numbers::pi / 180;
+
+using Files = std::vector<std::pair<std::string, std::string>>;  ///< name, text
 
 struct Reading {
   sim::Program program;
@@ -22,15 +31,15 @@ struct Reading {
 };
 
 /// A KRL data list with $TOOL and $BASE, for programs that do not assign them.
-inline const std::pair<std::string, std::string> held_frames{
-    "$held.dat", "DEFDAT $HELD\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nENDDAT\n"};
+inline const Files::value_type held_frames{"$held.dat",
+                                           "DEFDAT $HELD\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nENDDAT\n"};
 
 struct Reader {
   sim::Language language;
   sim::ImportOptions options = {};
   std::vector<sim::NamedFrame> tools = {}, work_objects = {};
 
-  Reading operator()(const std::vector<std::pair<std::string, std::string>>& files) const {
+  Reading operator()(const Files& files) const {
     std::deque<sim::SourceFile> sources;
     for (const auto& [name, text] : files) sources.emplace_back(name, text);
     sim::Problems problems;
@@ -40,5 +49,36 @@ struct Reader {
     return reading;
   }
 };
+
+/// What `dresslife import --value NAME=VALUE` gives.
+inline sim::ImportOptions given(std::map<std::string, std::string> values) {
+  sim::ImportOptions options;
+  options.values = std::move(values);
+  return options;
+}
+
+/// A job's motion by this program.
+inline pipeline::Motion motion_by(const std::filesystem::path& program, const std::string& routine = "") {
+  pipeline::Motion motion;
+  motion.program = program;
+  motion.routine = routine;
+  return motion;
+}
+
+/// Whether an instruction with these words was left out, with a warning if it may move the robot.
+inline bool skips(const Reading& reading, const std::string& words, bool may_move) {
+  const auto& skipped = reading.program.skipped;
+  return std::any_of(skipped.begin(), skipped.end(), [&](const sim::Skipped& s) {
+    return s.what.find(words) != std::string::npos && s.may_move == may_move;
+  });
+}
+
+/// Angles of axis 1 over the moves to joint angles [deg], rounded.
+inline std::vector<double> first_axes(const sim::Program& program) {
+  std::vector<double> angles;
+  for (const sim::Instruction& move : program.instructions)
+    if (!move.target.joints.empty()) angles.push_back(std::round(move.target.joints[0] / degree));
+  return angles;
+}
 
 }  // namespace dresslife::tests

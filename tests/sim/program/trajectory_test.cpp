@@ -1,28 +1,21 @@
-#include <numbers>
 
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;
 using namespace dresslife::sim;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
+using namespace dresslife::tests;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double rounding = 1e-12;  // of a product of numbers near 1
 
 Reading columns(const std::string& text, const std::map<std::string, std::string>& values = {}) {
-  ImportOptions options;
-  options.values = values;
-  return Reader{Language::joint_columns, options}({{"j.csv", text}});
+  return Reader{Language::joint_columns, given(values)}({{"j.csv", text}});
 }
 
 Reading ros(const std::string& text, const std::map<std::string, std::string>& values = {}) {
-  ImportOptions options;
-  options.values = values;
-  return Reader{Language::ros_trajectory, options}({{"j.yaml", text}});
+  return Reader{Language::ros_trajectory, given(values)}({{"j.yaml", text}});
 }
 
 std::string point(const std::string& positions, int second) {

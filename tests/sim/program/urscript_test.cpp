@@ -6,8 +6,7 @@
 
 using namespace dresslife;
 using namespace dresslife::sim;
-using dresslife::tests::Reader;
-using dresslife::tests::Reading;
+using namespace dresslife::tests;
 
 namespace {
 
@@ -21,18 +20,6 @@ Reading run(const std::string& text, const ImportOptions& options = {}) {
 /// In a function, behind a set_tcp of 100 mm.
 Reading program(const std::string& lines, const ImportOptions& options = {}) {
   return run("def main():\nset_tcp(p[0,0,0.1,0,0,0])\n" + lines + "end\n", options);
-}
-
-ImportOptions given(std::map<std::string, std::string> values) {
-  ImportOptions options;
-  options.values = std::move(values);
-  return options;
-}
-
-bool skips(const Reading& r, const std::string& words, bool may_move) {
-  return std::any_of(r.program.skipped.begin(), r.program.skipped.end(), [&](const Skipped& s) {
-    return s.what.find(words) != std::string::npos && s.may_move == may_move;
-  });
 }
 
 std::vector<double> first_axes(const Reading& r) {

@@ -1,8 +1,8 @@
-#include "pipeline/job/job.h"
 #include "sim/run/clamp_path.h"
+#include "pipeline/job/job.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
-#include <fstream>
 #include <numbers>
 
 namespace dresslife::sim {
@@ -12,36 +12,19 @@ constexpr double pi = std::numbers::pi;
 /// Some tens of roundings of numbers near 1.
 constexpr double rounding = 1e-13;
 
-/// A file that is gone after the test.
-class TemporaryFile {
- public:
-  TemporaryFile(const std::string& name, const std::string& text)
-      : path_(std::filesystem::temp_directory_path() / ("dresslife_clamp_path_" + name)) {
-    std::ofstream(path_, std::ios::binary) << text;
-  }
-  ~TemporaryFile() { std::filesystem::remove(path_); }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 const std::string unit_pose = ",0,0,0,1,0,0,0";
 
 std::string row(double time, const std::string& base = unit_pose, const std::string& tool = unit_pose) {
   return fmt::format("{}{}{}\n", time, base, tool);
 }
 
+/// Without the folder.
 std::string message_of(const std::string& name, const std::string& text) {
-  const TemporaryFile file(name, text);
-  try {
-    const RecordedPath path(file.path());
-  } catch (const pipeline::InputError& error) {
-    const std::string message = error.what(), folder = file.path().parent_path().string() + "/";
-    REQUIRE(message.starts_with(folder));
-    return message.substr(folder.size());
-  }
-  return "no error";
+  const pipeline::Scratch scratch;
+  const std::string message = pipeline::message_of([&] { RecordedPath(scratch.write(name, text)); });
+  const std::string folder = scratch.folder().string() + "/";
+  REQUIRE(message.starts_with(folder));
+  return message.substr(folder.size());
 }
 
 TEST_CASE("clamp path: recorded poses are met at their rows and turn smoothly between") {
@@ -54,10 +37,10 @@ TEST_CASE("clamp path: recorded poses are met at their rows and turn smoothly be
     text += fmt::format("{}, {},0,0,1,0,0,0, 1,0,{},{},{},{},{}\r\n", t, std::sin(t), std::cos(t), q.w(),
                         q.x(), q.y(), q.z());
   }
-  const TemporaryFile file("turn.csv", text);
-  const RecordedPath path(file.path());
+  const pipeline::Scratch scratch;
+  const RecordedPath path(scratch.write("turn.csv", text));
   CHECK(path.duration() == Approx(8));
-  CHECK(path.step_texts() == std::vector<std::string>{"clamp poses of dresslife_clamp_path_turn.csv"});
+  CHECK(path.step_texts() == std::vector<std::string>{"clamp poses of turn.csv"});
   // Spline error of sin(t), step 0.1: 5/384 h^4 = 1.3e-6 inside, some times more in the end intervals.
   constexpr double spline_error = 1e-5;
   Quaternion before = path.at(0).clamps.tool.orientation;
@@ -76,37 +59,37 @@ TEST_CASE("clamp path: recorded poses are met at their rows and turn smoothly be
 
 TEST_CASE("clamp path: a bad cell is named by line and column") {
   CHECK(message_of("a.csv", row(0) + "0.1,0,0,zero,1,0,0,0" + unit_pose + "\n") ==
-        "dresslife_clamp_path_a.csv:2:9: error: 'zero' is not a finite number (z of the base clamp); write a "
+        "a.csv:2:9: error: 'zero' is not a finite number (z of the base clamp); write a "
         "decimal "
         "number");
   CHECK(message_of("b.csv", row(0) + row(0.1, ",0, nan,0,1,0,0,0")) ==
-        "dresslife_clamp_path_b.csv:2:8: error: 'nan' is not a finite number (y of the base clamp); write a "
+        "b.csv:2:8: error: 'nan' is not a finite number (y of the base clamp); write a "
         "decimal "
         "number");
   CHECK(message_of("c.csv", row(0, ",,0,0,1,0,0,0")) ==
-        "dresslife_clamp_path_c.csv:1:3: error: '' is not a finite number (x of the base clamp); write a "
+        "c.csv:1:3: error: '' is not a finite number (x of the base clamp); write a "
         "decimal "
         "number");
   CHECK(message_of("d.csv", "t,x,y\n" + row(0) + "1,2,3\n") ==
-        "dresslife_clamp_path_d.csv:3:5: error: row has 3 cells (must be 15, separated by commas); write t, "
+        "d.csv:3:5: error: row has 3 cells (must be 15, separated by commas); write t, "
         "then x y z "
         "qw qx qy qz of the base clamp and of the tool clamp");
   CHECK(message_of("e.csv", row(0) + "#\n\n" + row(0.5) + row(0.5)) ==
-        "dresslife_clamp_path_e.csv:5:1: error: time 0.5 s does not follow 0.5 s (must increase); sort the "
+        "e.csv:5:1: error: time 0.5 s does not follow 0.5 s (must increase); sort the "
         "rows and "
         "drop repeated ones");
   CHECK(message_of("f.csv", row(1)) ==
-        "dresslife_clamp_path_f.csv:1:1: error: first time is 1 s (must be 0); subtract it from every row");
+        "f.csv:1:1: error: first time is 1 s (must be 0); subtract it from every row");
   CHECK(message_of("g.csv", row(0, unit_pose, ",0,0,0,0.9,0,0,0")) ==
-        "dresslife_clamp_path_g.csv:1:23: error: quaternion has length 0.9 (must be 1 within 0.001); write a "
+        "g.csv:1:23: error: quaternion has length 0.9 (must be 1 within 0.001); write a "
         "unit "
         "quaternion, w first");
   CHECK(message_of("h.csv", row(0) + row(1, ",0,0,0,0,0,0,1")) ==
-        "dresslife_clamp_path_h.csv:2:9: error: clamp turns by 180.0 deg from the row before (more than 120: "
+        "h.csv:2:9: error: clamp turns by 180.0 deg from the row before (more than 120: "
         "which way "
         "is not clear); write rows closer in time");
   CHECK(message_of("i.csv", "t,x\n\n") ==
-        "dresslife_clamp_path_i.csv:2: error: clamp_poses holds no row; write t and 14 numbers per row");
+        "i.csv:2: error: clamp_poses holds no row; write t and 14 numbers per row");
 }
 
 TEST_CASE("clamp path: a file that is not there is named") {
@@ -232,18 +215,14 @@ TEST_CASE(
 }
 
 TEST_CASE("clamp path: a program of another maker that the robot cannot follow is named beside the error") {
-  const TemporaryFile program("far.src", "DEF far()\nPTP {A1 0,A2 0,A3 0,A4 0,A5 0,A6 0}\nEND\n");
+  const pipeline::Scratch scratch;
+  const auto program = scratch.write("far.src", "DEF far()\nPTP {A1 0,A2 0,A3 0,A4 0,A5 0,A6 0}\nEND\n");
   pipeline::Job job = turning_job();
   job.motion = {};
-  job.motion.program = program.path();
+  job.motion.program = program;
   const auto words = [&](const std::string& robot) {
     job.robot.name = robot;
-    try {
-      const RobotPath path(job);
-    } catch (const pipeline::InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return pipeline::message_of([&] { RobotPath{job}; });
   };
   CHECK(words("KUKA KR 16").find("error: ") != std::string::npos);
   CHECK(words("KUKA KR 16").find("is one of KUKA") == std::string::npos);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {
@@ -152,7 +153,8 @@ TEST_CASE("simulate: twice the same job gives the same bits") {
 TEST_CASE("simulate: recorded clamp poses move the hose as the robot does") {
   const pipeline::Job job = simple_job();
   const Simulation driven(job);
-  const auto file = std::filesystem::temp_directory_path() / "dresslife_simulate_recorded.csv";
+  const pipeline::Scratch scratch;
+  const auto file = scratch / "recorded.csv";
   {
     std::ofstream csv(file);
     const int rows = 200;
@@ -173,7 +175,6 @@ TEST_CASE("simulate: recorded clamp poses move the hose as the robot does") {
   recorded.dresspacks[0].routing.base_clamp.reset();
   recorded.dresspacks[0].routing.tool_clamp.reset();
   const std::vector<Row> a = run(driven), b = run(Simulation(recorded));
-  std::filesystem::remove(file);
   REQUIRE(a.size() == b.size());
   // Rows 10 ms apart; the motion's jerk jumps by 30 rad/s3, which a cubic spline meets to h^3/6 of it: 5e-6
   // rad.
@@ -217,20 +218,19 @@ TEST_CASE("simulate: a dresspack that winds itself taut stops the run") {
 }
 
 TEST_CASE("simulate: a state that is not finite stops the run") {
-  const auto file = std::filesystem::temp_directory_path() / "dresslife_simulate_far.csv";
-  std::ofstream(file) << "0,0,0,1,0.7071068,0,0.7071068,0,0.9,0,1,0.7071068,0,0.7071068,0\n"
-                         "1,1e300,0,1,0.7071068,0,0.7071068,0,1e300,0,1,0.7071068,0,0.7071068,0\n";
+  const pipeline::Scratch scratch;
   pipeline::Job job = simple_job();
   job.robot = {};
   job.motion = {};
-  job.motion.clamp_poses = file;
+  job.motion.clamp_poses =
+      scratch.write("far.csv",
+                    "0,0,0,1,0.7071068,0,0.7071068,0,0.9,0,1,0.7071068,0,0.7071068,0\n"
+                    "1,1e300,0,1,0.7071068,0,0.7071068,0,1e300,0,1,0.7071068,0,0.7071068,0\n");
   const Simulation simulation(job);
-  std::filesystem::remove(file);
-  CHECK_THROWS_WITH(
-      simulation.run({[](const Sample&) {}}),
-      "job.yaml: error: the simulation broke down at 0.005 s, program step 1 'clamp poses of "
-      "dresslife_simulate_far.csv' (the state is not finite); choose a smaller simulation.time_step_ms, "
-      "or check the dresspack's stiffness and mass");
+  CHECK_THROWS_WITH(simulation.run({[](const Sample&) {}}),
+                    "job.yaml: error: the simulation broke down at 0.005 s, program step 1 'clamp poses of "
+                    "far.csv' (the state is not finite); choose a smaller simulation.time_step_ms, "
+                    "or check the dresspack's stiffness and mass");
 }
 
 TEST_CASE("simulate: a hose hangs over a robot link without sinking in") {

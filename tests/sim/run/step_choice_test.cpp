@@ -5,6 +5,7 @@
 
 #include "sim/run/simulate.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 #include "tests/sim/rod/rod_driven_cable.h"
 #include "tests/sim/simple_job.h"
 
@@ -72,8 +73,8 @@ double relative_error(const std::vector<double>& a, const std::vector<double>& e
 }
 
 TEST_CASE("step choice: the stated error of the driven cable is right within a factor of two") {
-  const auto file = std::filesystem::temp_directory_path() / "dresslife_step_choice.csv";
-  pipeline::Job job = driven_cable(file);
+  const pipeline::Scratch scratch;
+  pipeline::Job job = driven_cable(scratch / "poses.csv");
   job.simulation.time_step = 0.000625;
   const Run exact = run(job);  // its own error is 1/64 of that at 5 ms
   for (const double step : {0.01, 0.005, 0.0025}) {
@@ -94,7 +95,6 @@ TEST_CASE("step choice: the stated error of the driven cable is right within a f
     CHECK(chosen.summary.curvature_error < 2 * error);
     CHECK(chosen.summary.curvature_error < 2 * wanted);
   }
-  std::filesystem::remove(file);
 }
 
 TEST_CASE("step choice: the chosen step follows second order and fits the sample rate") {

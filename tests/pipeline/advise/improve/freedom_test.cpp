@@ -138,14 +138,7 @@ TEST_CASE("one of a list") {
 }
 
 TEST_CASE("what nothing can be freed by is refused with its place") {
-  const auto words = [](const std::string& yaml) {
-    try {
-      freed(yaml);
-    } catch (const InputError& problem) {
-      return std::string(problem.what());
-    }
-    return std::string("nothing");
-  };
+  const auto words = [](const std::string& yaml) { return message_of([&] { freed(yaml); }); };
   CHECK(words("routing.free_length_m: 2.6 .. 1.9") ==
         "s.yaml:1:24: error: free.routing.free_length_m is '2.6 .. 1.9', which holds nothing; write the "
         "smaller number first");

@@ -1,0 +1,27 @@
+// A life as a straight function of friction, slack and strength.
+#pragma once
+
+#include "pipeline/life/life_response.h"
+
+namespace dresslife::pipeline {
+
+/// log10 life median +- 0.1 (10 and 90 %) by scatter, -a friction - b slack + c strength.
+inline LifeResponse straight_response(double a, double b, double c, double median = 5) {
+  LifeResponse response;
+  response.construction = "hose", response.material = "copper";
+  response.knowledge = prior_of({});
+  response.planned = {{median - 0.1, median, median + 0.1}};
+  response.points.clear(), response.inside.clear(), response.worst_life.clear();
+  response.strength = {-2, 0, 2};
+  for (const double f : {0.0, -1.5, 1.5})
+    for (const double s : {0.0, -1.5, 1.5}) {
+      ParameterPoint& point = response.points.emplace_back();
+      point[index_of(Uncertain::friction_inside)] = f, point[index_of(Uncertain::slack)] = s;
+      response.inside.push_back(Inside::as_is);
+      for (const double of_strength : response.strength)
+        response.worst_life.push_back(median + 0.3 - a * f - b * s + c * of_strength);
+    }
+  return response;
+}
+
+}  // namespace dresslife::pipeline
