@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/job/fatigue.h"
+#include "pipeline/job/material.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
 

@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "pipeline/base/words.h"
-#include "pipeline/job/fatigue.h"
-#include "pipeline/job/material.h"
 
 namespace dresslife::pipeline {
 
 class Fields;
+struct Fatigue;
+struct Material;
 
 /// In the order of uncertain_parameters().
 enum class Uncertain {

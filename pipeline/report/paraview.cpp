@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/setup.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/job/job_forms.h"

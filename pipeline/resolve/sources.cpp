@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/base/ownership.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/base/program_files.h"
 
 namespace dresslife::pipeline {

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "pipeline/base/plain_file.h"
+
 namespace dresslife::pipeline {
 namespace {
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "pipeline/base/errors.h"
-#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 

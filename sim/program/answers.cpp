@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::sim {

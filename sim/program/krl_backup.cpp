@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/backup.h"
 #include "sim/program/encoding.h"

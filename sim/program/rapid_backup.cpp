@@ -3,6 +3,7 @@
 #include <set>
 #include <sstream>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/backup.h"
 #include "sim/program/encoding.h"

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fatigue/life_file.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"

@@ -7,6 +7,7 @@
 
 #include "pipeline/advise/improve/scaled.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/job_text.h"

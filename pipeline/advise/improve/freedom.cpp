@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "pipeline/advise/improve/set_text.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"

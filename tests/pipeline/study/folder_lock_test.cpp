@@ -1,3 +1,4 @@
+#include "pipeline/base/plain_file.h"
 #include "pipeline/study/folder_lock.h"
 
 #include <unistd.h>
