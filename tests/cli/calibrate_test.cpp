@@ -273,7 +273,7 @@ TEST_CASE("calibrate: rows that cannot be used are named at their place") {
   job.insert(job.size() - 1, ", uncertainty: {friction_inside: 2}");
   CHECK(has(
       refused("observations:\n" + row("u", "    cycles: 5\n", job)),
-      "o.yaml:2:5: error: 'u': its job gives spreads of its own, but what is learned has one prior for all rows; leave"));
+      "o.yaml:2:5: error: 'u': its job gives uncertainties of its own, but all rows of a calibration must have the same; leave"));
   job = wire_job;
   job.replace(job.find("copper_halved"), 13, "unobtainium");
   CHECK(has(refused("observations:\n" + row("m", "    cycles: 5\n", job)), "'m': its job cannot be made"));
