@@ -28,7 +28,8 @@ bool may_be_radians(double value) {
 std::string degrees_text(double radians) { return fmt::format("{:.4g}", std::round(radians * 180 / pi)); }
 
 void look_at(const Node& node, const std::string& path, std::vector<Warning>& warnings) {
-  for (std::size_t k = 0; k < node.items.size(); ++k) look_at(node.items[k], fmt::format("{}[{}]", path, k + 1), warnings);
+  for (std::size_t k = 0; k < node.items.size(); ++k)
+    look_at(node.items[k], fmt::format("{}[{}]", path, k + 1), warnings);
   for (const Entry& entry : node.entries) {
     const std::string key = path + "." + entry.key;
     if (!entry.key.ends_with("_deg") || entry.key == "pre_twist_deg") {
@@ -52,7 +53,8 @@ void look_at(const Node& node, const std::string& path, std::vector<Warning>& wa
     };
     warnings.push_back(warning_of(WarningKind::motion, entry.where.text(),
                                   fmt::format("{} is {} (limit: no multiples of pi)", key, list(written)),
-                                  "radians instead of degrees", fmt::format("{}: {} if that was radians", key, list(meant))));
+                                  "radians instead of degrees",
+                                  fmt::format("{}: {} if that was radians", key, list(meant))));
   }
 }
 
