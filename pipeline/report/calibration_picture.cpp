@@ -92,7 +92,8 @@ std::string calibration_picture(const Learned& learned) {
   const double second = top + row_height * static_cast<double>(uncertain_count) + 78;
   Picture picture(left + plot_width + words_width, second + row_height * static_cast<double>(tests) + 48,
                   "What observations have taught", "Parameters, and lives predicted, before and after");
-  picture.text(left, 18, "wide bars: range before (8 of 10 cases); narrow: after, with its middle value", "tick");
+  picture.text(left, 18, "wide bars: range before (8 of 10 cases); narrow: after, with its middle value",
+               "tick");
   PlotAxis deviations;
   deviations.title = "parameter [standard deviations of its range before]";
   deviations.low = -4, deviations.high = 4;

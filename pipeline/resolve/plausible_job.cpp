@@ -160,12 +160,15 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         WarningKind::motion, seen.first->where.text(),
         fmt::format("no joint angle of the motion is larger than {:.3g} deg (limit {:.3g} or more)", largest, most_radians),
         "radians instead of degrees", "joints_deg in degrees; leave it if the robot moves so little"));
-  if (seen.all_joints && seen.untimed == seen.moves && seen.moves >= least_targets && way > moves && seen.farthest <= near_targets)
+  if (seen.all_joints && seen.untimed == seen.moves && seen.moves >= least_targets && way > moves &&
+      seen.farthest <= near_targets)
     warnings.push_back(warning_of(
         WarningKind::motion, seen.first->where.text(),
-        fmt::format("{} targets without times are at most {:.2g} deg apart (limit more than {:.2g}): the robot stops at each", seen.moves,
-                    seen.farthest / degree, near_targets / degree),
-        "a recording without its column of times", "a column time_s with the time of each row, or motion.zone_deg if these are targets of a program"));
+        fmt::format(
+            "{} targets without times are at most {:.2g} deg apart (limit more than {:.2g}): the robot stops at each",
+            seen.moves, seen.farthest / degree, near_targets / degree),
+        "a recording without its column of times",
+        "a column time_s with the time of each row, or motion.zone_deg if these are targets of a program"));
   if (seen.only_timed && way > moves && seen.fastest < least_speed)
     warnings.push_back(warning_of(
         WarningKind::motion, seen.first->where.text(),
@@ -212,7 +215,9 @@ void doubt_robot(const Robot& robot, const AddDoubt& add) {
 void doubt_cell(const Cell& cell, const SimulationSettings& simulation, const AddDoubt& add) {
   const std::size_t shapes = cell.boxes.size() + cell.capsules.size() + cell.meshes.size();
   if (shapes > 0 && !simulation.contact)
-    add({}, fmt::format("the {} shape{} of cell have no effect, because simulation.contact is false", shapes, shapes == 1 ? "" : "s"),
+    add({},
+        fmt::format("the {} shape{} of cell have no effect, because simulation.contact is false", shapes,
+                    shapes == 1 ? "" : "s"),
         "contact that was switched off for a trial", "simulation.contact: true, or no cell");
   for (std::size_t k = 0; k < cell.boxes.size(); ++k)
     if (const double far = cell.boxes[k].position.norm() - cell.boxes[k].sides.norm(); far > farthest)
@@ -340,8 +345,10 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
     warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.dresspack), "dresspack"));
   }
   if (job.simulation.most_repeats > repeats_to_steady)
-    add(WarningKind::periodic, "simulation.most_repeats", job.simulation.most_repeats, fmt::format("{} or less", repeats_to_steady),
-        "the repeats in the dresspack's life: the life is extrapolated from one repeat", "simulation.most_repeats: 8, or no key");
+    add(WarningKind::periodic, "simulation.most_repeats", job.simulation.most_repeats,
+        fmt::format("{} or less", repeats_to_steady),
+        "the repeats in the dresspack's life: the life is extrapolated from one repeat",
+        "simulation.most_repeats: 8, or no key");
   if (job.simulation.periodic_tolerance > largest_tolerance)
     add(WarningKind::periodic, "simulation.periodic_tolerance_mm", 1e3 * job.simulation.periodic_tolerance,
         fmt::format("{:g} or less", 1e3 * largest_tolerance), "another unit: every motion counts as periodic",

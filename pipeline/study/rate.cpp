@@ -68,7 +68,8 @@ class Maker {
   void refuse_common_fault() const {
     const std::vector<StudyJob>& jobs = made_.study.jobs;
     const std::string& fault = jobs.front().failure;
-    if (!fault.empty() && std::all_of(jobs.begin(), jobs.end(), [&](const StudyJob& job) { return job.failure == fault; }))
+    if (!fault.empty() &&
+        std::all_of(jobs.begin(), jobs.end(), [&](const StudyJob& job) { return job.failure == fault; }))
       throw InputError(fault);
   }
 

@@ -139,8 +139,9 @@ std::optional<std::vector<std::size_t>> order_of_axes(const std::vector<std::str
         return text;
       };
       const std::string name = without_blanks(wanted.substr(begin, end - begin));
-      const auto found = std::find_if(names.begin(), names.end(),
-                                      [&](const std::string& n) { return same_word(without_blanks(n), name); });
+      const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& n) {
+        return same_word(without_blanks(n), name);
+      });
       if (found == names.end()) return {};
       order.push_back(static_cast<std::size_t>(found - names.begin()));
       begin = end + 1;

@@ -32,7 +32,7 @@ constexpr std::size_t few_faults = 10;            // that a short log may have, 
 constexpr std::size_t most_rows = 30'000'000;     // that move: 1.8 GB of six axes
 constexpr std::size_t rows_of_interval = 20'000;  // whose median is the log's
 constexpr const char* separators = ";\t,| ";
-constexpr std::size_t sample_bytes = 65'536;      // some hundred rows
+constexpr std::size_t sample_bytes = 65'536;  // some hundred rows
 
 /// Errors: InputError for files that other programs convert.
 void refuse_other_kinds(const std::filesystem::path& file, const std::string& begin) {
@@ -60,7 +60,10 @@ void refuse_other_kinds(const std::filesystem::path& file, const std::string& be
 class Rows {
  public:
   Rows(Recording& made, const std::filesystem::path& file, const pipeline::Robot& robot, double still)
-      : made_(made), file_(file), robot_(robot), still_(still),
+      : made_(made),
+        file_(file),
+        robot_(robot),
+        still_(still),
         filter_(axes_of(robot), still, [this](LogRow row) { settle(std::move(row)); }) {}
 
   void add(double stamp, std::vector<double> angles, std::uint32_t line) {
@@ -91,7 +94,8 @@ class Rows {
     made_.interval = made_interval();
     made_.impossible = std::move(filter_.found);
     if (!outside_) return;
-    const std::string more = rows_outside_ > 1 ? fmt::format(", and {} rows are outside of limits in all", rows_outside_) : "";
+    const std::string more =
+        rows_outside_ > 1 ? fmt::format(", and {} rows are outside of limits in all", rows_outside_) : "";
     const std::string order = order_words(made_.columns, {});
     throw InputError(
         {file_.string(), static_cast<int>(line_outside_), 1}, outside_->what + more,
@@ -100,7 +104,6 @@ class Rows {
   }
 
  private:
-
   double made_interval() {
     if (intervals_.empty()) return 1;
     const auto middle = intervals_.begin() + static_cast<long>(intervals_.size() / 2);
@@ -194,7 +197,8 @@ class Pass {
  public:
   Pass(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options)
       : Pass(file, robot, options, pipeline::CsvReader(pipeline::PlainFile(file), separators)) {}
-  Pass(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options, pipeline::CsvReader log)
+  Pass(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options,
+       pipeline::CsvReader log)
       : file_(file), options_(options), log_(std::move(log)) {
     titles_ = log_.next();
     if (titles_.empty())
@@ -248,7 +252,9 @@ class Pass {
   /// "separator ';', decimal commas; column Zeit: seconds; angles in degrees by the names of the columns". After run().
   std::string words(bool unit_by_size) const {
     const char separator = log_.separator();
-    std::string text = fmt::format("separator {}", separator == '\t' ? "tab" : separator == ' ' ? "blank" : fmt::format("'{}'", separator));
+    std::string text = fmt::format("separator {}", separator == '\t'  ? "tab"
+                                                   : separator == ' ' ? "blank"
+                                                                      : fmt::format("'{}'", separator));
     if (comma_seen_) text += ", decimal commas";
     if (options_.rate > 0) {
       text += fmt::format("; times by --value rate_Hz={:g}", options_.rate);
@@ -353,7 +359,8 @@ double unit_by_size(const std::filesystem::path& file, const pipeline::Robot& ro
 
 }  // namespace
 
-LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options) {
+LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& robot,
+                    const LogOptions& options) {
   std::string text = pipeline::beginning_of(file, sample_bytes);
   refuse_other_kinds(file, text);
   const double bytes = static_cast<double>(pipeline::state_of(file).size);
@@ -382,7 +389,8 @@ Recording read_log(const std::filesystem::path& file, const pipeline::Robot& rob
     for (double& angle : angles) angle *= unit;
     rows.add(time, std::move(angles), line);
   });
-  for (std::size_t i = 0; i < made.axes; ++i) made.columns[i].column = pass.title(i);  // a row may name the joints
+  for (std::size_t i = 0; i < made.axes; ++i)
+    made.columns[i].column = pass.title(i);  // a row may name the joints
   made.format = pass.words(!known);
   rows.finish();
   made.left_out = pass.left_out;

@@ -30,8 +30,8 @@ struct LogOptions {
 /// Rows of a log, those of a standstill left out.
 struct Recording {
   std::size_t axes = 0;
-  std::vector<AxisOfLog> columns;    ///< (axis)
-  std::string format;                ///< words: separator, times, unit of the angles
+  std::vector<AxisOfLog> columns;  ///< (axis)
+  std::string format;              ///< words: separator, times, unit of the angles
   ImpossibleRows impossible;
   std::vector<double> times;         ///< (row) [s], increasing, from 0
   std::vector<double> angles;        ///< (row, axis) [rad]
@@ -56,7 +56,8 @@ struct LogSize {
   double megabytes = 0, rows = 0, seconds = 0;  ///< seconds: 0 if the first rows have no times
 };
 /// Errors: InputError as read_log() for another kind of file and for names of columns.
-LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options);
+LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& robot,
+                    const LogOptions& options);
 
 /// progress: called with the share that is read. Errors: InputError: another kind of file (it names a converter), names of columns,
 /// angles without a unit, times that are none or more than 2 s apart, a row outside the robot's limits that is no glitch (L3), more than

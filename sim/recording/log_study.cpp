@@ -83,10 +83,11 @@ std::vector<std::string> read_words(const Recording& log, const Course& course) 
   std::size_t name = 4, column = 6;
   for (const AxisOfLog& of : log.columns)
     name = std::max(name, of.axis.name.size()), column = std::max(column, pipeline::columns_of(of.column));
-  const auto add = [&](const std::string& axis, const std::string& of, const std::string& range, const std::string& limits,
-                       const std::string& speed, const std::string& limit) {
+  const auto add = [&](const std::string& axis, const std::string& of, const std::string& range,
+                       const std::string& limits, const std::string& speed, const std::string& limit) {
     lines.push_back(fmt::format("{:<{}}  {}{}  {:>17}  {:>14}  {:>15}  {:>13}", axis, name, of,
-                                std::string(column - pipeline::columns_of(of), ' '), range, limits, speed, limit));
+                                std::string(column - pipeline::columns_of(of), ' '), range, limits, speed,
+                                limit));
   };
   const auto tenths = [](double angle) { return std::round(10 * angle * degrees) / 10 + 0.; };  // no -0.0
   add("axis", "column", "range [deg]", "limits [deg]", "fastest [deg/s]", "limit [deg/s]");
@@ -119,15 +120,17 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
   const auto lines_text = [](const std::vector<std::uint32_t>& of) {
     constexpr std::size_t most = 5;
     const auto shown = std::span(of).first(std::min(of.size(), most));
-    return fmt::format("line{} {}{}", of.size() == 1 ? "" : "s", fmt::join(shown, ", "), of.size() > most ? " .." : "");
+    return fmt::format("line{} {}{}", of.size() == 1 ? "" : "s", fmt::join(shown, ", "),
+                       of.size() > most ? " .." : "");
   };
   if (const auto& glitches = log.impossible.glitches; !glitches.empty())
     lines.push_back(fmt::format(
-        "warning: {} row{} left out, to which no axis could move and from which it could not move back: {}", glitches.size(),
-        glitches.size() == 1 ? "" : "s", lines_text(glitches)));
+        "warning: {} row{} left out, to which no axis could move and from which it could not move back: {}",
+        glitches.size(), glitches.size() == 1 ? "" : "s", lines_text(glitches)));
   if (const auto& jumps = log.impossible.jumps; !jumps.empty())
-    lines.push_back(fmt::format("warning: {} row{} that no axis could reach stay{} in the motion: {}. Correct the log, or cut it there",
-                                jumps.size(), jumps.size() == 1 ? "" : "s", jumps.size() == 1 ? "s" : "", lines_text(jumps)));
+    lines.push_back(fmt::format(
+        "warning: {} row{} that no axis could reach stay{} in the motion: {}. Correct the log, or cut it there",
+        jumps.size(), jumps.size() == 1 ? "" : "s", jumps.size() == 1 ? "s" : "", lines_text(jumps)));
   if (log.pauses > 0)
     lines.push_back(fmt::format(
         "warning: {} pauses without rows, {} together, the longest {} before line {}: they count as standing where the robot keeps its "

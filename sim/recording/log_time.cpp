@@ -101,7 +101,8 @@ std::optional<double> LogTime::read(std::string_view text) {
 std::string LogTime::words() const {
   if (form_ != Form::numbers) return form_ == Form::dates ? "dates with times of day" : "times of day";
   const double seconds = unit_.value_or(1);
-  for (const auto& [unit, name] : {std::pair{1., "s"}, {60., "min"}, {3600., "h"}, {1e-3, "ms"}, {1e-6, "us"}, {1e-9, "ns"}})
+  for (const auto& [unit, name] :
+       {std::pair{1., "s"}, {60., "min"}, {3600., "h"}, {1e-3, "ms"}, {1e-6, "us"}, {1e-9, "ns"}})
     if (std::abs(seconds / unit - 1) < 1e-9) return fmt::format("numbers in {}", name);
   return fmt::format("numbers in {:g} s", seconds);
 }

@@ -173,12 +173,13 @@ class Layout {
       for (std::size_t k = 0; k < std::min(most, refused.further.size()); ++k)
         further += fmt::format("{}{}", k == 0 ? "" : ", ", refused.further[k].text());
       if (refused.further.size() > most) further += " ..";
-      problems_.add(refused.where,
-                    fmt::format("target of '{}' {}{}", refused.text, refused.reason,
-                                further.empty() ? ""
-                                                : fmt::format(", and {} further target{} ({})", refused.further.size(),
-                                                              refused.further.size() == 1 ? "" : "s", further)),
-                    refused.remedy);
+      problems_.add(
+          refused.where,
+          fmt::format("target of '{}' {}{}", refused.text, refused.reason,
+                      further.empty() ? ""
+                                      : fmt::format(", and {} further target{} ({})", refused.further.size(),
+                                                    refused.further.size() == 1 ? "" : "s", further)),
+          refused.remedy);
     }
     refused_.clear();
     problems_.throw_if_any();

@@ -228,8 +228,10 @@ TEST_CASE("calibrate: a maintenance system's table in one command teaches the jo
   const Outcome outcome = run(scratch, "dresslife", command);
   INFO(outcome.out << outcome.err);
   REQUIRE(outcome.status == 0);
-  CHECK(outcome.err.find("12 dresspacks: 10 failed, 0 were removed before, 2 are in use") != std::string::npos);
-  CHECK(outcome.out.find("Compare 'predicted after' with the 'replace after' that dresslife run prints") != std::string::npos);
+  CHECK(outcome.err.find("12 dresspacks: 10 failed, 0 were removed before, 2 are in use") !=
+        std::string::npos);
+  CHECK(outcome.out.find("Compare 'predicted after' with the 'replace after' that dresslife run prints") !=
+        std::string::npos);
   CHECK(outcome.out.find("10 of 12 failed") != std::string::npos);
   CHECK(outcome.out.find("The life of 'job' depends most on ") != std::string::npos);
   const double after = life_hours(scratch, "--set calibration=runs/calibrate_plant/calibration.yaml");

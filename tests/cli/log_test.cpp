@@ -42,7 +42,8 @@ TEST_CASE("log: the life of a log of one cycle is that of the cycle") {
   INFO(read.err);
   REQUIRE(read.status == 0);
   // The estimate comes before the log is read, the table of the axes behind it.
-  CHECK_THAT(read.err, Catch::StartsWith("log.csv: ") && Catch::Contains("about 300 rows in 29.9 s") && Catch::Contains("MB"));
+  CHECK_THAT(read.err, Catch::StartsWith("log.csv: ") && Catch::Contains("about 300 rows in 29.9 s") &&
+                           Catch::Contains("MB"));
   CHECK_THAT(read.out, Catch::Contains("joint_5  Achse_5 [deg]       25.0 .. 35.0     -120 .. 120"));
   CHECK_THAT(read.out, Catch::Contains("cycle_1: 3 times") && Catch::Contains("no rest") &&
                            Catch::Contains("estimate"));

@@ -17,8 +17,8 @@ using Eigen::Index;
 constexpr double decile = 1.2815515655446004;  // of a normal distribution, in its deviations
 
 std::string parameter_lines(const Learned& learned) {
-  std::string text =
-      fmt::format("{:<17} {:>24} {:>24}  {}\n", "parameter", "before (80 %)", "after (80 %)", "width after/before");
+  std::string text = fmt::format("{:<17} {:>24} {:>24}  {}\n", "parameter", "before (80 %)", "after (80 %)",
+                                 "width after/before");
   const auto range = [](const PredictedDeciles& of) {
     return fmt::format("{} ({} .. {})", readable(of[1]), readable(of[0]), readable(of[2]));
   };
@@ -110,8 +110,9 @@ std::string learned_table(const Learned& learned) {
                         words_of(test.by_others), words_of(test.after), test.fails_first);
   for (const LearnedTest& test : learned.tests)
     if (!test.observation.service.empty())
-      text += fmt::format("\nThe life of '{}' depends most on (factor of the life, if a usual uncertainty of the parameter is added): {}\n", test.observation.name,
-                          test.moved_by.empty() ? "of none" : test.moved_by);
+      text += fmt::format(
+          "\nThe life of '{}' depends most on (factor of the life, if a usual uncertainty of the parameter is added): {}\n",
+          test.observation.name, test.moved_by.empty() ? "of none" : test.moved_by);
   text +=
       "\nParameters: factors of the job's keys (slope: added to b): the middle value, and the range that holds it in 8 of 10 cases.\n"
       "Width after/before: of this range. Above 100 %: the observations leave more values possible than were assumed before.\n"

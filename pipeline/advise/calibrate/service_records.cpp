@@ -158,9 +158,7 @@ class Export {
   Day day(const CsvRow& cells, Column column) const {
     const std::string written = text(cells, column);
     const std::optional<Day> day = exported_day(written);
-    if (!day)
-      refuse(cells, column, fmt::format("'{}' is no date", written),
-             day_remedy(written));
+    if (!day) refuse(cells, column, fmt::format("'{}' is no date", written), day_remedy(written));
     if (*day > request_.today)
       refuse(cells, column, fmt::format("{} is after today, {}", day_text(*day), day_text(request_.today)),
              "correct the date, or give --today");

@@ -76,13 +76,14 @@ std::string kept_words(const Fleet& fleet, const Plan& plan) {
   }
   std::string text;
   const auto add = [&](const std::string& why, const std::vector<std::string>& names) {
-    if (!names.empty())
-      text += wrapped(fmt::format("{}: {}", why, fmt::join(names, ", ")), width, "  ");
+    if (!names.empty()) text += wrapped(fmt::format("{}: {}", why, fmt::join(names, ", ")), width, "  ");
   };
-  add(fmt::format("Until {} the probability of failure between two windows is at most {} (limit {})", day_text(plan.end),
-                  percent_text(most), percent_text(plan.risk)),
+  add(fmt::format("Until {} the probability of failure between two windows is at most {} (limit {})",
+                  day_text(plan.end), percent_text(most), percent_text(plan.risk)),
       safe);
-  add(fmt::format("The probability of failure between two windows is above {}, but a new dresspack would not have less", percent_text(plan.risk)),
+  add(fmt::format(
+          "The probability of failure between two windows is above {}, but a new dresspack would not have less",
+          percent_text(plan.risk)),
       no_better);
   add("Running on costs less, on average, than a replacement in any of these windows", costly);
   return text.empty() ? text : text + "  If one of them fails, it is replaced at once.\n";

@@ -74,14 +74,20 @@ TEST_CASE("plausible steps: a recording without its column of times") {
 TEST_CASE("plausible jobs: angles in radians, obstacles without contact, repeats of a life") {
   const auto lines = [](const std::string& text) {
     std::vector<std::string> words;
-    for (const Warning& warning : radians_in(parse_yaml(text, "job.yaml"), "routing")) words.push_back(warning.line());
+    for (const Warning& warning : radians_in(parse_yaml(text, "job.yaml"), "routing"))
+      words.push_back(warning.line());
     return words;
   };
   const auto vector = lines("mounting_pose_deg: [0, -1.5708, 0.7854, 0]\n");
   REQUIRE(vector.size() == 1);
-  CHECK_THAT(vector[0], Catch::Contains("job.yaml:1:1: ") && Catch::Contains("routing.mounting_pose_deg: [0, -90, 45, 0] if that was radians"));
+  CHECK_THAT(vector[0],
+             Catch::Contains("job.yaml:1:1: ") &&
+                 Catch::Contains("routing.mounting_pose_deg: [0, -90, 45, 0] if that was radians"));
   CHECK(lines("a: {roll_deg: 1.57}\nb: [{phase_deg: 3.14159}, {phase_deg: 0.5236}]\n").size() == 3);
-  CHECK(lines("mounting_pose_deg: [0, -90, 1.5708]\nroll_deg: 0\nphase_deg: 1.6\nlay_angle_deg: 0.52\npre_twist_deg: 3.14\n").empty());
+  CHECK(
+      lines(
+          "mounting_pose_deg: [0, -90, 1.5708]\nroll_deg: 0\nphase_deg: 1.6\nlay_angle_deg: 0.52\npre_twist_deg: 3.14\n")
+          .empty());
   Job job;
   CHECK(plausibility_warnings(job).empty());
   job.simulation.contact = false;

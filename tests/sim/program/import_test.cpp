@@ -99,7 +99,8 @@ TEST_CASE("import: a program becomes a motion that reads back as it was written"
   const std::string text = pipeline::motion_text(motion);
   const pipeline::Motion again = pipeline::motion_from(pipeline::parse_yaml(text, "again.yaml"));
   CHECK(pipeline::to_yaml(pipeline::echo_fields(again)) == pipeline::to_yaml(pipeline::echo_fields(motion)));
-  for (const char* fallback : {"rows: blended", "passes: 0", "speed_percent: 100\n", "repeat: 0", "path: joint", "stationary: false"})
+  for (const char* fallback : {"rows: blended", "passes: 0", "speed_percent: 100\n", "repeat: 0",
+                               "path: joint", "stationary: false"})
     CHECK_THAT(text, !Catch::Contains(fallback));
 }
 

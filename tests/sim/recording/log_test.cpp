@@ -159,11 +159,14 @@ TEST_CASE("log: columns of the measured angles among others, and what names no a
   CHECK_THAT(message_of([] { read("PK\x03\x04"); }), Contains("workbook"));
 }
 
-TEST_CASE("log: one row that no axis can reach is left out, also outside the limits and while the robot stands") {
+TEST_CASE(
+    "log: one row that no axis can reach is left out, also outside the limits and while the robot stands") {
   for (const double rate : {10., 125.})
     for (const double off : {30., 300.})
       for (const double seconds : {0.5, 2.0, 4.9}) {  // standing, moving, standing
-        const auto angle = [](double t) { return t < 1 || t > 4 ? 0 : 30 * (1 - std::cos(2 * std::numbers::pi * (t - 1) / 3)); };
+        const auto angle = [](double t) {
+          return t < 1 || t > 4 ? 0 : 30 * (1 - std::cos(2 * std::numbers::pi * (t - 1) / 3));
+        };
         const int wrong = static_cast<int>(std::lround(seconds * rate));
         std::string text = "time,j1_deg,j2_deg\n", clean = text;
         for (int k = 0; k < 6 * rate; ++k) {
@@ -225,15 +228,20 @@ TEST_CASE("log: columns, times, unit and ranges are stated, and columns that fit
   const LogOptions plain{.still = bound};
   CHECK_THAT(message_of([&] { read_from(exchanged(30), plain); }),
              Contains("the columns of joint_1, joint_2 may be exchanged"));
-  CHECK_THAT(message_of([&] { read_from(exchanged(30), plain); }), Contains("--value \"joints=J2 [deg],J1 [deg]\""));
+  CHECK_THAT(message_of([&] { read_from(exchanged(30), plain); }),
+             Contains("--value \"joints=J2 [deg],J1 [deg]\""));
   const Recording slow = read_from(exchanged(10), plain);  // within the limits, but joint_2 turns too fast
   const Course course(slow, robot, bound);
   const auto words = fmt::format("{}", fmt::join(read_words(slow, course), "\n"));
-  CHECK_THAT(words, Contains("separator ';', decimal commas; times in Zeit: numbers in s; angles in degrees by the names of the columns"));
+  CHECK_THAT(
+      words,
+      Contains(
+          "separator ';', decimal commas; times in Zeit: numbers in s; angles in degrees by the names of the columns"));
   CHECK_THAT(words, Contains("joint_1  J1 [deg]       -20.0 .. 0.0"));
   CHECK_THAT(words, Contains("warning: the columns of joint_1, joint_2 may be exchanged"));
   const Recording right = read_from(exchanged(10), {.joints = "J2 [deg],J1 [deg]", .still = bound});
-  CHECK_THAT(fmt::format("{}", fmt::join(read_words(right, Course(right, robot, bound)), "\n")), !Contains("exchanged"));
+  CHECK_THAT(fmt::format("{}", fmt::join(read_words(right, Course(right, robot, bound)), "\n")),
+             !Contains("exchanged"));
 }
 
 TEST_CASE("log: its length is known before it is read") {

@@ -486,8 +486,10 @@ TEST_CASE("legs: many targets out of reach are one problem with their number and
   const std::string text = pipeline::message_of([&] { JointMotion(motion(steps), arm()); });
   CHECK(text.find('\n') == std::string::npos);
   CHECK(text.starts_with("main.mod:1:1: error: target of "));
-  CHECK(text.find("is out of reach, and 7 further targets (main.mod:2:1, main.mod:3:1, main.mod:4:1, main.mod:5:1, main.mod:6:1 ..); check "
-                  "target") != std::string::npos);
+  CHECK(
+      text.find(
+          "is out of reach, and 7 further targets (main.mod:2:1, main.mod:3:1, main.mod:4:1, main.mod:5:1, main.mod:6:1 ..); check "
+          "target") != std::string::npos);
 }
 
 TEST_CASE("legs: targets out of reach are told together, with their lines") {

@@ -199,7 +199,8 @@ TEST_CASE("clamp path: a box of the cell that the robot enters is named, with or
   };
   const auto inside = named({1, 0, 0.2});
   REQUIRE(inside.size() == 1);
-  CHECK_THAT(inside[0].line(), Catch::Contains("enters cell.boxes[1] by 160 mm") && Catch::Contains("position_m: [1.1, 0.1, 0.3]"));
+  CHECK_THAT(inside[0].line(), Catch::Contains("enters cell.boxes[1] by 160 mm") &&
+                                   Catch::Contains("position_m: [1.1, 0.1, 0.3]"));
   job.simulation.contact = false;
   CHECK(named({1, 0, 0.2}).size() == 1);
   CHECK(named({0, 0, 0.2}).empty());

@@ -212,8 +212,10 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
             .find("write 2025-02-28 if that is the number of a spreadsheet") != std::string::npos);
   CHECK(refusal("name,installed,duty\nr,2025-02-28,day\n").find("exchange the titles") == std::string::npos);
   CHECK(refusal("name,duty,installed\nr,2025-02-28,day\n").find("exchange the titles") != std::string::npos);
-  CHECK(refusal("name;duty;installed;hours_per_week\nr;day;;37,500\n").find("write 37500 or 37.500") != std::string::npos);
-  const Fleet german = read("name;duty;installed;hours_per_week\nr;day;28.02.2025 08:00;37,5\n");  // as `calibrate` reads it
+  CHECK(refusal("name;duty;installed;hours_per_week\nr;day;;37,500\n").find("write 37500 or 37.500") !=
+        std::string::npos);
+  const Fleet german =
+      read("name;duty;installed;hours_per_week\nr;day;28.02.2025 08:00;37,5\n");  // as `calibrate` reads it
   CHECK(day_text(german.rows[0].since) == "2025-02-28");
   CHECK(german.rows[0].hours_per_week == 37.5);
   CHECK(refusal("name,duty,instaled\nr,day,\n").find("did you mean 'installed'?") != std::string::npos);
@@ -232,9 +234,12 @@ TEST_CASE("a plan states why a dresspack is in no window") {
     return kept_words(fleet, plan_of(fleet, {{"d", life}}, windows_in({2, 10}), start, rule));
   };
   const std::string safe = words(weibull(3, {20000}), fleet_of({4}), {0.1, false});
-  CHECK_THAT(safe, Catch::Contains("is at most 0.0") && Catch::Contains("(limit 10 %): r0") && Catch::Contains("replaced at once"));
-  CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}), {0.01, false}), Catch::Contains("a new dresspack would not have less: r0"));
-  CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}, 1, 6), {0.1, true}), Catch::Contains("costs less, on average"));
+  CHECK_THAT(safe, Catch::Contains("is at most 0.0") && Catch::Contains("(limit 10 %): r0") &&
+                       Catch::Contains("replaced at once"));
+  CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}), {0.01, false}),
+             Catch::Contains("a new dresspack would not have less: r0"));
+  CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}, 1, 6), {0.1, true}),
+             Catch::Contains("costs less, on average"));
   CHECK(words(weibull(3, {1000}), fleet_of({10}), {0.1, false}).empty());
 }
 
