@@ -198,6 +198,7 @@ void note_log(const Request& request, const pipeline::StageCall& call, pipeline:
   const pipeline::Robot robot = robot_of(job);
   const double degree = std::numbers::pi / 180;
   const sim::LogOptions options = log_options(request);
+  progress.note(sim::estimate_words(call.input, sim::size_of_log(call.input, robot, options)));
   const sim::Recording log =
       sim::read_log(call.input, robot, options, [&](double share) { progress.show(share, "reads the log"); });
   const sim::Course course(log, robot, options.still);
@@ -206,6 +207,8 @@ void note_log(const Request& request, const pipeline::StageCall& call, pipeline:
                      [&](double share) { progress.show(share, "looks for cycles"); });
   const std::vector<sim::LogMotion> motions = sim::motions_of(course, cycles, options.still);
   progress.clear();
+  if (!call.quiet)
+    for (const std::string& line : sim::read_words(log, course)) fmt::print("{}\n", line);
   if (motions.empty())
     throw pipeline::InputError({call.input.string()}, fmt::format("the robot does not move by more than {} deg", request.smooth_deg),
                                "name a log of a robot that moves");

@@ -34,15 +34,6 @@ std::optional<Day> day_from(std::string_view text) {
   return day_of(text.substr(0, 4), text.substr(5, 2), text.substr(8, 2));
 }
 
-std::optional<Day> day_from_export(std::string_view text) {
-  const std::string_view date = text.substr(0, text.find_first_of(" T"));
-  if (const std::optional<Day> day = day_from(date)) return day;
-  const std::size_t first = date.find('.'), second = date.find('.', first == date.npos ? first : first + 1);
-  constexpr std::size_t year_digits = 4;  // with two the century is not known
-  if (second == date.npos || date.size() - second - 1 != year_digits) return std::nullopt;
-  return day_of(date.substr(second + 1), date.substr(first + 1, second - first - 1), date.substr(0, first));
-}
-
 std::string day_text(Day day) {
   const year_month_day date(day);
   return fmt::format("{:04}-{:02}-{:02}", int(date.year()), unsigned(date.month()), unsigned(date.day()));

@@ -13,8 +13,6 @@ inline constexpr const char* date_remedy = "write YYYY-MM-DD, as in 2027-07-12";
 
 /// "2027-07-12"; absent: it is no date.
 std::optional<Day> day_from(std::string_view text);
-/// The same as other programs write it: also "12.7.2027", and with a time of day behind it, which does not count.
-std::optional<Day> day_from_export(std::string_view text);
 std::string day_text(Day day);
 Day today();
 

@@ -7,6 +7,7 @@
 #include "pipeline/advise/calibrate/doubtful_rows.h"
 #include "pipeline/advise/calibrate/learning.h"
 #include "pipeline/advise/calibrate/service_records.h"
+#include "pipeline/base/exported.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
@@ -25,8 +26,8 @@ struct Options : RunOptions {
 };
 
 Day day_of(const std::string& option, const std::string& text) {
-  if (const std::optional<Day> day = day_from_export(text)) return *day;
-  throw InputError({option}, fmt::format("'{}' is no date", text), date_remedy);
+  if (const std::optional<Day> day = exported_day(text)) return *day;
+  throw InputError({option}, fmt::format("'{}' is no date", text), day_remedy(text));
 }
 
 /// A table of a maintenance system, or observations.
@@ -49,11 +50,12 @@ int calibrate(const Options& options) {
   const fs::path file = named_file(options.study, "observations");
   const auto [tests, words] = tests_of(options, file);
   for (const Warning& warning : doubtful_rows(tests)) tell(shown(warning.line() + "\n"));
+  if (!words.empty()) tell(words);  // before hours of computation
   const StudyPlaces places{fs::path(options.out) / ("calibrate_" + file.stem().string()), program_folder()};
   const FolderLock lock(places.folder);
   const Learned learned = learn(tests, options.sets, places,
                                 [&](const Study& study) { return made_rows(study, places, options); });
-  const std::string table = (words.empty() ? "" : words + "\n") + learned_table(learned);
+  const std::string table = learned_table(learned);
   write_text_if_changed(places.folder / "calibration.yaml",
                         with_mark(to_yaml(echo_fields(learned.calibration)), Mark::yaml));
   write_text_if_changed(places.folder / "calibration.svg", with_mark(calibration_picture(learned), Mark::xml));

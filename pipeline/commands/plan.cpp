@@ -11,6 +11,7 @@
 #include "pipeline/advise/plan/duty_words.h"
 #include "pipeline/advise/plan/evaluated_duties.h"
 #include "pipeline/advise/plan/plan_words.h"
+#include "pipeline/base/exported.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/base/whole_file.h"
@@ -34,8 +35,8 @@ struct Options : RunOptions {
 
 Day day_of(const std::string& text) {
   if (text.empty()) return today();
-  if (const std::optional<Day> day = day_from(text)) return *day;
-  throw InputError({"--today"}, fmt::format("'{}' is no date", text), "write YYYY-MM-DD");
+  if (const std::optional<Day> day = exported_day(text)) return *day;
+  throw InputError({"--today"}, fmt::format("'{}' is no date", text), day_remedy(text));
 }
 
 std::vector<Warning> doubts_of(std::optional<double> risk_percent) {
@@ -135,6 +136,7 @@ int plan(const Options& options) {
   std::vector<std::string> notes = doubts(duties);
   for (const std::string& caution : cautions(duties)) notes.push_back(caution);
   if (!tests.empty()) notes.push_back(tests);
+  if (const std::string kept = kept_words(fleet, found); !kept.empty()) notes.push_back(kept);
   write_text_if_changed(page, with_mark(plan_page(fs::path(options.fleet).stem().string(), fleet, found, notes, table.filename().string()),
                                         Mark::page));
   if (other) {

@@ -253,7 +253,36 @@ void check_motion(const Motion& motion, const Robot& robot) {
   problems.finish();
 }
 
-std::string motion_text(const Motion& motion) { return to_yaml(echo_fields(motion)); }
+namespace {
+
+/// Takes out the keys that a file may leave out, because they have the values of `defaults`.
+void leave_out_defaults(Node& map, const Node& defaults) {
+  std::erase_if(map.entries, [&](const auto& entry) {
+    const Node* const same = defaults.find(entry.key);
+    return same && to_yaml(*same) == to_yaml(entry.value);
+  });
+}
+
+void leave_out_defaults_of_steps(Node& map, const Node& defaults) {
+  Node* const steps = map.find("steps");
+  if (!steps) return;
+  for (Node& step : steps->items) {
+    leave_out_defaults_of_steps(step, defaults);
+    leave_out_defaults(step, defaults);
+  }
+}
+
+}  // namespace
+
+std::string motion_text(const Motion& motion) {
+  Node map = echo_fields(motion);
+  leave_out_defaults_of_steps(map, echo_fields(MotionStep{}));
+  for (const char* frames : {"tools", "work_objects"})
+    if (Node* const list = map.find(frames))
+      for (Node& frame : list->items) leave_out_defaults(frame, echo_fields(MotionFrame{}));
+  leave_out_defaults(map, echo_fields(Motion{}));
+  return to_yaml(map);
+}
 
 Motion motion_from(const Node& document) {
   Motion motion;

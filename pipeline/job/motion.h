@@ -130,7 +130,7 @@ void describe(Fields& f, Motion& motion);
 /// Errors: InputError at the step that is no whole move, dwell or block, or that the robot's axes do not fit.
 void check_motion(const Motion& motion, const Robot& robot);
 
-/// One motion as YAML, and from a document that holds nothing else (checked key by key, not against a robot).
+/// One motion as YAML without keys that have their defaults, and from a document that holds nothing else (checked key by key, not against a robot).
 std::string motion_text(const Motion& motion);
 Motion motion_from(const Node& document);
 

@@ -92,9 +92,10 @@ std::string calibration_picture(const Learned& learned) {
   const double second = top + row_height * static_cast<double>(uncertain_count) + 78;
   Picture picture(left + plot_width + words_width, second + row_height * static_cast<double>(tests) + 48,
                   "What observations have taught", "Parameters, and lives predicted, before and after");
-  picture.text(left, 18, "wide bars: 80 % of what was likely before; narrow: after, with its median", "tick");
+  picture.text(left, 18, "wide bars: range before (8 of 10 cases); narrow: after, with its middle value",
+               "tick");
   PlotAxis deviations;
-  deviations.title = "parameter [deviations of what was known before]";
+  deviations.title = "parameter [standard deviations of its range before]";
   deviations.low = -4, deviations.high = 4;
   Bars parameters(picture, top, uncertain_count, deviations);
   for (std::size_t p = 0; p < uncertain_count; ++p) {

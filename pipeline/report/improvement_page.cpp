@@ -49,7 +49,7 @@ std::string lives_section(const ImprovementStory& story) {
   if (story.longer_in)
     text += fmt::format(
         "<p>Over all that is not known of the dresspack, in what both have in common alike, it lives longer in "
-        "{:.0f} % of draws.</p>\n",
+        "{:.0f} % of the samples.</p>\n",
         100 * *story.longer_in);
   return text;
 }

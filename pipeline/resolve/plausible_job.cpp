@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "pipeline/base/warning_words.h"
+#include "pipeline/resolve/radians.h"
+#include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -34,6 +36,9 @@ constexpr double largest_factor = 30;      // 100 is per cent; trials take 0.1 t
 constexpr double largest_tolerance = 0.05;  // [m] between the starts of two repeats: a hose's width
 constexpr double longest_spot = 10;        // [s]: a weld takes 0.3 to 2
 constexpr double widest_zone = 30 * degree;
+constexpr int repeats_to_steady = 100;         // of the motion: the default is 8
+constexpr int least_targets = 30;              // of a recording: programs with so near targets are shorter
+constexpr double near_targets = 3 * degree;    // of the fastest axis from target to target
 constexpr int most_repeats = 1000;             // of steps within a program: a pallet has some hundred places
 constexpr double slowest_tool = 1e-3;          // [m/s]: arc welding moves at 5 to 20 mm/s
 constexpr double slowest_move = 0.2 * degree;  // [rad/s] of the fastest axis in one move
@@ -71,6 +76,8 @@ struct Seen {
   Doubted slow, fast, waits, creeping, turning, repeats;
   std::vector<double> last;  ///< (axis) of the latest joint target
   double fastest = 0;        ///< of any axis, where moves have durations [rad/s]
+  double farthest = 0;       ///< between joint targets without durations [rad]
+  int untimed = 0;           ///< joint targets without durations
   int moves = 0;
   bool all_joints = true;
   bool only_timed = true;    ///< all moves by joints, and all but the first with durations
@@ -91,6 +98,9 @@ void look_at(const std::vector<MotionStep>& steps, Seen& seen) {
     if (step.joints.empty()) continue;
     for (std::size_t k = 0; step.duration && k < std::min(seen.last.size(), step.joints.size()); ++k)
       seen.fastest = std::max(seen.fastest, std::abs(step.joints[k] - seen.last[k]) / *step.duration);
+    if (!step.duration && ++seen.untimed > 1)
+      for (std::size_t k = 0; k < std::min(seen.last.size(), step.joints.size()); ++k)
+        seen.farthest = std::max(seen.farthest, std::abs(step.joints[k] - seen.last[k]));
     seen.last = step.joints;
     if (!seen.first) seen.first = &step, seen.low = step.joints, seen.high = step.joints;
     for (std::size_t k = 0; k < std::min(seen.low.size(), step.joints.size()); ++k) {
@@ -150,6 +160,15 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         WarningKind::motion, seen.first->where.text(),
         fmt::format("no joint angle of the motion is larger than {:.3g} deg (limit {:.3g} or more)", largest, most_radians),
         "radians instead of degrees", "joints_deg in degrees; leave it if the robot moves so little"));
+  if (seen.all_joints && seen.untimed == seen.moves && seen.moves >= least_targets && way > moves &&
+      seen.farthest <= near_targets)
+    warnings.push_back(warning_of(
+        WarningKind::motion, seen.first->where.text(),
+        fmt::format(
+            "{} targets without times are at most {:.2g} deg apart (limit more than {:.2g}): the robot stops at each",
+            seen.moves, seen.farthest / degree, near_targets / degree),
+        "a recording without its column of times",
+        "a column time_s with the time of each row, or motion.zone_deg if these are targets of a program"));
   if (seen.only_timed && way > moves && seen.fastest < least_speed)
     warnings.push_back(warning_of(
         WarningKind::motion, seen.first->where.text(),
@@ -193,7 +212,13 @@ void doubt_robot(const Robot& robot, const AddDoubt& add) {
   }
 }
 
-void doubt_cell(const Cell& cell, const AddDoubt& add) {
+void doubt_cell(const Cell& cell, const SimulationSettings& simulation, const AddDoubt& add) {
+  const std::size_t shapes = cell.boxes.size() + cell.capsules.size() + cell.meshes.size();
+  if (shapes > 0 && !simulation.contact)
+    add({},
+        fmt::format("the {} shape{} of cell have no effect, because simulation.contact is false", shapes,
+                    shapes == 1 ? "" : "s"),
+        "contact that was switched off for a trial", "simulation.contact: true, or no cell");
   for (std::size_t k = 0; k < cell.boxes.size(); ++k)
     if (const double far = cell.boxes[k].position.norm() - cell.boxes[k].sides.norm(); far > farthest)
       add({}, fmt::format("cell.boxes[{}] lies {:.4g} m from the origin (limit {:g})", k + 1, far, farthest),
@@ -310,9 +335,20 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
   doubt_spreads(job, doubt);
   if (job.motion.is_prescribed()) return warnings;
   doubt_robot(job.robot, doubt);
-  doubt_cell(job.cell, doubt);
+  doubt_cell(job.cell, job.simulation, doubt);
   for (const MountedDresspack& mounted : job.dresspacks)
     doubt_routing(mounted.routing, mounted.dresspack, doubt);
+  warnings = joined(std::move(warnings), radians_in(echo_fields(job.robot), "robot"));
+  warnings = joined(std::move(warnings), radians_in(echo_fields(job.cell), "cell"));
+  for (const MountedDresspack& mounted : job.dresspacks) {
+    warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.routing), "routing"));
+    warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.dresspack), "dresspack"));
+  }
+  if (job.simulation.most_repeats > repeats_to_steady)
+    add(WarningKind::periodic, "simulation.most_repeats", job.simulation.most_repeats,
+        fmt::format("{} or less", repeats_to_steady),
+        "the repeats in the dresspack's life: the life is extrapolated from one repeat",
+        "simulation.most_repeats: 8, or no key");
   if (job.simulation.periodic_tolerance > largest_tolerance)
     add(WarningKind::periodic, "simulation.periodic_tolerance_mm", 1e3 * job.simulation.periodic_tolerance,
         fmt::format("{:g} or less", 1e3 * largest_tolerance), "another unit: every motion counts as periodic",

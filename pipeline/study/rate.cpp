@@ -59,10 +59,20 @@ class Maker {
       throw InputError({file_.string()}, "holds no cable (a part that holds parts)",
                        "name another dresspack");
     for (const std::string& cable : cables) add_cable(dresspack, cable, cables.size() > 1, rigs);
+    refuse_common_fault();
     return std::move(made_);
   }
 
  private:
+  /// A fault of all jobs is one of what they have in common: settings or the dresspack.
+  void refuse_common_fault() const {
+    const std::vector<StudyJob>& jobs = made_.study.jobs;
+    const std::string& fault = jobs.front().failure;
+    if (!fault.empty() &&
+        std::all_of(jobs.begin(), jobs.end(), [&](const StudyJob& job) { return job.failure == fault; }))
+      throw InputError(fault);
+  }
+
   void add_cable(const Node& dresspack, const std::string& name, bool among_others, const fs::path& rigs) {
     const Node cable = cable_alone(dresspack, name, {file_.string()});
     const std::string prefix = among_others ? fit_for_a_folder(name) + "-" : "";

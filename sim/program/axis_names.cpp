@@ -134,10 +134,14 @@ std::optional<std::vector<std::size_t>> order_of_axes(const std::vector<std::str
     std::vector<std::size_t> order;
     for (std::size_t begin = 0; begin <= wanted.size();) {
       const std::size_t end = std::min(wanted.find(',', begin), wanted.size());
-      std::string name = wanted.substr(begin, end - begin);
-      std::erase(name, ' ');
-      const auto found =
-          std::find_if(names.begin(), names.end(), [&](const std::string& n) { return same_word(n, name); });
+      const auto without_blanks = [](std::string text) {
+        std::erase(text, ' ');
+        return text;
+      };
+      const std::string name = without_blanks(wanted.substr(begin, end - begin));
+      const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& n) {
+        return same_word(without_blanks(n), name);
+      });
       if (found == names.end()) return {};
       order.push_back(static_cast<std::size_t>(found - names.begin()));
       begin = end + 1;

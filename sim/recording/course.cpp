@@ -219,10 +219,12 @@ void Course::smooth(double interval, double still) {
 void Course::check_speeds(const pipeline::Robot& robot) {
   const std::vector<Axis> axes = axes_of(robot);
   std::vector<TooFast> found(axes_);
+  fastest.assign(axes_, 0);
   for (const Run& run : runs_)
     for (std::size_t k = run.begin; k < run.end; ++k) {
       const VectorXd speed = run.spline.slope(static_cast<long>(k - run.begin)).cwiseAbs();
       for (std::size_t i = 0; i < axes_; ++i) {
+        fastest[i] = std::max(fastest[i], speed[static_cast<long>(i)]);
         if (speed[static_cast<long>(i)] <= axes[i].speed) continue;
         TooFast& worst = found[i];
         ++worst.knots;

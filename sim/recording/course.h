@@ -55,6 +55,7 @@ class Course {
   double gap_seconds = 0;
   double largest_smoothing = 0;   ///< distance of a row from the course [rad]
   std::vector<TooFast> too_fast;  ///< one for each axis that is
+  std::vector<double> fastest;    ///< (axis) [rad/s]
 
  private:
   struct Run {

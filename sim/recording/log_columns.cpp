@@ -44,7 +44,7 @@ struct Group {
 /// "°" of a Latin-1 file, of a UTF-8 one, or none.
 std::string with_words(std::string name) {
   for (const char* sign : {"\xC2\xB0", "\xB0"})
-    if (const std::size_t at = name.find(sign); at != name.npos)
+    for (std::size_t at = name.find(sign); at != name.npos; at = name.find(sign))
       name.replace(at, std::string_view(sign).size(), " deg ");
   return name;
 }
@@ -102,7 +102,7 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
                      "give --value joints=NAME,NAME,.. in the order of the robot's axes");
   };
   if (!joints.empty()) {
-    const auto order = order_of_axes(titles, joints);
+    const auto order = order_of_axes(titles, with_words(joints));
     if (!order || order->size() != axes)
       refuse(fmt::format("joints does not name {} columns of the log", axes));
     made.axes = *order;

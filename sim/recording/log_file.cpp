@@ -31,6 +31,8 @@ constexpr double most_faults = 0.01;              // of the rows: more are anoth
 constexpr std::size_t few_faults = 10;            // that a short log may have, too
 constexpr std::size_t most_rows = 30'000'000;     // that move: 1.8 GB of six axes
 constexpr std::size_t rows_of_interval = 20'000;  // whose median is the log's
+constexpr const char* separators = ";\t,| ";
+constexpr std::size_t sample_bytes = 65'536;  // some hundred rows
 
 /// Errors: InputError for files that other programs convert.
 void refuse_other_kinds(const std::filesystem::path& file, const std::string& begin) {
@@ -57,8 +59,12 @@ void refuse_other_kinds(const std::filesystem::path& file, const std::string& be
 /// Makes rows with increasing times, without standstill.
 class Rows {
  public:
-  Rows(Recording& made, const std::filesystem::path& file, double still)
-      : made_(made), file_(file), still_(still) {}
+  Rows(Recording& made, const std::filesystem::path& file, const pipeline::Robot& robot, double still)
+      : made_(made),
+        file_(file),
+        robot_(robot),
+        still_(still),
+        filter_(axes_of(robot), still, [this](LogRow row) { settle(std::move(row)); }) {}
 
   void add(double stamp, std::vector<double> angles, std::uint32_t line) {
     ++made_.rows;
@@ -83,17 +89,21 @@ class Rows {
 
   void finish() {
     spread(made_interval());
+    filter_.finish();
     end_stand();
     made_.interval = made_interval();
+    made_.impossible = std::move(filter_.found);
+    if (!outside_) return;
+    const std::string more =
+        rows_outside_ > 1 ? fmt::format(", and {} rows are outside of limits in all", rows_outside_) : "";
+    const std::string order = order_words(made_.columns, {});
+    throw InputError(
+        {file_.string(), static_cast<int>(line_outside_), 1}, outside_->what + more,
+        (order.empty() ? "" : order + "; else ") +
+            "check the unit (--value unit=deg), the order of the columns (--value joints=NAME,NAME,..) and the robot of the job");
   }
 
  private:
-  struct Row {
-    double time;
-    std::vector<double> angles;
-    std::uint32_t line;
-  };
-
   double made_interval() {
     if (intervals_.empty()) return 1;
     const auto middle = intervals_.begin() + static_cast<long>(intervals_.size() / 2);
@@ -115,12 +125,29 @@ class Rows {
         std::min(step, coarsest_clock) / static_cast<double>(std::max<std::size_t>(1, same_.size()));
     for (std::size_t k = 0; k < same_.size(); ++k) {
       same_[k].time += static_cast<double>(k) * share;
-      settle(std::move(same_[k]));
+      filter_.add(std::move(same_[k]));
     }
     same_.clear();
   }
 
-  void settle(Row row) {
+  void note_range(const LogRow& row) {
+    bool inside = true;
+    for (std::size_t i = 0; i < row.angles.size(); ++i) {
+      AxisOfLog& of = made_.columns[i];
+      of.low = range_begun_ ? std::min(of.low, row.angles[i]) : row.angles[i];
+      of.high = range_begun_ ? std::max(of.high, row.angles[i]) : row.angles[i];
+      inside &= row.angles[i] >= of.axis.lower && row.angles[i] <= of.axis.upper;
+    }
+    range_begun_ = true;
+    if (inside) return;
+    const auto fault = limit_fault(robot_, row.angles, "the row");
+    if (!fault) return;
+    ++rows_outside_;
+    if (!outside_) outside_ = fault, line_outside_ = row.line;
+  }
+
+  void settle(LogRow row) {
+    note_range(row);
     if (!stand_.empty()) {
       bool moves = false;
       for (std::size_t i = 0; i < row.angles.size(); ++i)
@@ -135,12 +162,12 @@ class Rows {
 
   void end_stand() {
     if (is_long_) stand_[1].angles = stand_.front().angles;
-    for (const Row& row : stand_) push(row);
+    for (const LogRow& row : stand_) push(row);
     stand_.clear();
     is_long_ = false;
   }
 
-  void push(const Row& row) {
+  void push(const LogRow& row) {
     if (made_.size() == most_rows)
       throw InputError({file_.string(), static_cast<int>(row.line), 1},
                        fmt::format("the log has more than {} rows that move", most_rows), "split the log");
@@ -151,10 +178,16 @@ class Rows {
 
   Recording& made_;
   const std::filesystem::path& file_;
+  const pipeline::Robot& robot_;
   double still_;
+  StepFilter filter_;
+  bool range_begun_ = false;
+  std::optional<LimitFault> outside_;  // the first one
+  std::uint32_t line_outside_ = 0;
+  std::size_t rows_outside_ = 0;
   double begin_ = 0, last_stamp_ = 0;
-  std::vector<Row> same_;   // of one stamp
-  std::vector<Row> stand_;  // near the first of them; of a long stand the first and the last ones
+  std::vector<LogRow> same_;   // of one stamp
+  std::vector<LogRow> stand_;  // near the first of them; of a long stand the first and the last ones
   bool is_long_ = false;
   std::vector<double> intervals_;
 };
@@ -163,7 +196,10 @@ class Rows {
 class Pass {
  public:
   Pass(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options)
-      : file_(file), robot_(robot), options_(options), log_(pipeline::PlainFile(file), ";\t,| ") {
+      : Pass(file, robot, options, pipeline::CsvReader(pipeline::PlainFile(file), separators)) {}
+  Pass(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options,
+       pipeline::CsvReader log)
+      : file_(file), options_(options), log_(std::move(log)) {
     titles_ = log_.next();
     if (titles_.empty())
       throw InputError({file.string(), 1, 1}, "the log is empty",
@@ -183,6 +219,13 @@ class Pass {
   /// Every row: the function takes time [s], angles as written, and line.
   template <class Take>
   void run(const std::function<void(double)>& progress, const Take& take) {
+    run_some(progress, take);
+    check_faults();
+  }
+
+  /// Without an error for rows that cannot be read.
+  template <class Take>
+  void run_some(const std::function<void(double)>& progress, const Take& take) {
     LogTime clock(columns_.seconds);
     for (CsvRow row = log_.next(); !row.empty(); row = log_.next()) {
       ++rows_;
@@ -203,21 +246,42 @@ class Pass {
       }
       take(*time, std::move(angles), static_cast<std::uint32_t>(log_.line()));
     }
-    check_faults();
+    clock_words_ = clock.words();
   }
+
+  /// "separator ';', decimal commas; column Zeit: seconds; angles in degrees by the names of the columns". After run().
+  std::string words(bool unit_by_size) const {
+    const char separator = log_.separator();
+    std::string text = fmt::format("separator {}", separator == '\t'  ? "tab"
+                                                   : separator == ' ' ? "blank"
+                                                                      : fmt::format("'{}'", separator));
+    if (comma_seen_) text += ", decimal commas";
+    if (options_.rate > 0) {
+      text += fmt::format("; times by --value rate_Hz={:g}", options_.rate);
+    } else {
+      const std::string date = columns_.date ? fmt::format("{} and ", titles_[*columns_.date].text) : "";
+      text += fmt::format("; times in {}{}: {}", date, titles_[*columns_.time].text, clock_words_);
+    }
+    return text + fmt::format("; angles in {} {}", (unit_by_size || *radians() != 1) ? "degrees" : "radians",
+                              !options_.unit.empty() ? "by --value unit"
+                              : unit_by_size         ? "because they are too large for radians"
+                                                     : "by the names of the columns");
+  }
+
+  std::string title(std::size_t axis) const { return titles_[columns_.axes[axis]].text; }
 
   std::size_t left_out = 0;
   int first_left_out = 0;
 
  private:
-  std::optional<double> number(std::string text) const {
+  std::optional<double> number(std::string text) {
     if (log_.separator() != ',')
-      if (const std::size_t comma = text.find(','); comma != text.npos) text[comma] = '.';
+      if (const std::size_t comma = text.find(','); comma != text.npos) text[comma] = '.', comma_seen_ = true;
     const auto value = pipeline::number_in(text);
     return value && std::isfinite(*value) ? value : std::nullopt;
   }
 
-  std::optional<double> time_of(const CsvRow& row, LogTime& clock) const {
+  std::optional<double> time_of(const CsvRow& row, LogTime& clock) {
     if (options_.rate > 0) return static_cast<double>(rows_ - 1) / options_.rate;
     if (row.size() != titles_.size()) return {};
     std::string text = row[*columns_.time].text;
@@ -270,13 +334,13 @@ class Pass {
   }
 
   const std::filesystem::path& file_;
-  const pipeline::Robot& robot_;
   const LogOptions& options_;
   pipeline::CsvReader log_;
   CsvRow titles_;
   LogColumns columns_;
   std::size_t rows_ = 0;
-  std::string first_fault_;
+  std::string first_fault_, clock_words_;
+  bool comma_seen_ = false;
 };
 
 /// Factor to rad of a log that does not say its unit: of angles too large for rad.
@@ -295,6 +359,21 @@ double unit_by_size(const std::filesystem::path& file, const pipeline::Robot& ro
 
 }  // namespace
 
+LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& robot,
+                    const LogOptions& options) {
+  std::string text = pipeline::beginning_of(file, sample_bytes);
+  refuse_other_kinds(file, text);
+  const double bytes = static_cast<double>(pipeline::state_of(file).size);
+  if (static_cast<double>(text.size()) < bytes) text.resize(text.rfind('\n') + 1);
+  const double share = static_cast<double>(text.size()) / bytes;
+  std::vector<double> times;
+  Pass(file, robot, options, pipeline::CsvReader(std::move(text), file.string(), separators))
+      .run_some({}, [&](double time, const std::vector<double>&, std::uint32_t) { times.push_back(time); });
+  LogSize size{bytes / 1e6, static_cast<double>(times.size()) / share, 0};
+  if (!times.empty()) size.seconds = std::max(0., times.back() - times.front()) / share;
+  return size;
+}
+
 Recording read_log(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options,
                    const std::function<void(double)>& progress) {
   refuse_other_kinds(file, pipeline::beginning_of(file, 4096));
@@ -303,15 +382,16 @@ Recording read_log(const std::filesystem::path& file, const pipeline::Robot& rob
   const double unit = known ? *known : unit_by_size(file, robot, options);
   Recording made;
   made.axes = robot.axes();
-  Rows rows(made, file, options.still);
+  const std::vector<Axis> axes = axes_of(robot);
+  for (std::size_t i = 0; i < made.axes; ++i) made.columns.push_back({axes[i], pass.title(i)});
+  Rows rows(made, file, robot, options.still);
   pass.run(progress, [&](double time, std::vector<double> angles, std::uint32_t line) {
     for (double& angle : angles) angle *= unit;
-    if (const auto fault = limit_fault(robot, angles, "the row"))
-      throw InputError(
-          {file.string(), static_cast<int>(line), 1}, fault->what,
-          "check the unit (--value unit=deg), the order of the columns (--value joints=NAME,NAME,..) and the robot of the job");
     rows.add(time, std::move(angles), line);
   });
+  for (std::size_t i = 0; i < made.axes; ++i)
+    made.columns[i].column = pass.title(i);  // a row may name the joints
+  made.format = pass.words(!known);
   rows.finish();
   made.left_out = pass.left_out;
   made.first_left_out = pass.first_left_out;

@@ -5,6 +5,8 @@
 // one stamp: equal ones count once, others are spread evenly until the next stamp (a clock of whole seconds). Stamps
 // that go back begin anew.
 //
+// Rows that no axis can reach are left out (log_steps.h).
+//
 // Standstill costs nothing: rows that stay within `still` of the first of them for half a second become two equal rows.
 #pragma once
 
@@ -15,6 +17,7 @@
 #include <vector>
 
 #include "pipeline/job/robot.h"
+#include "sim/recording/log_steps.h"
 
 namespace dresslife::sim {
 
@@ -28,6 +31,9 @@ struct LogOptions {
 /// Rows of a log, those of a standstill left out.
 struct Recording {
   std::size_t axes = 0;
+  std::vector<AxisOfLog> columns;  ///< (axis)
+  std::string format;              ///< words: separator, times, unit of the angles
+  ImpossibleRows impossible;
   std::vector<double> times;         ///< (row) [s], increasing, from 0
   std::vector<double> angles;        ///< (row, axis) [rad]
   std::vector<std::uint32_t> lines;  ///< (row) of the file
@@ -46,9 +52,17 @@ struct Recording {
   const double* at(std::size_t row) const { return &angles[row * axes]; }
 };
 
-/// progress: called with the share that is read. Errors: InputError: another kind of file (it names a converter),
-/// names of columns, angles without a unit, times that are none or more than 2 s apart, a row outside the robot's
-/// limits, more than a hundredth of the rows without numbers or back in time.
+/// Size and length of a log, estimated from its first 64 kB.
+struct LogSize {
+  double megabytes = 0, rows = 0, seconds = 0;  ///< seconds: 0 if the first rows have no times
+};
+/// Errors: InputError as read_log() for another kind of file and for names of columns.
+LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& robot,
+                    const LogOptions& options);
+
+/// progress: called with the share that is read. Errors: InputError: another kind of file (it names a converter), names
+/// of columns, angles without a unit, times that are none or more than 2 s apart, a row outside the robot's limits that
+/// is no glitch (L3), more than a hundredth of the rows without numbers or back in time.
 Recording read_log(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options,
                    const std::function<void(double)>& progress = {});
 

@@ -1,9 +1,14 @@
 #include "sim/recording/log_study.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <span>
+
+#include "pipeline/base/readable.h"
 
 namespace dresslife::sim {
 namespace {
@@ -13,6 +18,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 constexpr double seconds_per_second =
     0.2;  // of a core, for a second of motion; cycles are simulated until they repeat
 constexpr double megabytes_per_second = 0.4;
+constexpr double reading_per_row = 6.3e-5;  // [s] of one core: a day at 10 Hz in 54 s
 constexpr double last_sample = 0.2;  // [s] by which a simulated motion may be longer: it ends with a sample
 
 std::string time_words(double seconds) {
@@ -60,6 +66,42 @@ std::string duty_text(const std::string& name, const std::string& study, const C
   return text;
 }
 
+std::string estimate_words(const std::filesystem::path& file, const LogSize& size) {
+  std::string text = fmt::format("{}: {:.2g} MB, about {} rows", file.filename().string(), size.megabytes,
+                                 pipeline::readable(size.rows, 2));
+  if (size.seconds > 0) text += fmt::format(" in {}", time_words(size.seconds));
+  text += fmt::format(". Reading takes about {}", time_words(std::ceil(size.rows * reading_per_row)));
+  if (size.seconds > 0)
+    text += fmt::format("; the study at most {} of one core and {} MB, if nothing repeats or stands still",
+                        time_words(size.seconds * seconds_per_second),
+                        pipeline::readable(size.seconds * megabytes_per_second, 2));
+  return text;
+}
+
+std::vector<std::string> read_words(const Recording& log, const Course& course) {
+  std::vector<std::string> lines{"Read: " + log.format};
+  std::size_t name = 4, column = 6;
+  for (const AxisOfLog& of : log.columns)
+    name = std::max(name, of.axis.name.size()), column = std::max(column, pipeline::columns_of(of.column));
+  const auto add = [&](const std::string& axis, const std::string& of, const std::string& range,
+                       const std::string& limits, const std::string& speed, const std::string& limit) {
+    lines.push_back(fmt::format("{:<{}}  {}{}  {:>17}  {:>14}  {:>15}  {:>13}", axis, name, of,
+                                std::string(column - pipeline::columns_of(of), ' '), range, limits, speed,
+                                limit));
+  };
+  const auto tenths = [](double angle) { return std::round(10 * angle * degrees) / 10 + 0.; };  // no -0.0
+  add("axis", "column", "range [deg]", "limits [deg]", "fastest [deg/s]", "limit [deg/s]");
+  for (std::size_t i = 0; i < log.columns.size(); ++i) {
+    const AxisOfLog& of = log.columns[i];
+    add(of.axis.name, of.column, fmt::format("{:.1f} .. {:.1f}", tenths(of.low), tenths(of.high)),
+        fmt::format("{:.4g} .. {:.4g}", of.axis.lower * degrees, of.axis.upper * degrees),
+        fmt::format("{:.3g}", course.fastest[i] * degrees), fmt::format("{:.4g}", of.axis.speed * degrees));
+  }
+  if (const std::string order = order_words(log.columns, course.fastest); !order.empty())
+    lines.push_back("warning: " + order);
+  return lines;
+}
+
 std::vector<std::string> log_words(const Recording& log, const Course& course, const Cycles& cycles,
                                    const std::vector<LogMotion>& motions) {
   std::vector<std::string> lines{
@@ -75,6 +117,20 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
     lines.push_back(
         fmt::format("{} rows with an earlier time than the row before, first line {}: time goes on from there", log.back,
                     log.first_back));
+  const auto lines_text = [](const std::vector<std::uint32_t>& of) {
+    constexpr std::size_t most = 5;
+    const auto shown = std::span(of).first(std::min(of.size(), most));
+    return fmt::format("line{} {}{}", of.size() == 1 ? "" : "s", fmt::join(shown, ", "),
+                       of.size() > most ? " .." : "");
+  };
+  if (const auto& glitches = log.impossible.glitches; !glitches.empty())
+    lines.push_back(fmt::format(
+        "warning: {} row{} left out, to which no axis could move and from which it could not move back: {}",
+        glitches.size(), glitches.size() == 1 ? "" : "s", lines_text(glitches)));
+  if (const auto& jumps = log.impossible.jumps; !jumps.empty())
+    lines.push_back(fmt::format(
+        "warning: {} row{} that no axis could reach stay{} in the motion: {}. Correct the log, or cut it there",
+        jumps.size(), jumps.size() == 1 ? "" : "s", jumps.size() == 1 ? "s" : "", lines_text(jumps)));
   if (log.pauses > 0)
     lines.push_back(fmt::format(
         "warning: {} pauses without rows, {} together, the longest {} before line {}: they count as standing where the robot keeps its "

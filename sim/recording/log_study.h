@@ -21,6 +21,12 @@ std::string study_text(const std::string& name, const std::filesystem::path& bas
 std::string duty_text(const std::string& name, const std::string& study, const Course& course,
                       const std::vector<LogMotion>& motions);
 
+/// Before a log is read: its size, and what it takes to read it and to run its study if nothing repeats.
+std::string estimate_words(const std::filesystem::path& file, const LogSize& size);
+
+/// What was read: a line on the format, and a table of the axes.
+std::vector<std::string> read_words(const Recording& log, const Course& course);
+
 /// What the log contains, one line each: rows that do not count, gaps, speeds, cycles, rest, time and disk of the
 /// study.
 std::vector<std::string> log_words(const Recording& log, const Course& course, const Cycles& cycles,

@@ -1,5 +1,7 @@
 #include "sim/recording/log_time.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -79,6 +81,7 @@ std::optional<double> time_of_day_in(std::string_view text) {
 std::optional<double> LogTime::read(std::string_view text) {
   if (const auto number = pipeline::number_in(text); number && std::isfinite(*number)) {
     if (!unit_) unit_ = unit_of_clock(*number);
+    form_ = Form::numbers;
     return *number * *unit_;
   }
   const auto date = date_in(text);
@@ -88,10 +91,20 @@ std::optional<double> LogTime::read(std::string_view text) {
   }
   const auto time = time_of_day_in(text);
   if (!time) return {};
+  form_ = date ? Form::dates : Form::times_of_day;
   if (date) return *date * day + *time;
   if (last_of_day_ && *time < *last_of_day_ - day / 2) days_ += day;
   last_of_day_ = time;
   return days_ + *time;
+}
+
+std::string LogTime::words() const {
+  if (form_ != Form::numbers) return form_ == Form::dates ? "dates with times of day" : "times of day";
+  const double seconds = unit_.value_or(1);
+  for (const auto& [unit, name] :
+       {std::pair{1., "s"}, {60., "min"}, {3600., "h"}, {1e-3, "ms"}, {1e-6, "us"}, {1e-9, "ns"}})
+    if (std::abs(seconds / unit - 1) < 1e-9) return fmt::format("numbers in {}", name);
+  return fmt::format("numbers in {:g} s", seconds);
 }
 
 }  // namespace dresslife::sim

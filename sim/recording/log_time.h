@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace dresslife::sim {
@@ -16,8 +17,11 @@ class LogTime {
   /// Seconds from a fixed begin; a time of day before the last one by more than 12 h is of the next day.
   /// Absent: no time.
   std::optional<double> read(std::string_view text);
+  /// What the last time was: "numbers in ms", "dates with times of day".
+  std::string words() const;
 
  private:
+  enum class Form { numbers, dates, times_of_day } form_ = Form::numbers;
   std::optional<double> unit_;
   double days_ = 0;  ///< midnights since the first time of day, times 86,400 s
   std::optional<double> last_of_day_;

@@ -55,14 +55,14 @@ class Layout {
                                  fmt::format("motion '{}' does not begin with a move", motion_.name),
                                  "begin with the joints_deg at which the robot starts");
     number(motion_.steps, "");
-    problems_.throw_if_any();
+    throw_if_any();
     int first = 0;
     expand(motion_.steps, first);
-    problems_.throw_if_any();
+    throw_if_any();
     find_paths();
     for (std::size_t k = 0; k + 1 < moves_.size(); ++k) round_corner(k);
     for (std::size_t k = 0; k < moves_.size(); ++k) lay(k);
-    problems_.throw_if_any();
+    throw_if_any();
     if (!made_.legs.empty()) made_.legs.back().zone = 0;
     made_.place = place_;
     return std::move(made_);
@@ -151,11 +151,38 @@ class Layout {
 
   bool refuse(const MotionStep& step, int line, const std::string& reason) {
     const bool lacks = step.external_axes.size() > axes_.size() - robot_.axes();
-    problems_.add(step.where, fmt::format("target of '{}' {}", made_.texts[line], reason),
-                  lacks ? "check target, tool, work object and configuration; the step also names external axes that "
-                          "robot.external_axes does not have: without them the robot stands elsewhere"
-                        : "check target, tool, work object, configuration and where the robot stands");
+    const std::string remedy =
+        lacks ? "check target, tool, work object and configuration; the step also names external axes that "
+                "robot.external_axes does not have: without them the robot stands elsewhere"
+              : "check target, tool, work object, configuration and where the robot stands";
+    const auto same = std::find_if(refused_.begin(), refused_.end(), [&](const Refused& other) {
+      return other.reason == reason && other.remedy == remedy;
+    });
+    if (same == refused_.end())
+      refused_.push_back({step.where, made_.texts[line], reason, remedy, {}});
+    else
+      same->further.push_back(step.where);
     return false;
+  }
+
+  /// Targets that are refused for one reason are one problem.
+  void throw_if_any() {
+    for (const Refused& refused : refused_) {
+      constexpr std::size_t most = 5;
+      std::string further;
+      for (std::size_t k = 0; k < std::min(most, refused.further.size()); ++k)
+        further += fmt::format("{}{}", k == 0 ? "" : ", ", refused.further[k].text());
+      if (refused.further.size() > most) further += " ..";
+      problems_.add(
+          refused.where,
+          fmt::format("target of '{}' {}{}", refused.text, refused.reason,
+                      further.empty() ? ""
+                                      : fmt::format(", and {} further target{} ({})", refused.further.size(),
+                                                    refused.further.size() == 1 ? "" : "s", further)),
+          refused.remedy);
+    }
+    refused_.clear();
+    problems_.throw_if_any();
   }
 
   /// All axes near `joints`, with the external axes at the share u of a move's way.
@@ -567,6 +594,12 @@ class Layout {
   std::vector<int> numbers_;  // of the lines, depth first
   std::vector<Move> moves_;
   std::vector<std::size_t> stops_;  // moves behind which the robot stops although their zone would not
+  struct Refused {
+    pipeline::Where where;  // of the first target
+    std::string text, reason, remedy;
+    std::vector<pipeline::Where> further;
+  };
+  std::vector<Refused> refused_;
   Problems problems_;
   VectorXd place_, last_;
   int chain_ = 0;  // of the move being laid

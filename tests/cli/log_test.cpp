@@ -40,6 +40,10 @@ TEST_CASE("log: the life of a log of one cycle is that of the cycle") {
   write_log(scratch);
   const Outcome read = must_run(scratch, "dresslife", "import log.csv --log " + job + " -o shift.yaml");
   INFO(read.err);
+  // The estimate comes before the log is read, the table of the axes behind it.
+  CHECK_THAT(read.err, Catch::StartsWith("log.csv: ") && Catch::Contains("about 300 rows in 29.9 s") &&
+                           Catch::Contains("MB"));
+  CHECK_THAT(read.out, Catch::Contains("joint_5  Achse_5 [deg]       25.0 .. 35.0     -120 .. 120"));
   CHECK_THAT(read.out, Catch::Contains("cycle_1: 3 times") && Catch::Contains("no rest") &&
                            Catch::Contains("estimate"));
   CHECK_THAT(content(scratch / "shift.yaml"),

@@ -94,6 +94,15 @@ TEST_CASE("rate: a cable's lives in every shipped rig stand beside its maker's r
         std::string::npos);
 }
 
+TEST_CASE("rate: a fault of all tests is one message") {
+  Scratch scratch;
+  scratch.write("lead.yaml", cable);
+  const Outcome outcome = run(scratch, "dresslife", "rate lead.yaml --quiet --set calibration=WRONG");
+  CHECK(outcome.status == 1);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err == "WRONG: error: cannot be read (No such file or directory); check the path\n");
+}
+
 TEST_CASE("validate: run-outs and breaks are judged, and a model that says for ever is caught") {
   Scratch scratch;
   const std::string job =

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "pipeline/base/readable.h"
 #include "pipeline/job/uncertainty.h"
@@ -16,8 +17,8 @@ using Eigen::Index;
 constexpr double decile = 1.2815515655446004;  // of a normal distribution, in its deviations
 
 std::string parameter_lines(const Learned& learned) {
-  std::string text =
-      fmt::format("{:<17} {:>24} {:>24}  {}\n", "parameter", "before (80 %)", "after (80 %)", "spread left");
+  std::string text = fmt::format("{:<17} {:>24} {:>24}  {}\n", "parameter", "before (80 %)", "after (80 %)",
+                                 "width after/before");
   const auto range = [](const PredictedDeciles& of) {
     return fmt::format("{} ({} .. {})", readable(of[1]), readable(of[0]), readable(of[2]));
   };
@@ -77,19 +78,19 @@ void add_doubts(Learned& learned, const Axes& axes) {
   for (const LearnedTest& test : learned.tests)
     if (const double off = surprise(test); off > surprising)
       learned.notes.push_back(fmt::format(
-          "'{}' lies {:.1f} deviations from what was predicted: look at its construction and at what was "
-          "done to it before what it teaches is believed",
-          test.observation.name, off));
+          "'{}' is far from its prediction: by chance about 1 of {} observations is as far off. Check its construction "
+          "and its test before you use this calibration",
+          test.observation.name, readable(1 / std::erfc(off / std::numbers::sqrt2), 1)));
   const Posterior& posterior = learned.posterior;
   for (Index i = 0; i < axes.size(); ++i) {
     const double off =
         (posterior.median[i] - posterior.laplace.most_likely[i]) / std::sqrt(posterior.covariance(i, i));
     if (std::abs(off) > skewed)
       learned.notes.push_back(fmt::format(
-          "{}: its median lies {:.1f} deviations from its likeliest value, as what has not failed leaves "
-          "it; the draws count",
+          "{}: values far {} its likeliest one remain possible, because what has not failed bounds it on one side only. "
+          "The ranges above include them",
           uncertain_parameters()[static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(i)])].name,
-          off));
+          off > 0 ? "above" : "below"));
   }
 }
 
@@ -109,16 +110,19 @@ std::string learned_table(const Learned& learned) {
                         words_of(test.by_others), words_of(test.after), test.fails_first);
   for (const LearnedTest& test : learned.tests)
     if (!test.observation.service.empty())
-      text += fmt::format("\nLife of '{}' changes by one deviation of a parameter, as a factor: {}\n", test.observation.name,
-                          test.moved_by.empty() ? "of none" : test.moved_by);
+      text += fmt::format(
+          "\nThe life of '{}' depends most on (factor of the life, if a usual uncertainty of the parameter is added): {}\n",
+          test.observation.name, test.moved_by.empty() ? "of none" : test.moved_by);
   text +=
-      "\nParameters: factors of the job's keys (slope: added to b), median and 80 % range.\nPredicted: the life after which 10 % "
-      "of such specimens have failed (half, 90 %), over the uncertain parameters, the unknowns of the test and scatter;\nof a "
-      "bending test its largest moment. Before: from the prior. By the others: without this observation.\n"
-      "Fails first: in which share of the samples. For a plan take the hours of dresslife run with this calibration: it "
-      "computes the strains\nat the medians above.\n";
+      "\nParameters: factors of the job's keys (slope: added to b): the middle value, and the range that holds it in 8 of 10 cases.\n"
+      "Width after/before: of this range. Above 100 %: the observations leave more values possible than were assumed before.\n"
+      "Predicted: the life after which 10 % of such specimens have failed (half, 90 %); of a bending test its largest moment.\n"
+      "Predicted before: without any observation. By the others: without this observation. Fails first: in which share of the samples.\n"
+      "Compare 'predicted after' with the 'replace after' that dresslife run prints for a job with this calibration. They differ somewhat,\n"
+      "because run computes the strains at the middle values above: plan with those of run. 'Predicted before' is not what run prints\n"
+      "without a calibration: run includes makers' ratings (uncertainty.ratings), which a calibration replaces.\n";
   if (!learned.settled)
-    text += fmt::format("warning: after {} rounds the centre still moves; the draws rest on runs beside it\n",
+    text += fmt::format("warning: after {} rounds the result still changes: it is less exact than usual\n",
                         learned.rounds);
   for (const std::string& note : learned.notes) text += "note: " + note + "\n";
   return text;

@@ -54,8 +54,8 @@ void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vec
   throw InputError(
       tests[row].where,
       fmt::format(
-          "'{}': the observation ({}) contradicts the prediction ({}): the likeliest {} would lie {:.1f} deviations "
-          "from its prior (limit {:g})",
+          "'{}': the observation ({}) contradicts the prediction ({}): it would need a {} {:.1f} standard deviations "
+          "from what was assumed (limit {:g})",
           observation.name, observed_text(observation), words_of(learned[row].before),
           uncertain_parameters()[static_cast<std::size_t>(worst)].name, std::abs(there[worst]), farthest),
       "correct the unit of the observation, or its job; else leave the row out");

@@ -83,7 +83,7 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
         plain.fatigue.scatter_factor != 1)
       refuse("its job gives a key that is to be learned", "leave the factors of strain and fatigue out");
     if (plain.uncertainty.spread != Uncertainty::default_spread())
-      refuse("its job gives spreads of its own, but what is learned has one prior for all rows",
+      refuse("its job gives uncertainties of its own, but all rows of a calibration must have the same",
              "leave section uncertainty out of its job");
     runs.centre = add(test, variant, centre_);
     for (std::size_t p = 0; p < uncertain_count; ++p) {

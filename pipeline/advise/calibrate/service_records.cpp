@@ -10,6 +10,7 @@
 #include <set>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/exported.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
@@ -77,13 +78,6 @@ std::optional<End> end_in(const std::string& text) {
       has_any(letters, {"alive", "inuse", "inservice", "running", "imbetrieb", "imeinsatz"}))
     return End::in_use;
   return std::nullopt;
-}
-
-/// With a decimal point or a decimal comma.
-std::optional<double> number_of_export(std::string text) {
-  if (text.find('.') == text.npos && std::count(text.begin(), text.end(), ',') == 1)
-    text[text.find(',')] = '.';
-  return number_in(text);
 }
 
 struct Row {
@@ -163,10 +157,8 @@ class Export {
 
   Day day(const CsvRow& cells, Column column) const {
     const std::string written = text(cells, column);
-    const std::optional<Day> day = day_from_export(written);
-    if (!day)
-      refuse(cells, column, fmt::format("'{}' is no date", written),
-             std::string(date_remedy) + ", or 12.07.2027");
+    const std::optional<Day> day = exported_day(written);
+    if (!day) refuse(cells, column, fmt::format("'{}' is no date", written), day_remedy(written));
     if (*day > request_.today)
       refuse(cells, column, fmt::format("{} is after today, {}", day_text(*day), day_text(request_.today)),
              "correct the date, or give --today");
@@ -186,12 +178,12 @@ class Export {
     row.from = day(cells, installed);
     read_end(cells, row);
     if (const std::string hours = text(cells, hours_per_week); !hours.empty()) {
-      row.hours_per_week = number_of_export(hours);
+      row.hours_per_week = exported_number(hours);
       constexpr double fewest = 0.1, most = 168;  // of a week
       if (!row.hours_per_week || !(*row.hours_per_week >= fewest && *row.hours_per_week <= most))
         refuse(cells, hours_per_week,
                fmt::format("hours_per_week is '{}' (must be {:g} .. {:g})", hours, fewest, most),
-               "write the hours in which the program runs");
+               row.hours_per_week ? "write the hours in which the program runs" : number_remedy(hours));
     }
     row.job = text(cells, job),
     row.job_where = row.job.empty() ? Where{"--job"} : reader_.where(*cell(cells, job));
@@ -208,11 +200,11 @@ class Export {
     if (!why_end)
       refuse(cells, reason, fmt::format("reason '{}' does not say whether the dresspack failed", why),
              "write failed, preventive or nothing (in use)");
-    const bool is_date = day_from_export(written).has_value();
+    const bool is_date = exported_day(written).has_value();
     const bool has_digit = written.find_first_of("0123456789") != std::string::npos;
     if (!is_date && (has_digit || end_in(written) != End::in_use))
       refuse(cells, replaced, fmt::format("'{}' is no date", written),
-             std::string(date_remedy) + " or 12.07.2027, or nothing while it is in use");
+             day_remedy(written) + ", or nothing while it is in use");
     row.to = is_date ? day(cells, replaced) : request_.today;
     row.end = *why_end;
     if (is_date && row.end == End::in_use)

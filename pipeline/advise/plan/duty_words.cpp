@@ -67,8 +67,9 @@ std::string percentile_words(const DutyResult& duty) {
   std::string words = fmt::format("Hours until 1 of 10, half and 90 % have failed: {}, {}, {}.", shown_hours(robot_life, tenth),
                                   shown_hours(robot_life, half), shown_hours(robot_life, most));
   if (duty.past_hours > 0)
-    words += fmt::format(" These hours begin now, after {} of operation. {:.0f} % of the samples survive until now; only they count.",
-                         hours_text(duty.past_hours), 100 * duty.lives.survived);
+    words += fmt::format(
+        " These hours begin now, after {} of operation. By the model {:.0f} % of such dresspacks live until now; the hours are theirs.",
+        hours_text(duty.past_hours), 100 * duty.lives.survived);
   return words;
 }
 
@@ -101,9 +102,11 @@ std::string duty_words(const std::vector<DutyResult>& results) {
     text += caution_words(duty);
     for (std::size_t m = 0; m < duty.modes.size(); ++m)
       if (duty.damage.same_place[m] < 0.99)
-        text += wrapped(fmt::format("The programs wear different places: the damage of '{}' is {:.2f} of the sum of their worst places.",
-                                    duty.modes[m], duty.damage.same_place[m]),
-                        118, "  ");
+        text += wrapped(
+            fmt::format(
+                "The programs wear different places: with all at one place the damage of '{}' would be {:.2g} times as large.",
+                duty.modes[m], 1 / duty.damage.same_place[m]),
+            118, "  ");
   }
   return text;
 }

@@ -3,61 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <cstdio>
 #include <map>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/exported.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 namespace {
-
-/// The number that is all of a text.
-std::optional<int> whole(std::string_view text) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-/// What to write instead of a text that is no date: of day.month.year and of a spreadsheet's number the date that was meant.
-std::string date_to_write(const std::string& text) {
-  const std::string general = date_remedy;
-  int first = 0, second = 0, year = 0, used = 0;
-  char mark = 0, again = 0;
-  if (std::sscanf(text.c_str(), "%2d%c%2d%c%4d%n", &first, &mark, &second, &again, &year, &used) == 5 &&
-      used == static_cast<int>(text.size()) && mark == again && year >= 1000) {
-    const std::string by_day = fmt::format("{:04}-{:02}-{:02}", year, second, first),
-                      by_month = fmt::format("{:04}-{:02}-{:02}", year, first, second);
-    if (day_from(by_day) && day_from(by_month) && first != second)
-      return fmt::format("{}: {} if the day comes first, {} if the month does", general, by_day, by_month);
-    if (day_from(by_day) || day_from(by_month))
-      return fmt::format("write {}", day_from(by_day) ? by_day : by_month);
-  }
-  constexpr int spreadsheet_1970 = 25569, spreadsheet_2100 = 73051;  // days since 1899-12-30
-  if (const std::optional<int> days = whole(text);
-      days && *days > spreadsheet_1970 && *days < spreadsheet_2100)
-    return fmt::format("write {} if that is the number of a spreadsheet",
-                       day_text(Day(std::chrono::days(*days - spreadsheet_1970))));
-  return general;
-}
-
-/// "write 37.5" for 37,5 and 1200 for 1,200 or 1200 EUR: what to write instead of a text that is no number.
-std::string number_remedy(std::string text) {
-  const std::size_t comma = text.find(','),
-                    digits_behind = comma == std::string::npos ? 0 : text.size() - comma - 1;
-  std::string plain;
-  for (const char letter : text)
-    if (std::isdigit(static_cast<unsigned char>(letter)) || letter == '.' || letter == '-') plain += letter;
-  if (comma != std::string::npos && digits_behind != 3)
-    plain.insert(plain.size() - std::min(plain.size(), digits_behind), ".");
-  return !plain.empty() && plain != text && number_in(plain)
-             ? fmt::format("write {}, without unit, blank or comma", plain)
-             : "write a number with a decimal point";
-}
 
 constexpr std::chrono::days longest_plan{3653};  // duties and robots change sooner
 
@@ -83,7 +37,7 @@ class Row {
   }
   std::optional<double> number(const std::string& title, double low, double high) const {
     if (text(title).empty()) return std::nullopt;
-    const std::optional<double> value = number_in(text(title));
+    const std::optional<double> value = exported_number(text(title));
     if (!value || !(*value >= low && *value <= high))
       throw InputError(
           where(title), fmt::format("{} is '{}' (must be {:g} .. {:g})", title, text(title), low, high),
@@ -99,13 +53,13 @@ class Row {
 Installed installed_from(const Row& row, Day today, bool has_costs) {
   Installed one{row.where("name"), row.needed("name"), row.needed("duty"), today, row.number("hours_per_week", 0.1, 168), 0, 0};
   if (const std::string date = row.text("installed"); !date.empty()) {
-    const std::optional<Day> day = day_from(date);
-    if (!day && day_from(one.duty))
+    const std::optional<Day> day = exported_day(date);
+    if (!day && exported_day(one.duty))
       throw InputError(row.where("installed"),
                        fmt::format("'{}' is no date, and duty is the date {}", date, one.duty),
                        "exchange the titles 'duty' and 'installed'");
     if (!day)
-      throw InputError(row.where("installed"), fmt::format("'{}' is no date", date), date_to_write(date));
+      throw InputError(row.where("installed"), fmt::format("'{}' is no date", date), day_remedy(date));
     if (*day > today)
       throw InputError(row.where("installed"), fmt::format("'{}' was installed after today, {}", one.name, day_text(today)),
                        "correct the date, or give --today");
@@ -122,11 +76,11 @@ Installed installed_from(const Row& row, Day today, bool has_costs) {
 }
 
 Day needed_day(const std::string& text) {
-  if (const std::optional<Day> day = day_from(text)) return *day;
+  if (const std::optional<Day> day = exported_day(text)) return *day;
   throw InputError({"--windows"}, fmt::format("'{}' is no date", text),
                    text.size() > 11 && day_from(text.substr(0, 10)) && day_from(text.substr(text.size() - 10))
                        ? fmt::format("write {}..{}", text.substr(0, 10), text.substr(text.size() - 10))
-                       : date_to_write(text));
+                       : day_remedy(text));
 }
 
 }  // namespace

@@ -276,6 +276,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
              const PlanRule& rule, std::uint64_t seed) {
   Plan plan;
   plan.today = today, plan.windows = windows;
+  plan.risk = rule.risk, plan.by_cost = rule.by_cost;
   const std::vector<double> times = times_of(windows, today);
   plan.end = today + std::chrono::days(std::llround(times.back()));
   std::vector<const LifeTable*> of_row;

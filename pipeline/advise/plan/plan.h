@@ -81,6 +81,8 @@ struct Plan {
   std::vector<RowPlan> rows;
   std::vector<YearOfPlan> years;
   std::vector<double> failures_in_week, failures_in_week_without_windows;  ///< (week) of all, mean over simulated plants
+  double risk = 0;                                                         ///< of the rule (D4)
+  bool by_cost = false;                                                    ///< (D5)
   double cost = 0, cost_without_windows = 0;  ///< mean over simulated plants: by this plan; if only failures are replaced
   std::vector<double> weights;                ///< (world) (D3), their sum is 1
   double effective_worlds = 0;                ///< (sum of weights)^2 / sum of their squares

@@ -64,6 +64,31 @@ std::string expected_words(const Plan& plan) {
                      day_text(plan.today), day_text(plan.end), readable(before, 2));
 }
 
+std::string kept_words(const Fleet& fleet, const Plan& plan) {
+  std::vector<std::string> safe, no_better, costly;
+  double most = 0;
+  for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+    const RowPlan& row = plan.rows[i];
+    if (row.window) continue;
+    const double fails = *std::max_element(row.fails_until_next.begin(), row.fails_until_next.end());
+    (plan.by_cost ? costly : fails > plan.risk ? no_better : safe).push_back(fleet.rows[i].name);
+    if (!plan.by_cost && fails <= plan.risk) most = std::max(most, fails);
+  }
+  std::string text;
+  const auto add = [&](const std::string& why, const std::vector<std::string>& names) {
+    if (!names.empty()) text += wrapped(fmt::format("{}: {}", why, fmt::join(names, ", ")), width, "  ");
+  };
+  add(fmt::format("Until {} the probability of failure between two windows is at most {} (limit {})",
+                  day_text(plan.end), percent_text(most), percent_text(plan.risk)),
+      safe);
+  add(fmt::format(
+          "The probability of failure between two windows is above {}, but a new dresspack would not have less",
+          percent_text(plan.risk)),
+      no_better);
+  add("Running on costs less, on average, than a replacement in any of these windows", costly);
+  return text.empty() ? text : text + "  If one of them fails, it is replaced at once.\n";
+}
+
 std::string plan_words(const Fleet& fleet, const Plan& plan) {
   std::string text = wrapped(expected_words(plan), width, "");
   for (std::size_t n = 0; n < plan.windows.size(); ++n) {
@@ -73,7 +98,7 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
     if (!names.empty()) text += wrapped(fmt::format("{}", fmt::join(names, ", ")), width, "  ");
   }
   const auto kept = std::count_if(plan.rows.begin(), plan.rows.end(), [](const RowPlan& row) { return !row.window; });
-  text += fmt::format("\nIn no window: {}\n", kept);
+  text += fmt::format("\nIn no window: {}\n{}", kept, kept_words(fleet, plan));
   std::vector<std::size_t> risky(plan.rows.size());
   for (std::size_t i = 0; i < risky.size(); ++i) risky[i] = i;
   std::stable_sort(risky.begin(), risky.end(),

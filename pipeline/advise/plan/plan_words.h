@@ -14,6 +14,8 @@ std::string plan_words(const Fleet& fleet, const Plan& plan);
 
 /// The first sentence of it.
 std::string expected_words(const Plan& plan);
+/// Why dresspacks are replaced in no window, a line per reason. Empty: all are.
+std::string kept_words(const Fleet& fleet, const Plan& plan);
 /// Names of the dresspacks that are replaced in a window.
 std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::size_t window);
 /// "2027-07-12 .. 2027-08-01", "4.2 %"

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "pipeline/resolve/radians.h"
 #include "tests/catch.h"
 
 using namespace dresslife::pipeline;
@@ -53,6 +54,51 @@ TEST_CASE("plausible steps: speeds that are shares or in mm/s, dwells in ms, tol
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0].line(), Catch::Contains("speed_percent is 0.5") && Catch::Contains("(and 2 more)") &&
                                      Catch::Contains("speed_percent: 50"));
+}
+
+TEST_CASE("plausible steps: a recording without its column of times") {
+  const auto recording = [](int rows, double step, bool timed) {
+    std::vector<MotionStep> steps;
+    for (int k = 0; k < rows; ++k) {
+      steps.push_back(move_to({20 + step * k, 0}));
+      if (timed && k > 0) steps.back().duration = 0.1;
+    }
+    return steps;
+  };
+  CHECK(doubts(recording(30, 3, false)) == 1);
+  CHECK(doubts(recording(29, 3, false)) == 0);
+  CHECK(doubts(recording(30, 3.1, false)) == 0);
+  CHECK(doubts(recording(30, 3, true)) == 0);
+}
+
+TEST_CASE("plausible jobs: angles in radians, obstacles without contact, repeats of a life") {
+  const auto lines = [](const std::string& text) {
+    std::vector<std::string> words;
+    for (const Warning& warning : radians_in(parse_yaml(text, "job.yaml"), "routing"))
+      words.push_back(warning.line());
+    return words;
+  };
+  const auto vector = lines("mounting_pose_deg: [0, -1.5708, 0.7854, 0]\n");
+  REQUIRE(vector.size() == 1);
+  CHECK_THAT(vector[0],
+             Catch::Contains("job.yaml:1:1: ") &&
+                 Catch::Contains("routing.mounting_pose_deg: [0, -90, 45, 0] if that was radians"));
+  CHECK(lines("a: {roll_deg: 1.57}\nb: [{phase_deg: 3.14159}, {phase_deg: 0.5236}]\n").size() == 3);
+  CHECK(
+      lines(
+          "mounting_pose_deg: [0, -90, 1.5708]\nroll_deg: 0\nphase_deg: 1.6\nlay_angle_deg: 0.52\npre_twist_deg: 3.14\n")
+          .empty());
+  Job job;
+  CHECK(plausibility_warnings(job).empty());
+  job.simulation.contact = false;
+  CHECK(plausibility_warnings(job).empty());
+  job.cell.boxes.emplace_back();
+  CHECK(plausibility_warnings(job).size() == 1);
+  job.simulation.contact = true;
+  job.simulation.most_repeats = 100;
+  CHECK(plausibility_warnings(job).empty());
+  job.simulation.most_repeats = 101;
+  CHECK(plausibility_warnings(job).size() == 1);
 }
 
 TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hides cycles") {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <numbers>
@@ -156,6 +157,100 @@ TEST_CASE("log: columns of the measured angles among others, and what names no a
   CHECK_THAT(message_of([] { read("#ROSBAG V2.0\n"); }),
              Contains("is a ROS bag") && Contains("rostopic echo"));
   CHECK_THAT(message_of([] { read("PK\x03\x04"); }), Contains("workbook"));
+}
+
+TEST_CASE(
+    "log: one row that no axis can reach is left out, also outside the limits and while the robot stands") {
+  for (const double rate : {10., 125.})
+    for (const double off : {30., 300.})
+      for (const double seconds : {0.5, 2.0, 4.9}) {  // standing, moving, standing
+        const auto angle = [](double t) {
+          return t < 1 || t > 4 ? 0 : 30 * (1 - std::cos(2 * std::numbers::pi * (t - 1) / 3));
+        };
+        const int wrong = static_cast<int>(std::lround(seconds * rate));
+        std::string text = "time,j1_deg,j2_deg\n", clean = text;
+        for (int k = 0; k < 6 * rate; ++k) {
+          const double t = k / rate;
+          text += fmt::format("{:.4f},{:.5f},0\n", t, angle(t) + (k == wrong ? off : 0));
+          if (k != wrong) clean += fmt::format("{:.4f},{:.5f},0\n", t, angle(t));
+        }
+        const Recording log = read(text), expected = read(clean);
+        CAPTURE(rate, off, seconds);
+        CHECK(log.impossible.glitches == std::vector<std::uint32_t>{static_cast<std::uint32_t>(wrong + 2)});
+        CHECK(log.impossible.jumps.empty());
+        CHECK(expected.impossible.glitches.empty());
+        CHECK(log.angles == expected.angles);
+        CHECK(log.columns[0].high == Approx(60 * degree).margin(0.5 * degree));  // a row may miss the peak
+      }
+}
+
+TEST_CASE("log: a jump stays and is named; stops, noise and coarse clocks are no faults") {
+  std::string text = "time,j1_deg,j2_deg\n";
+  for (int k = 0; k < 40; ++k) text += fmt::format("{:.1f},{},0\n", 0.1 * k, k < 20 ? 0 : 60);
+  const Recording log = read(text);
+  CHECK(log.impossible.glitches.empty());
+  REQUIRE(!log.impossible.jumps.empty());
+  CHECK(log.impossible.jumps[0] == 22);
+  const Course course(log, two_axes(), bound);
+  const Cycles none;
+  const auto words = fmt::format("{}", fmt::join(log_words(log, course, none, {}), "\n"));
+  CHECK_THAT(words, Contains("stays in the motion: line 22"));
+  // From 110 deg/s to rest within a row, with times rounded to the interval, and encoder noise.
+  for (const double rate : {10., 125.}) {
+    text = "time,j1_deg,j2_deg\n";
+    for (int k = 0; k < rate; ++k)
+      text += fmt::format("{:.3f},{:.3f},0\n", k / rate + (k % 3 == 0 ? 0.4 / rate : 0),
+                          std::min(110 * k / rate, 55.) + 0.05 * (k % 2));
+    const Recording stop = read(text);
+    CAPTURE(rate);
+    CHECK(stop.impossible.glitches.empty());
+    CHECK(stop.impossible.jumps.empty());
+  }
+}
+
+TEST_CASE("log: columns, times, unit and ranges are stated, and columns that fit other axes") {
+  pipeline::Robot robot = two_axes();
+  robot.joints[0].lower = -0.5, robot.joints[1].speed = 0.5;
+  const auto exchanged = [&](double size) {  // J1 turns to -60 deg, J2 moves fast
+    std::string text = "Zeit;J1 [deg];J2 [deg]\n";
+    for (int k = 0; k < 60; ++k) {
+      const double wave = 1 - std::cos(2 * std::numbers::pi * k / 60);
+      std::string row = fmt::format("{:.1f};{:.3f};{:.3f}", 0.1 * k, -size * wave, 20 * wave * wave);
+      std::replace(row.begin(), row.end(), '.', ',');
+      text += row + "\n";
+    }
+    return text;
+  };
+  const auto read_from = [&](const std::string& text, const LogOptions& options) {
+    const Scratch scratch;
+    return read_log(scratch.write("log.csv", text), robot, options);
+  };
+  const LogOptions plain{.still = bound};
+  CHECK_THAT(message_of([&] { read_from(exchanged(30), plain); }),
+             Contains("the columns of joint_1, joint_2 may be exchanged"));
+  CHECK_THAT(message_of([&] { read_from(exchanged(30), plain); }),
+             Contains("--value \"joints=J2 [deg],J1 [deg]\""));
+  const Recording slow = read_from(exchanged(10), plain);  // within the limits, but joint_2 turns too fast
+  const Course course(slow, robot, bound);
+  const auto words = fmt::format("{}", fmt::join(read_words(slow, course), "\n"));
+  CHECK_THAT(
+      words,
+      Contains(
+          "separator ';', decimal commas; times in Zeit: numbers in s; angles in degrees by the names of the columns"));
+  CHECK_THAT(words, Contains("joint_1  J1 [deg]       -20.0 .. 0.0"));
+  CHECK_THAT(words, Contains("warning: the columns of joint_1, joint_2 may be exchanged"));
+  const Recording right = read_from(exchanged(10), {.joints = "J2 [deg],J1 [deg]", .still = bound});
+  CHECK_THAT(fmt::format("{}", fmt::join(read_words(right, Course(right, robot, bound)), "\n")),
+             !Contains("exchanged"));
+}
+
+TEST_CASE("log: its length is known before it is read") {
+  const Scratch scratch;
+  std::string text = "time,j1_deg,j2_deg\n";
+  for (int k = 0; k < 20'000; ++k) text += fmt::format("{:09.2f},{:08.3f},{:08.3f}\n", 0.1 * k, 1., 2.);
+  const LogSize size = size_of_log(scratch.write("log.csv", text), two_axes(), {.still = bound});
+  CHECK(size.rows == Approx(20'000).epsilon(0.01));  // the line of names counts as a row
+  CHECK(size.seconds == Approx(2'000).epsilon(0.01));
 }
 
 TEST_CASE("log: a spline through exact samples gives back the curve") {

@@ -6,6 +6,7 @@
 #include "sim/robot/motion.h"
 #include "sim/robot/tool_path.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 #include "tests/sim/robot/small_arm.h"
 
 namespace dresslife::sim {
@@ -464,6 +465,21 @@ TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within 
   CHECK(on_curve == int(std::ceil(way / 0.01)));
   CHECK(before == on_curve / 2);
   CHECK((place - Eigen::Map<const VectorXd>(line.joints.data(), 6)).norm() < 1e-7);  // acos near its ends
+}
+
+TEST_CASE("legs: many targets out of reach are one problem with their number and first places") {
+  std::vector<pipeline::MotionStep> steps{to(PathKind::joint, corner, 1, 0)};
+  for (int line = 1; line <= 8; ++line) {
+    steps.push_back(to(PathKind::linear, {5, 0, 1}, 1, 0));
+    steps.back().where = {"main.mod", line, 1};
+  }
+  const std::string text = pipeline::message_of([&] { JointMotion(motion(steps), arm()); });
+  CHECK(text.find('\n') == std::string::npos);
+  CHECK(text.starts_with("main.mod:1:1: error: target of "));
+  CHECK(
+      text.find(
+          "is out of reach, and 7 further targets (main.mod:2:1, main.mod:3:1, main.mod:4:1, main.mod:5:1, main.mod:6:1 ..); check "
+          "target") != std::string::npos);
 }
 
 TEST_CASE("legs: targets out of reach are told together, with their lines") {

@@ -204,14 +204,20 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(fleet.has_costs);
   CHECK(refusal("name,duty,installed\nr,day,2025-02-30\n").find("fleet.csv:2:7: error: '2025-02-30' is no date") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,soon\n").find("write YYYY-MM-DD") != std::string::npos);
-  CHECK(refusal("name,duty,installed\nr,day,28.02.2025\n").find("write 2025-02-28") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,31.02.2025\n").find("write YYYY-MM-DD") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,28/02/2025\n").find("write 2025-02-28") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,2/3/2025\n")
             .find("2025-03-02 if the day comes first, 2025-02-03 if the month does") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,45716\n")
             .find("write 2025-02-28 if that is the number of a spreadsheet") != std::string::npos);
   CHECK(refusal("name,installed,duty\nr,2025-02-28,day\n").find("exchange the titles") == std::string::npos);
   CHECK(refusal("name,duty,installed\nr,2025-02-28,day\n").find("exchange the titles") != std::string::npos);
-  CHECK(refusal("name;duty;installed;hours_per_week\nr;day;;37,5\n").find("write 37.5") != std::string::npos);
+  CHECK(refusal("name;duty;installed;hours_per_week\nr;day;;37,500\n").find("write 37500 or 37.500") !=
+        std::string::npos);
+  const Fleet german =
+      read("name;duty;installed;hours_per_week\nr;day;28.02.2025 08:00;37,5\n");  // as `calibrate` reads it
+  CHECK(day_text(german.rows[0].since) == "2025-02-28");
+  CHECK(german.rows[0].hours_per_week == 37.5);
   CHECK(refusal("name,duty,instaled\nr,day,\n").find("did you mean 'installed'?") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,2027-01-01\n").find("after today") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,\nr,day,\n").find("is the name of line 2, too") != std::string::npos);
@@ -223,11 +229,26 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(refusal("name,duty,installed\n").find("no row") != std::string::npos);
 }
 
+TEST_CASE("a plan states why a dresspack is in no window") {
+  const auto words = [](const LifeTable& life, const Fleet& fleet, PlanRule rule) {
+    return kept_words(fleet, plan_of(fleet, {{"d", life}}, windows_in({2, 10}), start, rule));
+  };
+  const std::string safe = words(weibull(3, {20000}), fleet_of({4}), {0.1, false});
+  CHECK_THAT(safe, Catch::Contains("is at most 0.0") && Catch::Contains("(limit 10 %): r0") &&
+                       Catch::Contains("replaced at once"));
+  CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}), {0.01, false}),
+             Catch::Contains("a new dresspack would not have less: r0"));
+  CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}, 1, 6), {0.1, true}),
+             Catch::Contains("costs less, on average"));
+  CHECK(words(weibull(3, {1000}), fleet_of({10}), {0.1, false}).empty());
+}
+
 TEST_CASE("windows are days in order, after today") {
   const std::vector<Window> windows = windows_from("2027-07-12..2027-08-01,2027-12-20", start);
   REQUIRE(windows.size() == 2);
   CHECK(day_text(windows[0].last) == "2027-08-01");
   CHECK(windows[1].first == windows[1].last);
+  CHECK(day_text(windows_from("12.07.2027..01.08.2027", start)[0].last) == "2027-08-01");
   for (const char* wrong : {"", "2027-07-12..", "2027-13-01", "2027-08-01..2027-07-12", "2026-11-23", "2027-07-12..2027-08-01,2027-08-01",
                             "2027-07-12,", "soon"})
     CHECK_THROWS_AS(windows_from(wrong, start), InputError);

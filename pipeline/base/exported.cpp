@@ -1,0 +1,81 @@
+#include "pipeline/base/exported.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+
+#include "pipeline/base/csv_rows.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// "1,200": a comma before three digits that end the number.
+bool may_be_thousands(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  return comma != std::string::npos && text.size() == comma + 4 &&
+         std::all_of(text.begin() + static_cast<long>(comma) + 1, text.end(),
+                     [](unsigned char letter) { return std::isdigit(letter); });
+}
+
+std::optional<Day> day_in_order(int year, int month, int day) {
+  return day_from(fmt::format("{:04}-{:02}-{:02}", year, month, day));
+}
+
+}  // namespace
+
+std::optional<Day> exported_day(std::string_view text) {
+  const std::string date(text.substr(0, text.find_first_of(" T")));
+  if (const std::optional<Day> day = day_from(date)) return day;
+  int day = 0, month = 0, year = 0, used = 0;
+  constexpr int first_year = 1000;  // with two digits the century is not known
+  if (std::sscanf(date.c_str(), "%2d.%2d.%4d%n", &day, &month, &year, &used) != 3 ||
+      used != static_cast<int>(date.size()) || year < first_year)
+    return std::nullopt;
+  return day_in_order(year, month, day);
+}
+
+std::string day_remedy(const std::string& text) {
+  int first = 0, second = 0, year = 0, used = 0;
+  char mark = 0, again = 0;
+  if (std::sscanf(text.c_str(), "%2d%c%2d%c%4d%n", &first, &mark, &second, &again, &year, &used) == 5 &&
+      used == static_cast<int>(text.size()) && mark == again && year >= 1000) {
+    const std::optional<Day> by_day = day_in_order(year, second, first),
+                             by_month = day_in_order(year, first, second);
+    if (by_day && by_month && first != second)
+      return fmt::format("{}: {} if the day comes first, {} if the month does", date_remedy,
+                         day_text(*by_day), day_text(*by_month));
+    if (by_day || by_month) return fmt::format("write {}", day_text(by_day ? *by_day : *by_month));
+  }
+  constexpr double spreadsheet_1970 = 25569, spreadsheet_2100 = 73051;  // days since 1899-12-30
+  if (const std::optional<double> days = number_in(text);
+      days && *days > spreadsheet_1970 && *days < spreadsheet_2100)
+    return fmt::format("write {} if that is the number of a spreadsheet",
+                       day_text(Day(std::chrono::days(static_cast<int>(*days - spreadsheet_1970)))));
+  return date_remedy;
+}
+
+std::optional<double> exported_number(std::string text) {
+  if (may_be_thousands(text)) return std::nullopt;
+  if (text.find('.') == text.npos && std::count(text.begin(), text.end(), ',') == 1)
+    text[text.find(',')] = '.';
+  return number_in(text);
+}
+
+std::string number_remedy(const std::string& text) {
+  if (may_be_thousands(text)) {
+    std::string whole = text, decimal = text;
+    std::erase(whole, ',');
+    decimal[decimal.find(',')] = '.';
+    return fmt::format("write {} or {}", whole, decimal);
+  }
+  std::string plain;
+  for (const char letter : text)
+    if (std::isdigit(static_cast<unsigned char>(letter)) || letter == '.' || letter == '-') plain += letter;
+  return !plain.empty() && plain != text && number_in(plain)
+             ? fmt::format("write {}, without unit, blank or comma", plain)
+             : "write a number with a decimal point";
+}
+
+}  // namespace dresslife::pipeline
