@@ -80,6 +80,8 @@ struct Shape {
   Frame local;   // in the link's frame
   double reach;  // of the shape about its own origin [m]
   Bounds bounds;
+  double clear = 0;  // it is no nearer to any segment's surface than this [m]; 0: not known
+  double moves = 0;  // at most over the step to come [m]
 };
 
 struct GuideRing {
@@ -114,13 +116,14 @@ struct World::Parts {
   std::vector<dBodyID> bodies;
   dSpaceID hose = nullptr, obstacles = nullptr;
   std::vector<dGeomID> capsules;  // of the segments, `margin` larger than the hose
-  // (segment) for collide_with(): coordinates of the middles, half a length and the radius, and whether near (<= 0)
+  // (segment) for collide_with(): coordinates of the middles, half a length and the radius, and how far the surface is [m]
   std::array<std::vector<double>, 3> middles;
   std::vector<double> reaches, beyonds;
   dGeomID end_sphere = nullptr;
   std::vector<Shape> shapes;
   std::vector<MeshShape> meshes;
   std::vector<GuideRing> rings;
+  double self_clear = 0;  // as Shape::clear, of pairs of segments
   double margin = least_margin;
   double work = 0;
 
@@ -132,7 +135,7 @@ struct World::Parts {
   void choose_margin(const ClampFrames& clamps, std::span<const Frame> next);
   void find_contacts(std::span<const Frame> next);
   void drop_distant_contacts();
-  void collide_with(const Shape& shape);
+  void collide_with(Shape& shape);
   void collide(dGeomID a, dGeomID b);
   void collide(int segment, size_t mesh, const Frame& frame);
   Frame placed(int link, const Frame& local, std::span<const Frame> frames) const;
@@ -244,6 +247,8 @@ void World::Parts::choose_margin(const ClampFrames& clamps, std::span<const Fram
   double speed2 = 0;
   for (const Vector3& v : state.velocity) speed2 = std::max(speed2, v.squaredNorm());
   const double h = settings.time_step;
+  const double came = std::sqrt(speed2) * h;  // no segment moved further over the last step
+  self_clear -= 2 * came;
   for (int e = 0; e < clamps.ends(); ++e) {
     const RodProperties& p = rod.spans()[e / 2].properties;
     if ((e % 2 == 0 && p.slider) || (e % 2 == 1 && p.tool_end == End::free)) continue;  // not prescribed
@@ -254,10 +259,14 @@ void World::Parts::choose_margin(const ClampFrames& clamps, std::span<const Fram
   const auto consider = [&](int link, const Frame& local, double reach) {
     const Frame then = next[link] * local, now = links[link] * local;
     const double turn = then.orientation.angularDistance(now.orientation);
-    obstacle = std::max(obstacle, (then.position - now.position).norm() + turn * reach);
+    const double way = (then.position - now.position).norm() + turn * reach;
+    obstacle = std::max(obstacle, way);
+    return way;
   };
-  for (const Shape& shape : shapes)
-    if (shape.link >= 0) consider(shape.link, shape.local, shape.reach);
+  for (Shape& shape : shapes) {
+    shape.clear -= came + shape.moves;
+    if (shape.link >= 0) shape.moves = consider(shape.link, shape.local, shape.reach);
+  }
   for (const MeshShape& shape : meshes)
     if (shape.link >= 0) consider(shape.link, shape.local, shape.mesh->radius());
   for (const GuideRing& ring : rings)
@@ -332,12 +341,14 @@ void World::Parts::collide(int segment, size_t mesh, const Frame& frame) {
   }
 }
 
-// A segment can touch a shape only if its middle is nearer to the shape's bounds than half its length and its radius.
-// Plain loops over the segments, which the compiler vectorises: ODE's own search over two spaces takes three times as
-// long for as few shapes as a robot has.
-void World::Parts::collide_with(const Shape& shape) {
+// A segment can touch a shape only if its middle is nearer to the shape's bounds than half its length and its radius. A
+// shape that was further from all segments than both have moved since needs no look. Plain loops over the segments,
+// which the compiler vectorises: ODE's own search over two spaces takes three times as long for as few shapes as a robot
+// has.
+void World::Parts::collide_with(Shape& shape) {
+  if (shape.clear > margin) return;
   const size_t n = capsules.size();
-  const double more = margin + shape.bounds.radius + bounds_slack;
+  const double more = shape.bounds.radius + bounds_slack;
   const double *x = middles[0].data(), *y = middles[1].data(), *z = middles[2].data(), *reach = reaches.data();
   double* beyond = beyonds.data();
   if (shape.link == floor_obstacle) {
@@ -354,12 +365,13 @@ void World::Parts::collide_with(const Shape& shape) {
         const double gap = (out + std::abs(out)) / 2;  // max(out, 0) without a branch
         distance2 += gap * gap;
       }
-      const double near = reach[i] + more;
-      beyond[i] = distance2 - near * near;
+      beyond[i] = std::sqrt(distance2) - (reach[i] + more);
     }
   }
+  shape.clear = *std::min_element(beyonds.begin(), beyonds.end());
+  if (shape.clear > margin) return;
   for (size_t i = 0; i < n; ++i)
-    if (beyond[i] <= 0) collide(capsules[i], shape.geom);
+    if (beyond[i] <= margin) collide(capsules[i], shape.geom);
 }
 
 void World::Parts::collide(dGeomID a, dGeomID b) {
@@ -386,7 +398,7 @@ void World::Parts::find_contacts(std::span<const Frame> next) {
   contacts.clear();
   for (size_t i = 0; i < capsules.size(); ++i)
     for (int k = 0; k < 3; ++k) middles[k][i] = state.position[i][k];
-  for (const Shape& shape : shapes) collide_with(shape);
+  for (Shape& shape : shapes) collide_with(shape);
   for (size_t mesh = 0; mesh < meshes.size(); ++mesh) {
     const Frame frame = placed(meshes[mesh].link, meshes[mesh].local, links);
     for (int i = 0; i < rod.segments(); ++i) collide(i, mesh, frame);
@@ -398,7 +410,8 @@ void World::Parts::find_contacts(std::span<const Frame> next) {
     contact.obstacle_velocity = obstacle_velocity(contact.obstacle, contact.point, next);
     contacts.push_back(contact);
   }
-  if (settings.self_contact) find_self_contacts(rod, state, margin, contacts);
+  if (settings.self_contact && self_clear <= margin)
+    self_clear = find_self_contacts(rod, state, margin, contacts) - bounds_slack;
   for (Contact& contact : contacts) contact.friction = friction(contact);
   for (size_t k = 0; k < rings.size(); ++k) {
     GuideRing& ring = rings[k];
@@ -512,6 +525,8 @@ const RodState& World::state() const { return parts_->state; }
 void World::set_state(const RodState& state) {
   parts_->state = state;
   parts_->push_state();
+  parts_->self_clear = 0;  // nothing is known of these places
+  for (Shape& shape : parts_->shapes) shape.clear = 0;
 }
 const std::vector<Contact>& World::contacts() const { return parts_->contacts; }
 const Rod& World::rod() const { return parts_->rod; }
