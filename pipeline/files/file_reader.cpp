@@ -169,8 +169,9 @@ void FileReader::Impl::read_values(const std::string& path, std::size_t first, s
                                    std::vector<T>& out) const {
   const Open& from = dataset(path);
   if (from.packed_rows && first + count <= from.lengths[0]) {
-    from.description->type == Type::f32 ? read_packed<float>(from, first, count, out)
-                                        : read_packed<std::uint32_t>(from, first, count, out);
+    from.description->type == Type::f32   ? read_packed<float>(from, first, count, out)
+    : from.description->type == Type::f64 ? read_packed<double>(from, first, count, out)
+                                          : read_packed<std::uint32_t>(from, first, count, out);
   } else {
     out.resize(count * from.row_values);
     read(from, first, count, memory_type(type_of<T>), out.data());
@@ -182,11 +183,12 @@ void FileReader::Impl::read_values(const std::string& path, std::size_t first, s
 template <class Stored, class T>
 void FileReader::Impl::read_packed(const Open& from, std::size_t first, std::size_t count,
                                    std::vector<T>& out) const {
+  const std::size_t numbers = count * from.row_values;
   if constexpr (std::is_same_v<Stored, T>) {
-    out.resize(count);
+    out.resize(numbers);
     unpack_rows(from, first, count, out.data());
-  } else if constexpr (sizeof(Stored) < sizeof(T)) {
-    std::vector<Stored> stored(count);
+  } else if constexpr (sizeof(Stored) < sizeof(T) || std::is_same_v<T, float>) {
+    std::vector<Stored> stored(numbers);
     unpack_rows(from, first, count, stored.data());
     out.assign(stored.begin(), stored.end());
   } else {

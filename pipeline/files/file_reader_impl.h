@@ -19,6 +19,8 @@ struct FileReader::Impl {
     std::size_t row_values = 1;
     /// Of a chunk that scale_offset.h or list_deflate.h unpacks; 0: left to the library.
     std::size_t packed_rows = 0;
+    mutable std::vector<char> unpacked;  ///< the last of these chunks: who reads row after row unpacks it once
+    mutable hsize_t unpacked_at = 0;     ///< its first row
     std::vector<hsize_t> chunk;                 ///< along each axis; empty: not in chunks
     mutable bool chunks_to_be_checked = false;  ///< before the library reads them
   };
@@ -67,6 +69,7 @@ struct FileReader::Impl {
   void unpack_rows(const Open& from, std::size_t first, std::size_t count, T* out,
                    const Unpack& unpack) const;
   void unpack_rows(const Open& from, std::size_t first, std::size_t count, float* out) const;
+  void unpack_rows(const Open& from, std::size_t first, std::size_t count, double* out) const;
   void unpack_rows(const Open& from, std::size_t first, std::size_t count, std::uint32_t* out) const;
   // file_reader.cpp
   /// Selects rows [first, first + count) and reads them.

@@ -26,11 +26,11 @@ Filters filters_of(hid_t creation) {
   return filters;
 }
 
-/// One number after the other, four bytes each as they lie in memory.
-bool is_row_of(H5T_class_t numbers, hid_t dataset, std::size_t axes) {
+/// Numbers of so many bytes, as they lie in memory.
+bool is_of(H5T_class_t numbers, std::size_t bytes, hid_t dataset) {
   const Handle type(H5Dget_type(dataset), H5Tclose);
-  return axes == 1 && H5Tget_class(type) == numbers && H5Tget_size(type) == 4 &&
-         H5Tget_order(type) == H5T_ORDER_LE && (numbers == H5T_FLOAT || H5Tget_sign(type) == H5T_SGN_NONE);
+  return H5Tget_class(type) == numbers && H5Tget_size(type) == bytes && H5Tget_order(type) == H5T_ORDER_LE &&
+         (numbers == H5T_FLOAT || H5Tget_sign(type) == H5T_SGN_NONE);
 }
 
 /// The only filter of the dataset packs as scale_offset.h does.
@@ -92,11 +92,13 @@ void FileReader::Impl::choose_reading(Open& made, hid_t creation) const {
   const Filters filters = filters_of(creation);
   const std::optional<int> decimals = made.description->decimals;
   const bool is_list =
-      made.description->type == Type::u32 && is_row_of(H5T_INTEGER, made.id, made.chunk.size());
+      made.description->type == Type::u32 && made.chunk.size() == 1 && is_of(H5T_INTEGER, 4, made.id);
+  const bool has_whole_rows = std::equal(made.chunk.begin() + 1, made.chunk.end(), made.lengths.begin() + 1);
+  const std::size_t float_bytes = made.description->type == Type::f32 ? 4 : 8;
   if (filters.empty())
     read_without_cache(made);
   else if (filters == Filters{H5Z_FILTER_SCALEOFFSET} && decimals && is_scale_offset(creation, *decimals) &&
-           is_row_of(H5T_FLOAT, made.id, made.chunk.size()))
+           has_whole_rows && is_of(H5T_FLOAT, float_bytes, made.id))
     made.packed_rows = made.chunk[0];
   else if (filters == Filters{H5Z_FILTER_DEFLATE} && is_list)
     made.packed_rows = made.chunk[0];
@@ -165,20 +167,35 @@ template <class T, class Unpack>
 void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count, T* out,
                                    const Unpack& unpack) const {
   std::vector<char> packed;
-  std::vector<T> numbers(from.packed_rows);
+  std::vector<char>& unpacked = from.unpacked;
+  const std::size_t row_values = from.row_values;
   for (std::size_t row = first, end = first + count; row < end;) {
-    const hsize_t chunk = row / from.packed_rows * from.packed_rows;
-    read_chunk(from, &chunk, packed);
-    if (!unpack(std::span<const char>(packed), std::span<T>(numbers))) fail_at_chunk(from);
-    const std::size_t here = std::min<std::size_t>(end, chunk + from.packed_rows) - row;
-    std::copy_n(numbers.data() + (row - chunk), here, out);
+    std::vector<hsize_t> chunk(from.lengths.size(), 0);
+    chunk[0] = row / from.packed_rows * from.packed_rows;
+    if (unpacked.empty() || from.unpacked_at != chunk[0]) {
+      read_chunk(from, chunk.data(), packed);
+      unpacked.resize(from.packed_rows * row_values * sizeof(T));
+      if (!unpack(std::span<const char>(packed), {reinterpret_cast<T*>(unpacked.data()), from.packed_rows * row_values})) {
+        unpacked.clear();
+        fail_at_chunk(from);
+      }
+      from.unpacked_at = chunk[0];
+    }
+    const std::size_t here = std::min<std::size_t>(end, chunk[0] + from.packed_rows) - row;
+    std::copy_n(reinterpret_cast<const T*>(unpacked.data()) + (row - chunk[0]) * row_values, here * row_values, out);
     row += here;
-    out += here;
+    out += here * row_values;
   }
 }
 
 void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count, float* out) const {
   unpack_rows(from, first, count, out, [&](std::span<const char> chunk, std::span<float> numbers) {
+    return unpack_chunk(chunk, *from.description->decimals, numbers);
+  });
+}
+
+void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count, double* out) const {
+  unpack_rows(from, first, count, out, [&](std::span<const char> chunk, std::span<double> numbers) {
     return unpack_chunk(chunk, *from.description->decimals, numbers);
   });
 }

@@ -14,9 +14,9 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr std::size_t chunk_bytes = 1 << 16;  // one write call and one chunk: large enough to amortise both
-constexpr std::size_t packed_chunk_rows =
+constexpr std::size_t packed_chunk_numbers =
     1 << 15;  // fewer calls; the range of values, hence their bits, hardly grows
-static_assert(packed_chunk_rows <= ListDeflater::most_numbers);
+static_assert(packed_chunk_numbers <= ListDeflater::most_numbers);
 
 std::size_t size_of(Type type) {
   switch (type) {
@@ -57,6 +57,11 @@ Handle text_type(std::size_t bytes) {
   H5Tset_cset(type, H5T_CSET_UTF8);
   H5Tset_strpad(type, H5T_STR_NULLPAD);
   return type;
+}
+
+template <class T>
+std::span<const T> numbers_at(const char* bytes, std::size_t count) {
+  return {reinterpret_cast<const T*>(bytes), count};
 }
 
 bool write_text_attribute(hid_t object, const std::string& name, const std::string& value) {
@@ -127,10 +132,8 @@ struct FileWriter::Impl {
       made.file_type = Handle(H5Tcopy(file_type(made.description->type)), H5Tclose);
       made.memory_type = Handle(H5Tcopy(memory_type(made.description->type)), H5Tclose);
     }
-    made.chunk_rows =
-        made.description->packed()
-            ? packed_chunk_rows
-            : std::max<std::size_t>(1, chunk_bytes / std::max<std::size_t>(1, made.row_bytes()));
+    const std::size_t most = made.description->packed() ? packed_chunk_numbers * made.value_bytes : chunk_bytes;
+    made.chunk_rows = std::max<std::size_t>(1, most / std::max<std::size_t>(1, made.row_bytes()));
     made.attributes["unit"] = made.description->unit;
     return made;
   }
@@ -199,7 +202,8 @@ struct FileWriter::Impl {
 
   /// Whole chunks; at the end the last one too, filled up with its last number.
   void flush_packed(Open& target, bool at_end) {
-    const std::size_t whole_chunk = target.chunk_rows * target.value_bytes;
+    const std::size_t whole_chunk = target.chunk_rows * target.row_bytes();
+    if (whole_chunk == 0) return;
     std::size_t done = 0;
     for (; target.buffer.size() - done >= whole_chunk; done += whole_chunk)
       write_chunk(target, target.buffer.data() + done, target.chunk_rows);
@@ -210,21 +214,26 @@ struct FileWriter::Impl {
     for (std::size_t at = rest; at < whole_chunk; at += target.value_bytes)
       std::copy_n(target.buffer.data() + rest - target.value_bytes, target.value_bytes,
                   target.buffer.data() + at);
-    write_chunk(target, target.buffer.data(), rest / target.value_bytes);
+    write_chunk(target, target.buffer.data(), rest / target.row_bytes());
     target.buffer.clear();
   }
 
   /// rows: of the chunk that belong to the dataset.
   void write_chunk(Open& target, const char* numbers, std::size_t rows) {
     if (!target.id.valid()) create(target);
+    const std::size_t count = target.chunk_rows * target.row_values;
     if (target.description->lists)
-      deflater.pack(std::span(reinterpret_cast<const std::uint32_t*>(numbers), target.chunk_rows), packed);
+      deflater.pack(numbers_at<std::uint32_t>(numbers, count), packed);
+    else if (target.description->type == Type::f32)
+      pack_chunk(numbers_at<float>(numbers, count), *target.description->decimals, packed);
     else
-      pack_chunk(std::span(reinterpret_cast<const float*>(numbers), target.chunk_rows),
-                 *target.description->decimals, packed);
-    const hsize_t first = target.rows, length = target.rows + rows;
-    if (H5Dset_extent(target.id, &length) < 0 ||
-        H5Dwrite_chunk(target.id, H5P_DEFAULT, 0, &first, packed.size(), packed.data()) < 0)
+      pack_chunk(numbers_at<double>(numbers, count), *target.description->decimals, packed);
+    const auto& shape = target.description->shape;
+    std::vector<hsize_t> first(shape.size(), 0), length(shape.size());
+    for (std::size_t i = 0; i < shape.size(); ++i) length[i] = i ? axis_length(shape[i]) : target.rows + rows;
+    first[0] = target.rows;
+    if (H5Dset_extent(target.id, length.data()) < 0 ||
+        H5Dwrite_chunk(target.id, H5P_DEFAULT, 0, first.data(), packed.size(), packed.data()) < 0)
       fail("dataset " + target.description->path);
     target.rows += rows;
   }

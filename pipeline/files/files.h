@@ -29,10 +29,10 @@ struct Dataset {
   bool may_be_infinite = false;
   bool may_be_absent = false;
   bool deflate = false;  ///< repetitive tables; histories are left plain for speed
-  /// Of f32 in long rows of numbers: kept to this many decimals in as few bits as each chunk needs (HDF5's
-  /// scale-offset filter, scale_offset.h); nothing: as they are.
+  /// Of f32 and f64: kept to this many decimals in as few bits as each chunk needs (HDF5's scale-offset filter,
+  /// scale_offset.h); nothing: as they are.
   std::optional<int> decimals{};
-  bool lists = false;  ///< of u32: rising lists, each much like that before (deflated by list_deflate.h)
+  bool lists = false;  ///< of u32 with one axis: rising lists, each much like that before (deflated by list_deflate.h)
   bool packed() const { return decimals || lists; }
 };
 

@@ -18,6 +18,8 @@ enum Traits : unsigned {
   deflated = 4,    ///< repetitive
   decimals_7 = 8,  ///< of strains: a five-thousandth of the default gate
   lists = 16,      ///< rising lists
+  decimals_11 = 32,  ///< of places and orientations: a bend by them is kept to 1e-9 1/m, a strain to 1e-9
+  decimals_4 = 64,   ///< of forces in N
 };
 constexpr Traits operator|(Traits a, Traits b) { return Traits(unsigned(a) | unsigned(b)); }
 
@@ -51,7 +53,9 @@ void add(Format& format, std::initializer_list<Row> rows, const std::string& gro
     dataset.may_be_infinite = row.traits & endless;
     dataset.deflate = row.traits & deflated;
     dataset.lists = row.traits & lists;
+    if (row.traits & decimals_4) dataset.decimals = 4;
     if (row.traits & decimals_7) dataset.decimals = 7;
+    if (row.traits & decimals_11) dataset.decimals = 11;
   }
 }
 
@@ -80,7 +84,7 @@ void add_sites(Format& format, const std::string& group, const std::string& set)
      "segment of the site, counted from the base, 0 first"},
     {"/site/component",  text, "site",           "1",    deflated,
      "path of the wire, outermost part first; before it, among several, the dresspack's name"},
-    {"/site/helix",      f64,  "site, level, 3", "m, rad, rad", deflated,
+    {"/site/helix",      f32,  "site, level, 3", "m, rad, rad", deflated,
      "helix radius, lay angle (negative: left hand), phase at the segment's centre; outermost level first"},
     {"/site/fibre",      f64,  "site, 2",        "m, rad", deflated,
      "radius and angle of the fibre on the wire, from the inward normal; 0 0: the wire's axis"},
@@ -113,8 +117,8 @@ Format make_motion_format() {
   Format format{"dresslife-motion", 1, "dresslife-sim", "how the dresspack moves", {}, {}};
   add(format, {
     {"/time",                  f64,  "sample",             "s",    always, "time of each sample"},
-    {"/segment/position",      f64,  "sample, segment, 3", "m",    always, "segment centres in the world"},
-    {"/segment/orientation",   f64,  "sample, segment, 4", "1",    always,
+    {"/segment/position",      f64,  "sample, segment, 3", "m",    decimals_11, "segment centres in the world"},
+    {"/segment/orientation",   f64,  "sample, segment, 4", "1",    decimals_11,
      "unit quaternion w x y z, body to world; body z is the tangent toward the tool"},
     {"/segment/length",        f64,  "segment",            "m",    always, "rest length"},
     {"/clamp/position",        f64,  "sample, clamp, 3",   "m",    always,
@@ -126,7 +130,7 @@ Format make_motion_format() {
     {"/clamp/travel",          f64,  "sample, dresspack",  "m",    maybe,
      "travel of each dresspack's base clamp in its retraction unit; absent without one"},
     {"/robot/joint_position",  f64,  "sample, joint",      "rad",  maybe, "joint angles"},
-    {"/robot/link_pose",       f64,  "sample, link, 7",    "m, 1", maybe,
+    {"/robot/link_pose",       f64,  "sample, link, 7",    "m, 1", maybe | decimals_11,
      "position and quaternion w x y z of each link; attribute `links` names them, comma-separated"},
     {"/program/step",          i32,  "sample",             "1",    always,
      "index of the program line being executed"},
@@ -146,7 +150,7 @@ Format make_motion_format() {
      "another), cell, guide rings"},
     {"/contact/largest_force", f64,  "segment, obstacle",  "N",    maybe, "largest normal force over the motion"},
     {"/energy",                f64,  "sample, 3",          "J",    always, "kinetic, elastic, gravitational"},
-    {"/tension",               f64,  "sample, segment",    "N",    always, "axial force in each segment"},
+    {"/tension",               f64,  "sample, segment",    "N",    decimals_4, "axial force in each segment"},
   });
   add_dresspacks(format);
   add_rubbing(format);
@@ -209,7 +213,7 @@ Format make_strain_format() {
      "arc from the base clamp of its dresspack at which its wires are evaluated: its centre, or the clamp beside it"},
     {"/deformation/curvature",  f32,  "sample, segment, 2", "1/m",  always, "about d1 and d2 of the segment"},
     {"/deformation/twist",      f32,  "sample, segment",    "rad/m", always, "about the tangent"},
-    {"/deformation/elongation", f32,  "sample, segment",    "1",    always, "relative change of length"},
+    {"/deformation/elongation", f32,  "sample, segment",    "1",    decimals_7, "relative change of length"},
   });
   add_dresspacks(format);
   add_rubbing(format);
@@ -225,7 +229,7 @@ Format make_strain_format() {
      "index of its dresspack in the job, 0 first"},
     {"/cable/component",         i32,  "cable",              "1",    maybe,
      "index of its component in that dresspack, 0 first"},
-    {"/cable/strain",            f64,  "sample, cable, 3",   "1",    maybe,
+    {"/cable/strain",            f64,  "sample, cable, 3",   "1",    maybe | decimals_11,
      "strain that belongs to its force: the largest along the cable by size, at its base clamp, at its tool clamp"},
     {"/cable/clamp_place",       f64,  "cable, 2, 2",        "m",    maybe,
      "its axis at its base and its tool clamp, toward d1 and d2 of the dresspack"},
@@ -247,8 +251,8 @@ Format make_strain_format() {
     {"/bending/moment",          f64,  "bend",               "N m",  maybe,
      "its moment: polymer, wires and friction (W29)"},
     {"/probe/site",              u32,  "probe",              "1",    always, "site of each probe"},
-    {"/probe/strain",            f32,  "probe, sample",      "1",    always, "whole strain history of each probe"},
-    {"/probe/shear",             f32,  "probe, sample",      "1",    maybe,
+    {"/probe/strain",            f32,  "probe, sample",      "1",    decimals_7, "whole strain history of each probe"},
+    {"/probe/shear",             f32,  "probe, sample",      "1",    maybe | decimals_7,
      "shear strain gamma of its surface, by the wire's torsion"},
     {"/plane/site",              u32,  "plane",              "1",    maybe,
      "likely worst wires of each segment and layer; with strain.equivalent critical_plane only"},
@@ -288,7 +292,7 @@ Format make_life_format() {
     {"/site/segment",          i32,  "site",            "1",    always,
      "segment of the site, counted from the base, 0 first"},
     {"/site/component",        text, "site",            "1",    deflated, "path of the wire, outermost part first"},
-    {"/site/helix",            f64,  "site, level, 3",  "m, rad, rad", deflated,
+    {"/site/helix",            f32,  "site, level, 3",  "m, rad, rad", deflated,
      "helix radius, lay angle (negative: left hand), phase at the segment's centre; outermost level first"},
     {"/site/fibre",            f64,  "site, 2",         "m, rad", always,
      "radius and angle of the fibre on the wire"},

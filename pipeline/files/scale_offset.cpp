@@ -86,6 +86,23 @@ int bits_for(float largest, float smallest, float scale) {
   return span < most_steps ? std::bit_width(steps(largest, smallest, scale)) : whole;
 }
 
+constexpr int whole_double = 64;
+// With at most seven bits before it in its first byte a number ends within eight bytes; and a double holds that
+// many steps exactly.
+constexpr int most_bits_of_double = 52;
+
+/// The eight bytes at `at`, the first one highest.
+std::uint64_t word_at(const char* at) {
+  std::uint64_t word;
+  std::memcpy(&word, at, sizeof(word));
+  return __builtin_bswap64(word);
+}
+
+int bits_for(double largest, double smallest, double scale) {
+  const double span = (largest - smallest) * scale + 0.5;
+  return span < std::exp2(most_bits_of_double) ? std::bit_width(static_cast<std::uint64_t>(span)) : whole_double;
+}
+
 }  // namespace
 
 void pack_chunk(std::span<const float> numbers, int decimals, std::vector<char>& chunk) {
@@ -138,6 +155,69 @@ bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<float> nu
     }
     if (bits > 0) unpack_by_bits[bits - 1](in, of_group.data());
     for (std::size_t k = 0; k < count; ++k) numbers[first + k] = number_at(of_group[k], smallest, scale);
+  }
+  return true;
+}
+
+void pack_chunk(std::span<const double> numbers, int decimals, std::vector<char>& chunk) {
+  const auto [smallest, largest] = std::minmax_element(numbers.begin(), numbers.end());
+  const double scale = std::pow(10.0, decimals), least = *smallest;
+  const std::int32_t bits = bits_for(*largest, least, scale);
+  chunk.assign(chunk_bytes(numbers.size(), bits) + sizeof(std::uint64_t), 0);  // the last word may end beyond
+  std::memcpy(chunk.data(), &bits, sizeof(bits));
+  chunk[4] = 8;
+  std::memcpy(chunk.data() + 5, &least, sizeof(least));
+  char* const out = chunk.data() + header_bytes;
+  if (bits == whole_double) {
+    std::memcpy(out, numbers.data(), numbers.size_bytes());
+  } else if (bits > 0) {
+    std::size_t bit = 0;
+    for (const double number : numbers) {
+      const auto step = static_cast<std::uint64_t>((number - least) * scale + 0.5);
+      char* const at = out + bit / 8;
+      const std::uint64_t word = __builtin_bswap64(word_at(at) | step << (64 - bits - bit % 8));
+      std::memcpy(at, &word, sizeof(word));
+      bit += static_cast<std::size_t>(bits);
+    }
+  }
+  chunk.resize(chunk_bytes(numbers.size(), bits));
+}
+
+bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<double> numbers) {
+  std::int32_t bits = 0;
+  double smallest;
+  if (chunk.size() < header_bytes) return false;
+  std::memcpy(&bits, chunk.data(), sizeof(bits));
+  std::memcpy(&smallest, chunk.data() + 5, sizeof(smallest));
+  const bool possible = (bits >= 0 && bits <= most_bits_of_double) || bits == whole_double;
+  if (!possible || chunk.size() + 1 < chunk_bytes(numbers.size(), bits)) return false;
+  const char* const in = chunk.data() + header_bytes;
+  if (bits == whole_double) {
+    std::memcpy(numbers.data(), in, numbers.size_bytes());
+    return true;
+  }
+  const double scale = std::pow(10.0, decimals);
+  const auto number_of = [&](std::uint64_t step) {
+    return static_cast<double>(static_cast<std::int64_t>(step)) / scale + smallest;
+  };
+  if (bits == 0) {
+    std::fill(numbers.begin(), numbers.end(), number_of(0));
+    return true;
+  }
+  const auto number_at = [&](const char* at, std::size_t bit) {
+    return number_of(word_at(at) << bit % 8 >> (64 - bits));
+  };
+  // Words of the last numbers may end beyond the chunk.
+  const std::size_t stream = chunk.size() - header_bytes, width = static_cast<std::size_t>(bits);
+  std::array<char, 2 * sizeof(std::uint64_t)> rest{};
+  const std::size_t inside = stream < rest.size() ? 0 : stream - sizeof(std::uint64_t);  // words begin up to here
+  std::size_t k = 0;
+  for (; k < numbers.size() && k * width / 8 < inside; ++k) numbers[k] = number_at(in + k * width / 8, k * width);
+  for (; k < numbers.size(); ++k) {
+    const std::size_t at = k * width / 8;
+    rest.fill(0);
+    std::copy_n(in + at, std::min(stream - at, sizeof(std::uint64_t)), rest.data());
+    numbers[k] = number_at(rest.data(), k * width);
   }
   return true;
 }

@@ -6,8 +6,8 @@
 //
 // A chunk is 21 bytes of header and a bit stream. Header: bits per number b (4 bytes), the number 8 (1 byte),
 // the smallest number m (8 bytes, a float in the first 4), 8 zeros; all little-endian. Stream: round((x - m)
-// 10^D) of each number in b bits, most significant bit first. With b = 32 the numbers follow as they are. A
-// reader takes x = i / 10^D + m, so a number is kept to 10^-D / 2.
+// 10^D) of each number in b bits, most significant bit first. With b = 32 (of doubles 64) the numbers follow as
+// they are. A reader takes x = i / 10^D + m, so a number is kept to 10^-D / 2.
 //
 // Source: HDF5 reference manual, H5Pset_scaleoffset (H5Z_SO_FLOAT_DSCALE), fill value undefined.
 #pragma once
@@ -20,8 +20,10 @@ namespace dresslife::pipeline {
 
 /// Bytes of one chunk. decimals: D; the numbers are finite.
 void pack_chunk(std::span<const float> numbers, int decimals, std::vector<char>& chunk);
+void pack_chunk(std::span<const double> numbers, int decimals, std::vector<char>& chunk);
 
 /// The numbers of a chunk, of which there are numbers.size(). False: the chunk is damaged.
 bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<float> numbers);
+bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<double> numbers);
 
 }  // namespace dresslife::pipeline

@@ -7,6 +7,9 @@
 #include <utility>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/ownership.h"
+#include "pipeline/base/plain_file.h"
+#include "pipeline/files/checksum.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -31,6 +34,98 @@ bool has_up_to(const JobState& state, const fs::path& folder, std::size_t stage)
     if ((k == stage || !may_lack(state.keep, k)) && !state_of(folder / files_of_stage(k).output).exists())
       return false;
   return true;
+}
+
+/// The folder of a study's rigs, in the study's own (commands/making).
+constexpr const char* rigs = ".rigs";
+
+/// Job folders with a simulation, of this study and of those beside it. What cannot be read is left out: it is no
+/// fault of this study.
+std::vector<fs::path> job_folders_beside(const fs::path& study_folder) {
+  std::vector<fs::path> folders;
+  const bool of_rigs = study_folder.filename() == rigs;
+  const fs::path out = of_rigs ? study_folder.parent_path().parent_path() : study_folder.parent_path();
+  try {
+    for (const fs::path& study : entries_of(out)) {
+      if (kind_of_name(study) != FileKind::folder || !lies_in_notes(study / ".stage" / "README")) continue;
+      for (const fs::path& of : {study, study / rigs})
+        for (const fs::path& job : entries_of(of))
+          if (kind_of_name(job) == FileKind::folder && state_of(job / files_of_stage(0).receipt).exists())
+            folders.push_back(job);
+    }
+  } catch (const std::runtime_error&) {
+  }
+  return folders;
+}
+
+/// Recipes up to each stage that a job of another study has receipts of, as recipes_up_to() has them.
+std::vector<std::string> noted_recipes(const fs::path& folder) {
+  std::vector<std::string> keys;
+  std::string recipes, input = "-";
+  try {
+    for (std::size_t stage = 0; stage < shared_count; ++stage) {
+      const std::optional<Receipt> receipt = read_receipt(folder / files_of_stage(stage).receipt);
+      if (!receipt || receipt->input != input) break;
+      keys.push_back(recipes += receipt->recipe + ' ');
+      input = receipt->output;
+    }
+  } catch (const std::runtime_error&) {
+  }
+  return keys;
+}
+
+/// Gives a job the outputs up to a stage from the folder of another study, in which another run may be at work. So
+/// nothing is written there, and the bytes are compared when they have a name here. False: they were others.
+bool take_up_to(const fs::path& from, const fs::path& to, const JobState& state, std::size_t last) {
+  const auto needed = [&](std::size_t stage) { return stage == last || !may_lack(state.keep, stage); };
+  for (std::size_t stage = state.next; stage <= last; ++stage)
+    if (needed(stage) && !state_of(from / files_of_stage(stage).output).exists()) return false;
+  make_notes(to / ".stage");
+  std::string input = state.inputs[state.next];
+  for (std::size_t stage = state.next; stage <= last; ++stage) {
+    const StageFiles files = files_of_stage(stage);
+    const std::optional<Receipt> receipt = read_receipt(from / files.receipt);
+    if (!receipt || receipt->recipe != state.recipes[stage] || receipt->input != input) return false;
+    if (needed(stage) && !is_as_noted(*receipt, from / files.output)) return false;
+    remove_ours(to / files.receipt);
+    if (needed(stage)) {
+      give_second_name(from / files.output, to / files.output);
+      if (checksum_of(to / files.output) != receipt->output) {  // another run or its owner was faster
+        fs::remove(to / files.output);
+        return false;
+      }
+    }
+    copy_if_there(from / files.log, to / files.log);
+    write_receipt(to / files.receipt, *receipt, to / files.output);
+    input = receipt->output;
+  }
+  return true;
+}
+
+/// Whether a job may take stages from another study.
+bool may_take(const StudyJob& job, const JobState& state) {
+  return job.failure.empty() && state.next < shared_count && !state.recipes[0].empty() && !state.foreign;
+}
+
+void share_with_other_studies(const Study& study, const StudyPlaces& places, std::vector<JobState>& states) {
+  std::unordered_map<std::string, std::vector<fs::path>> havers;  // by the recipes that this study looks for
+  for (std::size_t k = 0; k < states.size(); ++k)
+    for (std::size_t stage = states[k].next; may_take(study.jobs[k], states[k]) && stage < shared_count; ++stage)
+      havers[recipes_up_to(states[k], stage)];
+  if (havers.empty()) return;
+  const fs::path here = fs::absolute(places.folder);
+  for (const fs::path& folder : job_folders_beside(here))
+    for (const std::string& recipes : noted_recipes(folder))
+      if (const auto found = havers.find(recipes); found != havers.end()) found->second.push_back(folder);
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    if (!may_take(study.jobs[k], states[k])) continue;
+    const fs::path folder = here / study.jobs[k].name;
+    bool taken = false;
+    for (std::size_t stage = shared_count; !taken && stage-- > states[k].next;)
+      for (const fs::path& from : havers[recipes_up_to(states[k], stage)])
+        if (!taken && from != folder) taken = take_up_to(from, folder, states[k], stage);
+    if (taken) look_at(states[k], folder);
+  }
 }
 
 /// Who gets the outputs of a job, up to and with which stage.
@@ -83,6 +178,7 @@ void share_stages(const Study& study, const StudyPlaces& places, std::vector<Job
     }
     for (const Receiver& gift : all) look_at(states[gift.to], places.job(study.jobs[gift.to].name));
   }
+  share_with_other_studies(study, places, states);
 }
 
 }  // namespace dresslife::pipeline

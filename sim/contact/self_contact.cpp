@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace dresslife::sim {
@@ -17,10 +18,11 @@ class Search {
   Search(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts)
       : rod_(rod), state_(state), reach_(reach), contacts_(contacts) {}
 
-  void run() {
+  double run() {
     const auto& spans = rod_.spans();
     for (size_t a = 0; a < spans.size(); ++a)
       for (size_t b = a; b < spans.size(); ++b) run(spans[a], spans[b]);
+    return clear_;
   }
 
  private:
@@ -28,6 +30,7 @@ class Search {
     const double l = b.segment_length, half_lengths = (a.segment_length + l) / 2;
     diameter_ = (a.properties.diameter + b.properties.diameter) / 2;
     near_ = diameter_ + reach_;
+    const double step = stretched * l;
     const bool same = a.dresspack == b.dresspack;
     const double neighbourhood = std::numbers::pi / 2 * diameter_;  // along the hose, between the nearer ends
     const int end = b.first_segment + b.segments();
@@ -37,7 +40,9 @@ class Search {
       for (; j < end;) {
         const double free_way = (state_.position[j] - state_.position[i]).norm() - half_lengths - near_;
         if (free_way < 0) touch(i, j);
-        j += std::max(1, static_cast<int>(free_way / (stretched * l)));
+        // Those that are left out are at least a step away.
+        clear_ = std::min(clear_, reach_ + std::min(free_way, step));
+        j += std::max(1, static_cast<int>(free_way / step));
       }
     }
   }
@@ -88,6 +93,7 @@ class Search {
   const double reach_;
   std::vector<Contact>& contacts_;
   double diameter_ = 0, near_ = 0;  // of the two spans being searched
+  double clear_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
@@ -108,8 +114,8 @@ NearestPoints nearest_points(const Vector3& a0, const Vector3& a1, const Vector3
   return nearest;
 }
 
-void find_self_contacts(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts) {
-  Search(rod, state, reach, contacts).run();
+double find_self_contacts(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts) {
+  return Search(rod, state, reach, contacts).run();
 }
 
 }  // namespace dresslife::sim

@@ -20,7 +20,8 @@ NearestPoints nearest_points(const Vector3& a0, const Vector3& a1, const Vector3
 
 /// Adds the contacts of the hose with itself, and of one hose with another, that are nearer than `reach` [m]
 /// to touching. Costs O(n) for a hose that is spread out: from a distance D of two segments the next (D -
-/// reach)/l along the span cannot be near.
-void find_self_contacts(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts);
+/// reach)/l along the span cannot be near. Returns a distance that no pair's surfaces are nearer to than [m]; infinite
+/// without a pair: until they have moved so far there is no contact within `reach`.
+double find_self_contacts(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts);
 
 }  // namespace dresslife::sim

@@ -18,10 +18,17 @@ struct LinkTurn {
   double axis_excess;  ///< (1 - s^2) / sin^2(theta/2): G G^T = s^2 1 + axis_excess axis axis^T
 };
 
-inline LinkTurn link_turn(const Quaternion& a, const Quaternion& b) {
+/// The rotation from a to b: u sin(theta/2), the square of that, cos(theta/2) >= 0 and s.
+struct HalfTurn {
+  Vector3 half;
+  double squared, sign, cosine, stretch;
+  Vector3 phi() const { return (2 * stretch) * half; }
+};
+
+inline HalfTurn half_turn(const Quaternion& a, const Quaternion& b) {
   const Quaternion relative = a.conjugate() * b;
   const double sign = relative.w() < 0 ? -1 : 1, cosine = sign * relative.w();
-  const Vector3 half = sign * relative.vec();  // u sin(theta/2)
+  const Vector3 half = sign * relative.vec();
   const double x = half.squaredNorm();
   // s = asin(y)/y with y^2 = x; below 0.0225 (theta < 0.3) its series to x^6 is exact to rounding.
   double s;
@@ -32,6 +39,13 @@ inline LinkTurn link_turn(const Quaternion& a, const Quaternion& b) {
     const double sine = std::sqrt(x);
     s = std::atan2(sine, cosine) / sine;
   }
+  return {half, x, sign, cosine, s};
+}
+
+inline LinkTurn link_turn(const Quaternion& a, const Quaternion& b) {
+  const HalfTurn half_way = half_turn(a, b);
+  const Vector3& half = half_way.half;
+  const double x = half_way.squared, sign = half_way.sign, cosine = half_way.cosine, s = half_way.stretch;
   // (1 - s)/x -> -1/6 where x vanishes.
   const double axial = x < 1e-10 ? -1. / 6 : (1 - s) / x;
   // Half way: the sum of the two quaternions, of squared norm 2 (1 + cosine).
@@ -42,7 +56,7 @@ inline LinkTurn link_turn(const Quaternion& a, const Quaternion& b) {
       scale * (px * py + pw * pz), 1 - scale * (px * px + pz * pz), scale * (py * pz - pw * px),
       scale * (px * pz - pw * py), scale * (py * pz + pw * px), 1 - scale * (px * px + py * py);
   LinkTurn turn;
-  turn.phi = (2 * s) * half;
+  turn.phi = half_way.phi();
   turn.axis = r * half;
   turn.map = s * r + (axial * turn.axis) * half.transpose();
   turn.stretch = s;

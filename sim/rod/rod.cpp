@@ -149,6 +149,16 @@ LinkState Rod::link_state(const RodState& state, int link) const {
   return {ends.gap(ends.arms()), turn.phi, turn_stiffness_[link].cwiseProduct(turn.phi - rest_turn_[link])};
 }
 
+Vector3 Rod::turn(const RodState& state, int link) const {
+  if (gap_stiffness_[link] == 0) return Vector3::Zero();
+  const Span& span = span_of_link(link);
+  const int k = link - span.first_link, before = span.first_segment + k - 1;
+  const int first_end = 2 * span_of_link_[link];
+  const Quaternion& a = k > 0 ? state.orientation[before] : state.clamps.end(first_end).orientation;
+  const Quaternion& b = k < span.segments() ? state.orientation[before + 1] : state.clamps.end(first_end + 1).orientation;
+  return half_turn(a, b).phi();
+}
+
 double Rod::potential_energy(const RodState& state) const {
   double energy = 0;
   for (int i = 0; i < segments(); ++i)
@@ -241,10 +251,18 @@ const Span& Rod::most_stretched(const RodState& state) const {
 
 std::vector<double> Rod::tensions(const RodState& state) const {
   std::vector<double> tension(links());
-  for (int j = 0; j < links(); ++j) {
-    const LinkEnds ends = link_ends(*this, state, j);
-    const Vector3 t = ends.tangent_a + ends.tangent_b;
-    tension[j] = state.link_force[j].dot(t) / std::max(t.norm(), 1e-12);
+  for (size_t k = 0; k < spans_.size(); ++k) {
+    const Span& span = spans_[k];
+    const int base = 2 * static_cast<int>(k);
+    Vector3 before = tangent(state.clamps.end(base).orientation);
+    for (int i = 0; i <= span.segments(); ++i) {
+      const int j = span.first_link + i;
+      const Vector3 after = tangent(i < span.segments() ? state.orientation[span.first_segment + i]
+                                                        : state.clamps.end(base + 1).orientation);
+      const Vector3 t = before + after;
+      tension[j] = state.link_force[j].dot(t) / std::max(t.norm(), 1e-12);
+      before = after;
+    }
   }
   return tension;
 }

@@ -167,6 +167,7 @@ class Rod {
   /// A straight, unloaded chain at rest from the base frame along its tangent; all clamps in place.
   RodState straight(const Frame& base) const;
   LinkState link_state(const RodState& state, int link) const;
+  Vector3 turn(const RodState& state, int link) const;  ///< LinkState::turn alone
   Energy energy(const RodState& state) const;
   /// Of stretch, bending, twist and gravity, from positions alone (S11): what an equilibrium minimises [J].
   double potential_energy(const RodState& state) const;

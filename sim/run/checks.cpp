@@ -84,7 +84,7 @@ void MotionChecks::see_links(const RodState& state, double time) {
   for (Whole& whole : whole_) whole.net_twist = 0;
   const std::vector<double> pull = rod_.tensions(state);
   for (int j = 0; j < rod_.links(); ++j) {
-    const Vector3 turn = rod_.link_state(state, j).turn;
+    const Vector3 turn = rod_.turn(state, j);
     whole_[rod_.span_of_link(j).dresspack].net_twist += turn.z();
     const double curvature = rod_.curvature(turn, j);
     const double twist = turn.z() / rod_.bending_length(j);

@@ -13,7 +13,7 @@ constexpr double least_step = 2e-4,
 constexpr double usual_step = 5e-3;
 
 void append_curvatures(const Rod& rod, const RodState& state, std::vector<double>& values) {
-  for (int j = 0; j < rod.links(); ++j) values.push_back(rod.curvature(rod.link_state(state, j).turn, j));
+  for (int j = 0; j < rod.links(); ++j) values.push_back(rod.curvature(rod.turn(state, j), j));
 }
 
 /// (step) square of all ends' acceleration, by second differences.

@@ -242,6 +242,49 @@ TEST_CASE("files: packed numbers are the same through this program's reader and 
   }
 }
 
+TEST_CASE("files: packed rows of doubles are the same through this program's reader and through the HDF5 library's") {
+  const Scratch scratch;
+  Format format{"dresslife-sample", 1, "dresslife-maker", "tests", {}, {}};
+  format.datasets = {{"/a", Type::f64, {"sample", "segment", "3"}, "m", ""}, {"/b", Type::f32, {"sample", "segment"}, "m", ""}};
+  format.datasets[0].decimals = 11;
+  format.datasets[1].decimals = 7;
+  constexpr std::size_t segments = 60;
+  for (const std::size_t samples : {1, 5, 2000}) {  // of the last ones eleven chunks and a rest
+    std::vector<double> a(samples * segments * 3);
+    std::vector<float> b(samples * segments);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> anywhere(-1.0, 2.0);
+    for (double& number : a) number = anywhere(random);
+    for (std::size_t k = 0; k < b.size(); ++k) b[k] = 0.1f * static_cast<float>(a[3 * k]);
+    {
+      FileWriter writer(scratch / "f.h5", format);
+      writer.set_axis("segment", segments);
+      for (std::size_t sample = 0; sample < samples; ++sample) {
+        writer.append("/a", std::span<const double>(a).subspan(sample * segments * 3, segments * 3));
+        writer.append("/b", std::span<const float>(b).subspan(sample * segments, segments));
+      }
+      writer.commit();
+    }
+    const FileReader own(scratch / "f.h5", format);
+    const auto whole = own.read<double>("/a");
+    CHECK(whole == read_by_library<double>(scratch / "f.h5", "/a", H5T_NATIVE_DOUBLE));
+    CHECK(own.read<float>("/b") == read_by_library<float>(scratch / "f.h5", "/b", H5T_NATIVE_FLOAT));
+    double worst = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, std::abs(whole[k] - a[k]));
+    constexpr double kept = 0.5e-11 + 2e-15;  // half of the last decimal, and a double's roundings
+    CHECK(worst <= kept);
+    std::vector<double> row;
+    for (std::size_t sample = 0; sample < samples; sample += 7) {
+      own.read_rows("/a", sample, 1, row);
+      REQUIRE(std::equal(row.begin(), row.end(), whole.begin() + static_cast<std::ptrdiff_t>(sample * segments * 3)));
+      REQUIRE(row.size() == segments * 3);
+    }
+    std::vector<float> narrower;
+    own.read_rows("/a", 0, 1, narrower);
+    CHECK(narrower == std::vector<float>(whole.begin(), whole.begin() + segments * 3));
+  }
+}
+
 TEST_CASE(
     "files: a dataset copied from another file is that dataset, its rows count, and others are refused") {
   const Scratch scratch;

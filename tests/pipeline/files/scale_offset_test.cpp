@@ -9,11 +9,12 @@
 namespace dresslife::pipeline {
 namespace {
 
-std::vector<float> through(const std::vector<float>& numbers, int decimals, std::size_t* bytes = nullptr) {
+template <class T>
+std::vector<T> through(const std::vector<T>& numbers, int decimals, std::size_t* bytes = nullptr) {
   std::vector<char> chunk;
   pack_chunk(numbers, decimals, chunk);
   if (bytes) *bytes = chunk.size();
-  std::vector<float> back(numbers.size());
+  std::vector<T> back(numbers.size());
   REQUIRE(unpack_chunk(chunk, decimals, std::span(back)));
   return back;
 }
@@ -62,6 +63,40 @@ TEST_CASE("scale-offset: floats are kept to half a unit of the last decimal") {
 TEST_CASE("scale-offset: floats too far apart for their decimals are kept as they are") {
   const std::vector<float> numbers{-1e30f, 3.25f, 1e-12f, 2e30f, 0};
   CHECK(through(numbers, 7) == numbers);
+}
+
+TEST_CASE("scale-offset: doubles come back, in as many bits as their span takes") {
+  std::mt19937_64 random(3);
+  for (int bits = 0; bits <= 52; ++bits)  // a double's digits
+    for (const std::size_t count : {1, 2, 8, 9, 1000}) {
+      std::vector<double> numbers(count);
+      for (double& number : numbers) number = static_cast<double>(random() % (std::uint64_t{1} << bits));
+      std::size_t bytes = 0;
+      CHECK(through(numbers, 0, &bytes) == numbers);
+      CHECK(bytes <= 21 + count * static_cast<std::size_t>(bits) / 8 + 1);
+    }
+  for (const double span : {0.0, 1e-6, 2.5, 1e4}) {
+    std::uniform_real_distribution<double> anywhere(-0.3 * span, 0.7 * span);
+    std::vector<double> numbers(777);
+    for (double& number : numbers) number = anywhere(random);
+    const std::vector<double> back = through(numbers, 11);
+    // half a step, and the roundings of the difference, the product and the sum
+    const double kept = 0.5e-11 + 4 * std::numeric_limits<double>::epsilon() * span;
+    for (std::size_t k = 0; k < numbers.size(); ++k) REQUIRE(std::abs(back[k] - numbers[k]) <= kept);
+  }
+  const std::vector<double> apart{-1e300, 3.25, 1e-12, 2e300, 0};
+  CHECK(through(apart, 11) == apart);
+}
+
+TEST_CASE("scale-offset: a chunk of doubles that is cut off or claims impossible bits is refused") {
+  std::vector<char> chunk;
+  pack_chunk(std::vector<double>(64, 5), 0, chunk);
+  std::vector<double> back(64);
+  for (const int bits : {1, 53, 63, 64, 65, -1}) {
+    chunk[0] = static_cast<char>(bits);
+    CHECK_FALSE(unpack_chunk(chunk, 0, std::span(back)));
+  }
+  CHECK_FALSE(unpack_chunk(std::span(chunk).first(20), 0, std::span(back)));
 }
 
 TEST_CASE("scale-offset: a chunk that is cut off or claims impossible bits is refused") {

@@ -78,6 +78,8 @@ class Bench {
     fs::create_directories(places_.job(job));
     std::ofstream(places_.job(job) / order) << "";
   }
+  /// Another study beside the one so far.
+  void go_beside(const std::string& name) { places_.folder = places_.folder.parent_path() / name; }
   const StudyPlaces& places() const { return places_; }
   const std::vector<std::string>& events() const { return events_; }
   const Scratch& scratch() const { return scratch_; }
@@ -282,6 +284,79 @@ TEST_CASE("build graph: a job that is added takes what is there, and makes what 
     if (keep == Keep::all)
       CHECK(bytes_of(bench.places().job("two") / "log").find("dresslife-strain") != std::string::npos);
   }
+}
+
+TEST_CASE("build graph: a study takes what a study beside it has made, and both stay whole") {
+  for (const Keep keep : {Keep::all, Keep::histories, Keep::lives}) {
+    Bench bench;
+    const std::string set = "simulation.segments=20";
+    const Study first = bench.study({{"one", set}});
+    bench.run(first);
+    const StudyPlaces before = bench.places();
+    bench.go_beside("other");
+    Study second = bench.study({{"same", set}, {"more", "simulation.segments=40"}});
+    second.keep = keep;
+    CHECK(bench.run_sharing(second).executed == 1 + 3);
+    CHECK(bench.words(second) == Words{"done", "done"});
+    CHECK(bench.calls("same") == "fatigue ");
+    CHECK(fs::hard_link_count(before.job("one") / "motion.h5") == (keep == Keep::all ? 2 : 1));
+    CHECK(fs::hard_link_count(before.job("one") / "strain.h5") == (keep == Keep::lives ? 1 : 2));
+    CHECK(bench.run_sharing(second).executed == 0);
+    CHECK(states_of(first, before)[0].done());
+    fs::remove_all(before.folder);
+    CHECK(bench.words(second) == Words{"done", "done"});
+  }
+}
+
+TEST_CASE("build graph: a job with other settings of strains takes the simulation of another study") {
+  Bench bench;
+  bench.run(bench.study({{"one", "strain.gate=2e-4"}}));
+  bench.go_beside("other");
+  CHECK(bench.run_sharing(bench.study({{"two", "strain.gate=3e-4"}})).executed == 2);
+  CHECK(bench.run_sharing(bench.study({{"three", "simulation.segments=21"}})).executed == 3);
+}
+
+TEST_CASE("build graph: of another study nothing is taken that its receipt does not name, and nothing is written there") {
+  Bench bench;
+  const Study study = bench.study({{"one", "simulation.segments=20"}});
+  bench.run(study);
+  const StudyPlaces before = bench.places();
+  const auto forget = [&] { fs::remove_all(bench.places().folder); };
+  const auto notes = [&] {
+    std::string all;
+    for (const char* stage : {"sim", "strain"}) {
+      const fs::path receipt = before.job("one") / ".stage" / (std::string(stage) + ".receipt");
+      all += bytes_of(receipt) + std::to_string(state_of(receipt).changed_ns);
+    }
+    return all;
+  };
+  const std::string noted = notes();
+  bench.go_beside("other");
+  CHECK(bench.run_sharing(study).executed == 1);
+  CHECK(notes() == noted);
+  forget();
+
+  const std::string whole = bytes_of(before.job("one") / "strain.h5");
+  std::string damaged = whole;
+  damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 4);
+  for (const std::string& other : {damaged, whole + "x", std::string("notes of the user's")}) {
+    std::ofstream(before.job("one") / "strain.h5", std::ios::binary | std::ios::trunc) << other;
+    CHECK(bench.run_sharing(study).executed == 2);  // its motion is whole
+    CHECK(bytes_of(bench.places().job("one") / "strain.h5") == whole);
+    CHECK(bytes_of(before.job("one") / "strain.h5") == other);
+    forget();
+  }
+  // A folder that no run made is no study.
+  fs::remove_all(before.folder / ".stage");
+  CHECK(bench.run_sharing(study).executed == 3);
+  // A file of the user's stands in the way of a result: it stays.
+  fs::remove_all(before.folder);
+  std::ofstream(bench.places().job("one") / "motion.h5", std::ios::trunc) << "notes of the user's";
+  bench.go_beside("third");
+  CHECK(bench.run_sharing(study).executed == 3);
+  bench.go_beside("other");
+  bench.run_sharing(study);
+  CHECK(bytes_of(bench.places().job("one") / "motion.h5") == "notes of the user's");
 }
 
 TEST_CASE("build graph: what was made apart is not mixed") {
