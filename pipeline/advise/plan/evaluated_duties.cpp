@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "pipeline/advise/plan/rounds.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/job.h"
@@ -84,6 +85,13 @@ const DutyProgram* mounted_elsewhere(const Duty& duty, const Study& study) {
   return nullptr;
 }
 
+/// The programs of a duty, and the round of its order where it has one.
+std::vector<DutyProgram> with_round(const Duty& duty) {
+  std::vector<DutyProgram> programs = duty.programs;
+  if (!duty.order.empty()) programs.emplace_back().job = round_name(duty), programs.back().where = duty.order.front().where;
+  return programs;
+}
+
 /// Programs of all duties, each read once.
 class Programs {
  public:
@@ -97,7 +105,7 @@ class Programs {
   /// All of a duty, on one dresspack.
   std::vector<EvaluatedProgram> of(const Duty& duty) {
     std::vector<EvaluatedProgram> all;
-    for (const DutyProgram& program : duty.programs) all.push_back(of(program));
+    for (const DutyProgram& program : with_round(duty)) all.push_back(of(program));
     for (const EvaluatedProgram& program : all)
       if (program.wires.layout != all.front().wires.layout)
         throw InputError(duty.where, fmt::format("the results of '{}' and '{}' have different wires", all.front().job, program.job),
@@ -115,7 +123,7 @@ class Programs {
 
   std::vector<RankingRow> rows(const Duty& duty) const {
     std::vector<RankingRow> rows;
-    for (const DutyProgram& program : duty.programs) rows.push_back(row(program));
+    for (const DutyProgram& program : with_round(duty)) rows.push_back(row(program));
     return rows;
   }
 
@@ -136,17 +144,20 @@ class Programs {
   std::map<std::string, EvaluatedProgram> programs_;
 };
 
-std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<DutyPart>& parts) {
+/// (program, then the round) and their parts; `all` (program): repeats per hour in and outside of rounds.
+std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<DutyPart>& parts, std::vector<double>& all) {
+  for (const DutyProgram& program : duty.programs)
+    all.push_back(program.rate(programs.row(program).repeat_seconds, duty.shift_hours, duty.repeats_per_hour));
+  const std::vector<double> repeats = repeats_in_rounds(duty, all);
   std::vector<Rate> rates;
   double time = 0;
   std::string words;
-  for (const DutyProgram& program : duty.programs) {
-    const double seconds = programs.row(program).repeat_seconds;
-    const double rate = program.rate(seconds, duty.shift_hours, duty.repeats_per_hour);
+  for (const DutyProgram& program : with_round(duty)) {
+    const double seconds = programs.row(program).repeat_seconds, rate = repeats[rates.size()];
     rates.push_back({rate, program.deviation_percent});
     parts.push_back({program.job, rate, rate * seconds / 3600});
     time += parts.back().share_of_time;
-    words += fmt::format("{}{} x {:.1f} s of '{}'", words.empty() ? "" : ", ", readable(rate), seconds, program.job);
+    if (rate > 0) words += fmt::format("{}{} x {:.1f} s of '{}'", words.empty() ? "" : ", ", readable(rate), seconds, program.job);
   }
   constexpr double rounding = 1e-9;
   if (time > 1 + rounding)
@@ -156,32 +167,43 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
   return rates;
 }
 
-/// (program) per hour.
+/// (part) per hour.
 std::vector<double> repeats_of(const std::vector<DutyPart>& parts) {
   std::vector<double> repeats;
   for (const DutyPart& part : parts) repeats.push_back(part.repeats_per_hour);
   return repeats;
 }
 
-/// Lives at other numbers of repeats of one program at a time.
-void vary_repeats(DutyResult& result, const SamePlace& places) {
+/// Lives at other numbers of repeats of one program at a time. all: of rates_of().
+void vary_repeats(const Duty& duty, const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                  const std::vector<double>& all, const std::string& dresspack, const SamePlace& places, DutyResult& result) {
   constexpr int steps = 10;  // of a chart
-  const std::vector<double> repeats = repeats_of(result.parts);
+  std::vector<Rate> once = rates;
+  for (Rate& rate : once) rate.repeats_per_hour = 1;
+  const DutyDamage of_repeat =
+      damage_under(programs, once, std::vector<double>(programs.front().modes.size(), 1.0), dresspack);
+  const auto lives_at = [&](const std::vector<double>& repeats) { return lives_with(of_repeat, repeats, places.at(repeats)); };
   double idle = 1;
   for (const DutyPart& part : result.parts) idle -= part.share_of_time;
-  for (std::size_t k = 0; k < repeats.size(); ++k) {
+  for (std::size_t k = 0; k < all.size(); ++k) {
     DutyPart& part = result.parts[k];
-    const auto lives_at = [&](double factor) {
-      std::vector<double> times(repeats.size(), 1), changed = repeats;
-      times[k] = factor, changed[k] *= factor;
-      return lives_with(result.damage, times, places.at(changed));
+    const auto with_factor = [&](double factor) {
+      std::vector<double> changed = all;
+      changed[k] *= factor;
+      return lives_at(repeats_in_rounds(duty, changed));
     };
-    part.without = lives_at(0), part.as_twice = lives_at(2);
-    if (!(part.share_of_time > 0)) continue;
-    const double most = std::max(part.share_of_time, part.share_of_time + idle);  // no rounding below today's
-    for (int i = 0; i <= steps; ++i)
-      part.over_share.push_back({most * i / steps, lives_at(most * i / steps / part.share_of_time)});
+    part.without = with_factor(0), part.as_twice = with_factor(2);
+    const double share = all[k] * programs[k].repeat_seconds / 3600;  // in and outside of rounds
+    if (!(share > 0)) continue;
+    const double most = std::max(share, share + idle);  // no rounding below today's
+    for (int i = 0; i <= steps; ++i) part.over_share.push_back({most * i / steps, with_factor(most * i / steps / share)});
   }
+  if (duty.order.empty()) return;
+  std::vector<double> apart = all;  // every program after itself
+  apart.push_back(0);
+  Duty shorter = duty;  // rounds
+  for (OrderedProgram& program : shorter.order) program.repeats = std::max(1, program.repeats / 2);
+  result.parts.back().without = lives_at(apart), result.parts.back().as_twice = lives_at(repeats_in_rounds(shorter, all));
 }
 
 }  // namespace
@@ -231,7 +253,7 @@ std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study)
 std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingRow>& rows) {
   std::set<std::string> named;
   for (const Duty& duty : file.duties)
-    for (const DutyProgram& program : duty.programs) named.insert(program.job);
+    for (const DutyProgram& program : with_round(duty)) named.insert(program.job);
   std::vector<RankingRow> some;
   for (const RankingRow& row : rows)
     if (named.contains(row.job)) some.push_back(row);
@@ -247,10 +269,12 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
     DutyResult& result = results.emplace_back();
     result.name = duty.name;
     result.hours_per_week = duty.hours_per_week;
-    const std::vector<Rate> rates = rates_of(duty, programs, result.parts);
+    result.round = round_name(duty);
+    std::vector<double> all;
+    const std::vector<Rate> rates = rates_of(duty, programs, result.parts, all);
     result.others = other_modes(result.parts, programs.rows(duty));
     result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
-    for (const DutyProgram& program : duty.programs)
+    for (const DutyProgram& program : with_round(duty))
       if (const RankingRow& row = programs.row(program); !is_believable(row))
         result.doubtful.push_back(fmt::format("{} ({})", row.job, warning_kinds(row)));
     const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
@@ -258,7 +282,7 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
     for (const LifeResponse& mode : evaluated.front().modes) result.modes.push_back(mode.mode);
     const SamePlace places(evaluated);
     result.damage = damage_under(evaluated, rates, places.at(repeats_of(result.parts)), dresspack);
-    vary_repeats(result, places);
+    vary_repeats(duty, evaluated, rates, all, dresspack, places, result);
   }
   for (std::size_t d = 0; d < file.duties.size(); ++d) {
     std::vector<PastDamage> history;
@@ -315,7 +339,8 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
   for (const Duty& duty : file.duties) {
     if (!needed.contains(duty.name)) continue;
     std::vector<DutyPart> parts;
-    const std::vector<Rate> rates = rates_of(duty, programs, parts);
+    std::vector<double> all;
+    const std::vector<Rate> rates = rates_of(duty, programs, parts, all);
     const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
     const std::vector<double> share = SamePlace(evaluated).at(repeats_of(parts));
     LifeTable& table = tables[duty.name];
