@@ -97,15 +97,19 @@ std::string duty_words(const std::vector<DutyResult>& results) {
       text += fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>18}  {:>21}\n", duty.parts[k].job, wide,
                           readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time, 100 * duty.lives.share[k],
                           shown_hours(duty.robot_life_hours, duty.parts[k].without[0]), shown_hours(duty.robot_life_hours, duty.parts[k].as_twice[0]));
-    if (!duty.round.empty())
-      text += wrapped(fmt::format("'{}' is one round of the order. Its repeats of the programs are not in the rows of the programs.", duty.round), 118, "  ");
     text += fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
     text += caution_words(duty);
-    for (std::size_t m = 0; m < duty.modes.size(); ++m)
-      if (duty.damage.same_place[m] < 0.99)
+    for (std::size_t m = 0; m < duty.modes.size(); ++m) {
+      constexpr double worth_a_word = 0.01;
+      const double apart = duty.damage.same_place[m] / duty.changes[m];
+      if (apart < 1 - worth_a_word)
         text += wrapped(fmt::format("The programs wear different places: the damage of '{}' is {:.2f} of the sum of their worst places.",
-                                    duty.modes[m], duty.damage.same_place[m]),
+                                    duty.modes[m], apart),
                         118, "  ");
+      if (std::abs(duty.changes[m] - 1) > worth_a_word)
+        text += wrapped(fmt::format("Changes between the programs make the damage of '{}' {:.2f} times as large.", duty.modes[m], duty.changes[m]),
+                        118, "  ");
+    }
   }
   return text;
 }

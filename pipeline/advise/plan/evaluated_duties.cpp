@@ -85,11 +85,11 @@ const DutyProgram* mounted_elsewhere(const Duty& duty, const Study& study) {
   return nullptr;
 }
 
-/// The programs of a duty, and the round of its order where it has one.
-std::vector<DutyProgram> with_round(const Duty& duty) {
-  std::vector<DutyProgram> programs = duty.programs;
-  if (!duty.order.empty()) programs.emplace_back().job = round_name(duty), programs.back().where = duty.order.front().where;
-  return programs;
+/// Precondition: the duty has an order.
+DutyProgram program_of_round(const Duty& duty) {
+  DutyProgram round;
+  round.where = duty.order.front().where, round.job = round_name(duty);
+  return round;
 }
 
 /// Programs of all duties, each read once.
@@ -105,12 +105,17 @@ class Programs {
   /// All of a duty, on one dresspack.
   std::vector<EvaluatedProgram> of(const Duty& duty) {
     std::vector<EvaluatedProgram> all;
-    for (const DutyProgram& program : with_round(duty)) all.push_back(of(program));
-    for (const EvaluatedProgram& program : all)
-      if (program.wires.layout != all.front().wires.layout)
-        throw InputError(duty.where, fmt::format("the results of '{}' and '{}' have different wires", all.front().job, program.job),
-                         "make the results again with dresslife run");
+    for (const DutyProgram& program : duty.programs) all.push_back(of(program));
+    for (const EvaluatedProgram& program : all) check_layout(duty, all.front(), program.job, program.wires);
     return all;
+  }
+  /// The round of a duty's order, at the medians of the uncertain parameters; empty: it has none.
+  std::optional<WireDamage> round_of(const Duty& duty, const EvaluatedProgram& first) const {
+    if (duty.order.empty()) return std::nullopt;
+    const DutyProgram round = program_of_round(duty);
+    WireDamage wires = wire_damage(row(round).life_file, first.modes, job_named(study_, round).job->fatigue.failed_wires_percent);
+    check_layout(duty, first, round.job, wires);
+    return wires;
   }
   const RankingRow& row(const DutyProgram& program) const {
     const auto row = std::find_if(rows_.begin(), rows_.end(), [&](const RankingRow& r) { return r.job == program.job; });
@@ -123,11 +128,17 @@ class Programs {
 
   std::vector<RankingRow> rows(const Duty& duty) const {
     std::vector<RankingRow> rows;
-    for (const DutyProgram& program : with_round(duty)) rows.push_back(row(program));
+    for (const DutyProgram& program : duty.programs) rows.push_back(row(program));
     return rows;
   }
 
  private:
+  static void check_layout(const Duty& duty, const EvaluatedProgram& first, const std::string& job, const WireDamage& wires) {
+    if (wires.layout != first.wires.layout)
+      throw InputError(duty.where, fmt::format("the results of '{}' and '{}' have different wires", first.job, job),
+                       "make the results again with dresslife run");
+  }
+
   EvaluatedProgram read(const DutyProgram& program) const {
     const RankingRow& of = row(program);
     if (of.life_response.empty())
@@ -144,20 +155,33 @@ class Programs {
   std::map<std::string, EvaluatedProgram> programs_;
 };
 
-/// (program, then the round) and their parts; `all` (program): repeats per hour in and outside of rounds.
-std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<DutyPart>& parts, std::vector<double>& all) {
-  for (const DutyProgram& program : duty.programs)
-    all.push_back(program.rate(programs.row(program).repeat_seconds, duty.shift_hours, duty.repeats_per_hour));
-  const std::vector<double> repeats = repeats_in_rounds(duty, all);
+/// (program) per hour.
+std::vector<double> repeats_of(const std::vector<DutyPart>& parts) {
+  std::vector<double> repeats;
+  for (const DutyPart& part : parts) repeats.push_back(part.repeats_per_hour);
+  return repeats;
+}
+
+std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<DutyPart>& parts) {
   std::vector<Rate> rates;
   double time = 0;
   std::string words;
-  for (const DutyProgram& program : with_round(duty)) {
-    const double seconds = programs.row(program).repeat_seconds, rate = repeats[rates.size()];
+  for (const DutyProgram& program : duty.programs) {
+    const double seconds = programs.row(program).repeat_seconds;
+    const double rate = program.rate(seconds, duty.shift_hours, duty.repeats_per_hour);
     rates.push_back({rate, program.deviation_percent});
     parts.push_back({program.job, rate, rate * seconds / 3600});
     time += parts.back().share_of_time;
-    if (rate > 0) words += fmt::format("{}{} x {:.1f} s of '{}'", words.empty() ? "" : ", ", readable(rate), seconds, program.job);
+    words += fmt::format("{}{} x {:.1f} s of '{}'", words.empty() ? "" : ", ", readable(rate), seconds, program.job);
+  }
+  if (!duty.order.empty()) {
+    double moves = programs.row(program_of_round(duty)).repeat_seconds;  // between the programs of a round
+    for (const OrderedProgram& ordered : duty.order)
+      for (const DutyProgram& program : duty.programs)
+        if (program.job == ordered.job) moves -= programs.row(program).repeat_seconds;
+    const double rounds = repeats_in_rounds(duty, repeats_of(parts)).back();
+    time += rounds * moves / 3600;
+    words += fmt::format(", {} x {:.1f} s of moves between them", readable(rounds), moves);
   }
   constexpr double rounding = 1e-9;
   if (time > 1 + rounding)
@@ -167,43 +191,25 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
   return rates;
 }
 
-/// (part) per hour.
-std::vector<double> repeats_of(const std::vector<DutyPart>& parts) {
-  std::vector<double> repeats;
-  for (const DutyPart& part : parts) repeats.push_back(part.repeats_per_hour);
-  return repeats;
-}
-
-/// Lives at other numbers of repeats of one program at a time. all: of rates_of().
-void vary_repeats(const Duty& duty, const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-                  const std::vector<double>& all, const std::string& dresspack, const SamePlace& places, DutyResult& result) {
+/// Lives at other numbers of repeats of one program at a time.
+void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result) {
   constexpr int steps = 10;  // of a chart
-  std::vector<Rate> once = rates;
-  for (Rate& rate : once) rate.repeats_per_hour = 1;
-  const DutyDamage of_repeat =
-      damage_under(programs, once, std::vector<double>(programs.front().modes.size(), 1.0), dresspack);
-  const auto lives_at = [&](const std::vector<double>& repeats) { return lives_with(of_repeat, repeats, places.at(repeats)); };
+  const std::vector<double> repeats = repeats_of(result.parts);
   double idle = 1;
   for (const DutyPart& part : result.parts) idle -= part.share_of_time;
-  for (std::size_t k = 0; k < all.size(); ++k) {
+  for (std::size_t k = 0; k < repeats.size(); ++k) {
     DutyPart& part = result.parts[k];
-    const auto with_factor = [&](double factor) {
-      std::vector<double> changed = all;
-      changed[k] *= factor;
-      return lives_at(repeats_in_rounds(duty, changed));
+    const auto lives_at = [&](double factor) {
+      std::vector<double> times(repeats.size(), 1), changed = repeats;
+      times[k] = factor, changed[k] *= factor;
+      return lives_with(result.damage, times, places.at(changed, repeats_in_rounds(duty, changed)));
     };
-    part.without = with_factor(0), part.as_twice = with_factor(2);
-    const double share = all[k] * programs[k].repeat_seconds / 3600;  // in and outside of rounds
-    if (!(share > 0)) continue;
-    const double most = std::max(share, share + idle);  // no rounding below today's
-    for (int i = 0; i <= steps; ++i) part.over_share.push_back({most * i / steps, with_factor(most * i / steps / share)});
+    part.without = lives_at(0), part.as_twice = lives_at(2);
+    if (!(part.share_of_time > 0)) continue;
+    const double most = std::max(part.share_of_time, part.share_of_time + idle);  // no rounding below today's
+    for (int i = 0; i <= steps; ++i)
+      part.over_share.push_back({most * i / steps, lives_at(most * i / steps / part.share_of_time)});
   }
-  if (duty.order.empty()) return;
-  std::vector<double> apart = all;  // every program after itself
-  apart.push_back(0);
-  Duty shorter = duty;  // rounds
-  for (OrderedProgram& program : shorter.order) program.repeats = std::max(1, program.repeats / 2);
-  result.parts.back().without = lives_at(apart), result.parts.back().as_twice = lives_at(repeats_in_rounds(shorter, all));
 }
 
 }  // namespace
@@ -252,8 +258,10 @@ std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study)
 
 std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingRow>& rows) {
   std::set<std::string> named;
-  for (const Duty& duty : file.duties)
-    for (const DutyProgram& program : with_round(duty)) named.insert(program.job);
+  for (const Duty& duty : file.duties) {
+    for (const DutyProgram& program : duty.programs) named.insert(program.job);
+    if (!duty.order.empty()) named.insert(round_name(duty));
+  }
   std::vector<RankingRow> some;
   for (const RankingRow& row : rows)
     if (named.contains(row.job)) some.push_back(row);
@@ -269,20 +277,24 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
     DutyResult& result = results.emplace_back();
     result.name = duty.name;
     result.hours_per_week = duty.hours_per_week;
-    result.round = round_name(duty);
-    std::vector<double> all;
-    const std::vector<Rate> rates = rates_of(duty, programs, result.parts, all);
+    const std::vector<Rate> rates = rates_of(duty, programs, result.parts);
     result.others = other_modes(result.parts, programs.rows(duty));
     result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
-    for (const DutyProgram& program : with_round(duty))
+    std::vector<DutyProgram> all = duty.programs;
+    if (!duty.order.empty()) all.push_back(program_of_round(duty));
+    for (const DutyProgram& program : all)
       if (const RankingRow& row = programs.row(program); !is_believable(row))
         result.doubtful.push_back(fmt::format("{} ({})", row.job, warning_kinds(row)));
     const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
     result.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
     for (const LifeResponse& mode : evaluated.front().modes) result.modes.push_back(mode.mode);
-    const SamePlace places(evaluated);
-    result.damage = damage_under(evaluated, rates, places.at(repeats_of(result.parts)), dresspack);
-    vary_repeats(duty, evaluated, rates, all, dresspack, places, result);
+    const std::optional<WireDamage> round = programs.round_of(duty, evaluated.front());
+    const SamePlace places(evaluated, round ? &*round : nullptr);
+    const std::vector<double> repeats = repeats_of(result.parts), apart = places.at(repeats);
+    const std::vector<double> share = places.at(repeats, repeats_in_rounds(duty, repeats));
+    for (std::size_t m = 0; m < share.size(); ++m) result.changes.push_back(apart[m] > 0 ? share[m] / apart[m] : 1);
+    result.damage = damage_under(evaluated, rates, share, dresspack);
+    vary_repeats(duty, places, result);
   }
   for (std::size_t d = 0; d < file.duties.size(); ++d) {
     std::vector<PastDamage> history;
@@ -339,10 +351,12 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
   for (const Duty& duty : file.duties) {
     if (!needed.contains(duty.name)) continue;
     std::vector<DutyPart> parts;
-    std::vector<double> all;
-    const std::vector<Rate> rates = rates_of(duty, programs, parts, all);
+    const std::vector<Rate> rates = rates_of(duty, programs, parts);
     const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
-    const std::vector<double> share = SamePlace(evaluated).at(repeats_of(parts));
+    const std::optional<WireDamage> round = programs.round_of(duty, evaluated.front());
+    const std::vector<double> repeats = repeats_of(parts);
+    const std::vector<double> share =
+        SamePlace(evaluated, round ? &*round : nullptr).at(repeats, repeats_in_rounds(duty, repeats));
     LifeTable& table = tables[duty.name];
     table.worlds = worlds, table.draws = draws, table.hours.resize(worlds * draws);
     table.hours_per_week = duty.hours_per_week;

@@ -23,7 +23,7 @@ struct LifeAtShare {
 /// One program of a duty.
 struct DutyPart {
   std::string job;
-  double repeats_per_hour = 0;  ///< of a program: outside of rounds
+  double repeats_per_hour = 0;
   double share_of_time = 0;
   LifePercentiles without{}, as_twice{};  ///< [h] under the duty without it, and if it ran twice as often
   std::vector<LifeAtShare> over_share{};  ///< from 0 to all of the time that the others leave; empty: it never runs
@@ -38,9 +38,9 @@ struct DutyMode {
 struct DutyResult {
   std::string name;
   double hours_per_week = 0, robot_life_hours = 0;
-  std::string round;  ///< round_name(): the last part; empty: the duty has no order
   std::vector<DutyPart> parts;
   std::vector<std::string> modes;
+  std::vector<double> changes;  ///< (mode) damage with the changes between programs over that without; 1: no order
   DutyDamage damage;
   DutyLives lives;
   double past_hours = 0;  ///< 0: no history

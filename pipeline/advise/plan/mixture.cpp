@@ -125,20 +125,22 @@ double DutyDamage::in_mode(std::size_t mode, std::size_t sample) const {
   return sum;
 }
 
-SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs) : programs_(programs) {
+SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDamage* round)
+    : programs_(programs), round_(round) {
   for (const EvaluatedProgram& program : programs)
     alone_.push_back(worst_places(program.wires, program.wires.damage, program.modes.size()));
 }
 
-std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour) const {
+std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour, const std::vector<double>& in_rounds) const {
   const WireDamage& wires = programs_.front().wires;
   const std::size_t modes = programs_.front().modes.size();
   std::vector<double> all(wires.damage.size(), 0.0), apart(modes, 0.0);
   for (std::size_t k = 0; k < programs_.size(); ++k) {
-    const double rate = repeats_per_hour[k];
-    for (std::size_t site = 0; site < all.size(); ++site) all[site] += rate * programs_[k].wires.damage[site];
-    for (std::size_t m = 0; m < modes; ++m) apart[m] += rate * alone_[k][m];
+    for (std::size_t site = 0; site < all.size(); ++site) all[site] += in_rounds[k] * programs_[k].wires.damage[site];
+    for (std::size_t m = 0; m < modes; ++m) apart[m] += repeats_per_hour[k] * alone_[k][m];
   }
+  if (round_ && in_rounds.size() > programs_.size())
+    for (std::size_t site = 0; site < all.size(); ++site) all[site] += in_rounds.back() * round_->damage[site];
   std::vector<double> share = worst_places(wires, all, modes);
   for (std::size_t m = 0; m < modes; ++m) share[m] = apart[m] > 0 ? share[m] / apart[m] : 1;
   return share;

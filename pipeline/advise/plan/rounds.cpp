@@ -163,6 +163,7 @@ Study study_of_rounds(const DutyFile& file, const Study& study, const std::vecto
     motion.rows = RecordedRows::spline;
     write_text_if_changed(motion.program, with_mark(round_csv(courses, axes), Mark::yaml));
     job.motion = std::move(motion);
+    job.uncertainty.enabled = false;
     rounds.jobs.push_back({name, std::make_shared<const Job>(std::move(job)), ""});
   }
   return rounds;

@@ -7,6 +7,9 @@
 // c is the number of rounds per hour. Repeats that the numbers of the other programs leave over are in no round.
 // Without memory this is exact: the cycles of A A B B are those of A, of B, and of A B. Loose cables and friction keep a
 // memory of the program before; (D8) takes it to be gone after one repeat.
+// D_o is evaluated at the medians of the uncertain parameters only. (D8) changes the damage of all samples by one factor for
+// each mode, as (D2) does: a run's own samples contain the rest that loose cables happen to find at another slack, which
+// differs between two runs of one motion by more than all changes do (README).
 // Where a program ends in another pose than the next one begins, all axes move there together, with 50 % of the speed and
 // 25 % of the acceleration of the slowest: position over time is 10 u^3 - 15 u^4 + 6 u^5. ASSUMPTION: a gentle move of a plant.
 #pragma once
@@ -32,7 +35,7 @@ struct JointCourse {
 /// The job of a round: "spot_robot_1+hard", the same for the same order in another duty. Empty: the duty has no order.
 std::string round_name(const Duty& duty);
 
-/// (program, then the round) repeats per hour by (D8). repeats_per_hour: (program) r_k.
+/// (program, then the round; without an order the programs only) repeats per hour by (D8). repeats_per_hour: (program) r_k.
 std::vector<double> repeats_in_rounds(const Duty& duty, const std::vector<double>& repeats_per_hour);
 
 /// A recording of the programs one after the other, with moves between them: time_s, axis_1_deg, ... axes: the driven
