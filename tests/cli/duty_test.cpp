@@ -95,14 +95,14 @@ TEST_CASE("programs in their order: a program after itself adds nothing, one aft
   const std::string left = motion("0, -10, 10, 0, 35, 30", "0, -10, 10, 0, 35, 50"), right = motion("0, -10, 10, 0, 35, -30", "0, -10, 10, 0, 35, -50");
   scratch.write("job.yaml", R"(robot: abb_irb6640_185_280
 motion: easy
-dresspack:
-  from: handling
+dresspack: handling
 routing:
   mounting_pose_deg: [0, -10, 10, 0, 35, 0]
   base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}
   tool_clamp: {link: link_6, position_m: [0.144, 0, 0.174], direction: [1, 0, -0.45]}
   free_length_m: 2.035
 simulation: {segments: 12, sample_rate_Hz: 25}
+strain: {slip: stick}
 fatigue: {robot_life_hours: 1.0e+7}
 )");
   scratch.write("study.yaml", "base: job.yaml\njobs:\n  left: {motion: " + left + "}\n  same: {motion: " + left + "}\n  right: {motion: " + right + "}\n");
@@ -117,9 +117,10 @@ fatigue: {robot_life_hours: 1.0e+7}
   const std::string table = content(scratch / "runs/study/duty_duties.csv");
   const auto damage = [&](const std::string& duty) { return 1 / number(cell(table, duty + ",left", "life_hours_p50")); };
   const double apart = damage("apart");
-  constexpr double by_rows = 0.02;  // a spline through rows at 25 Hz, and cables that go on from other places
+  REQUIRE(apart > 0);
+  constexpr double by_rows = 0.02;  // a spline through rows at 25 Hz changes the swing of the hose
   CHECK(damage("after itself") == Approx(apart).epsilon(by_rows));
-  CHECK(damage("in turns") > 1.5 * apart);
+  CHECK(damage("in turns") > 2 * apart);
   // A tenth of the changes. The worst place may differ, so that damage is between the line and its ends.
   CHECK(damage("batches") > apart);
   CHECK(damage("batches") <= apart + 0.1 * (damage("in turns") - apart) * (1 + by_rows));

@@ -67,6 +67,11 @@ std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingR
 /// the whole time, and for a history that less than 1 in 1,000 samples survives.
 std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows);
 
+/// Parts, doubts and modes without validation of the `needed` duties, and nothing of samples. Errors: as evaluated(), without
+/// histories.
+std::vector<DutyResult> outlines(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
+                                 const std::set<std::string>& needed);
+
 /// 500 worlds: a probability of 10 % is known to 1.3 %.
 constexpr std::size_t usual_worlds = 500;
 

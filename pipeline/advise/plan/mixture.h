@@ -15,6 +15,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,17 +32,18 @@ struct WireDamage {
   std::vector<std::uint32_t> mode;     ///< (place) index into the modes
   std::vector<std::uint32_t> failing;  ///< (place) the number of broken wires that is its failure, at least 1
   std::string layout;                  ///< digest of sites and places: equal in all programs of one dresspack
+  std::vector<double> worst{};         ///< (mode) damage of the place that fails first; empty: not computed yet
 };
 /// From a life.h5. modes: of its life response. failed_percent: share of wires that a conductor may lose. Errors:
 /// InputError.
 WireDamage wire_damage(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent);
 
-/// A program as it was evaluated.
+/// A program as it was evaluated. Programs with the same result share modes and wires.
 struct EvaluatedProgram {
   std::string job;
   double repeat_seconds = 0;
-  FailureModes modes;
-  WireDamage wires;
+  std::shared_ptr<const FailureModes> modes;
+  std::shared_ptr<const WireDamage> wires;
 };
 
 /// How often it runs in an hour of operation.
@@ -80,7 +83,15 @@ class SamePlace {
   std::vector<std::vector<double>> alone_;  ///< (program, mode) max over p of D_k(p)
 };
 
-/// Of one duty. share: of SamePlace. dresspack: names what only this dresspack has (first_failures()).
+/// (mode, sample) of one dresspack.
+using RepeatDamage = std::vector<std::vector<double>>;
+RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dresspack, std::size_t samples);
+
+/// Of one duty. share: of SamePlace. dresspack: names what only this dresspack has (first_failures()). of_repeat:
+/// damage_of_repeat() of each program for it, where they are known.
+DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                        const std::vector<double>& share, const std::string& dresspack, std::size_t samples,
+                        const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat);
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                         const std::vector<double>& share, const std::string& dresspack, std::size_t samples = life_samples);
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
