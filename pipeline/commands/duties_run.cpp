@@ -3,12 +3,27 @@
 #include <fmt/format.h>
 
 #include "pipeline/advise/plan/evaluated_duties.h"
+#include "pipeline/advise/plan/rounds.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/study/folder_lock.h"
 
 namespace dresslife::pipeline {
+
+namespace {
+
+/// Runs the rounds of the duties' orders, in a folder of their own. They join the study and its rows.
+void add_rounds(const DutyFile& file, const RunOptions& options, Study& study, const StudyPlaces& of_study,
+                std::vector<RankingRow>& rows) {
+  const StudyPlaces places{of_study.folder / ".rounds", of_study.programs};
+  const Study rounds = study_of_rounds(file, study, rows, places.folder);
+  if (rounds.jobs.empty()) return;
+  for (RankingRow& row : made_rows(rounds, places, options)) rows.push_back(std::move(row));
+  study.jobs.insert(study.jobs.end(), rounds.jobs.begin(), rounds.jobs.end());
+}
+
+}  // namespace
 
 DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   const std::filesystem::path named = file.study, beside = folder_of(file.where) / named;
@@ -28,6 +43,7 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   look_again(standing);
   make_rest(request, standing, options);
   std::vector<RankingRow> rows = ranking_of(standing.study, standing.places, standing.states);
+  add_rounds(file, options, standing.study, standing.places, rows);
   return {std::move(standing.study), std::move(standing.places), std::move(rows)};
 }
 

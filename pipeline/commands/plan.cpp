@@ -104,8 +104,7 @@ int plan(const Options& options) {
     if (const double half = table.median(); half < table.hours_per_week)
       throw InputError({options.study}, fmt::format("half of the dresspacks under duty '{}' fail within {}", name, hours_text(half)),
                        "no plan helps; see dresslife improve");
-  std::vector<DutyResult> duties = evaluated(file, made.study, made.rows);
-  std::erase_if(duties, [&](const DutyResult& duty) { return !needed.contains(duty.name); });
+  const std::vector<DutyResult> duties = outlines(file, made.study, made.rows, needed);
   const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent, knows_survivors(made.study)};
   Plan found = plan_of(fleet, tables, windows, day, rule);
   if (found.effective_worlds < enough_worlds) {  // many survivors leave few worlds

@@ -85,6 +85,54 @@ duties:
   CHECK(run(scratch, "dresslife", "duty duties.yaml --json --quiet").out.find("\"duty\":\"alone\"") != std::string::npos);
 }
 
+TEST_CASE("programs in their order: a program after itself adds nothing, one after another adds cycles across the change") {
+  const Scratch scratch;
+  // The hose bends to one side in each program, and between them from one side to the other.
+  const auto motion = [](const std::string& to, const std::string& at) {
+    return "{speed_percent: 20, steps: [{joints_deg: [" + to + "]}, {joints_deg: [" + at + "]}, {dwell_s: 1}, {joints_deg: [" + to + "]}]}";
+  };
+  const std::string left = motion("0, -10, 10, 0, 35, 30", "0, -10, 10, 0, 35, 50"), right = motion("0, -10, 10, 0, 35, -30", "0, -10, 10, 0, 35, -50");
+  scratch.write("job.yaml", R"(robot: abb_irb6640_185_280
+motion: easy
+dresspack: handling
+routing:
+  mounting_pose_deg: [0, -10, 10, 0, 35, 0]
+  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}
+  tool_clamp: {link: link_6, position_m: [0.144, 0, 0.174], direction: [1, 0, -0.45]}
+  free_length_m: 2.035
+simulation: {segments: 12, sample_rate_Hz: 25}
+strain: {slip: stick}
+fatigue: {robot_life_hours: 1.0e+7}
+)");
+  scratch.write("study.yaml", "base: job.yaml\njobs:\n  left: {motion: " + left + "}\n  same: {motion: " + left + "}\n  right: {motion: " + right + "}\n");
+  const std::string programs = "    programs: [{job: left, repeats_per_hour: 60}, {job: same, repeats_per_hour: 60}, {job: right, repeats_per_hour: 60}]\n";
+  scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - name: apart\n" + programs +
+                                   "  - name: after itself\n" + programs + "    order: [{job: left}, {job: same}]\n" +
+                                   "  - name: in turns\n" + programs + "    order: [{job: left}, {job: right}]\n" +
+                                   "  - name: batches\n" + programs + "    order: [{job: left, repeats: 10}, {job: right, repeats: 10}]\n");
+  const Outcome outcome = run(scratch, "dresslife", "duty duties.yaml --quiet");
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.status == 0);
+  const std::string table = content(scratch / "runs/study/duty_duties.csv");
+  const auto damage = [&](const std::string& duty) { return 1 / number(cell(table, duty + ",left", "life_hours_p50")); };
+  const double apart = damage("apart");
+  REQUIRE(apart > 0);
+  constexpr double by_rows = 0.02;  // a spline through rows at 25 Hz changes the swing of the hose
+  CHECK(damage("after itself") == Approx(apart).epsilon(by_rows));
+  CHECK(damage("in turns") > 2 * apart);
+  // A tenth of the changes. The worst place may differ, so that damage is between the line and its ends.
+  CHECK(damage("batches") > apart);
+  CHECK(damage("batches") <= apart + 0.1 * (damage("in turns") - apart) * (1 + by_rows));
+  CHECK(outcome.out.find("Changes between the programs make the damage of 'wires") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);  // rounds are no jobs of the study
+  CHECK(content(scratch / "runs/study/ranking.csv").find("left+right") == std::string::npos);
+  // Without the joint angles of the programs an order is refused.
+  write_study(scratch);
+  scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - name: d\n    order: [{job: one}, {job: other}]\n    programs: [{job: one, percent_of_time: 5}, "
+                               "{job: other, percent_of_time: 5}]\n");
+  CHECK(run(scratch, "dresslife", "duty duties.yaml -o other --quiet").err.find("no robot moves in 'one'") != std::string::npos);
+}
+
 TEST_CASE("duties that cannot be added up are refused before anything runs") {
   const Scratch scratch;
   write_study(scratch);

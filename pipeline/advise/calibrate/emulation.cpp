@@ -54,6 +54,12 @@ LogLife log_life_of(const Observation& observation, const RankingRow& row) {
   return {std::min(endless_log_life, std::log(lives[1])), std::max(least_log_spread, std::log(spread))};
 }
 
+bool have_same_modes(const FailureModes& one, const FailureModes& other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const LifeResponse& a, const LifeResponse& b) {
+    return a.mode == b.mode && a.dresspack == b.dresspack;
+  });
+}
+
 LifeEnd end_of(ObservedEnd end) {
   if (bounds_above(end) && bounds_below(end)) return LifeEnd::broken;
   return bounds_below(end) ? LifeEnd::at_least : LifeEnd::at_most;
@@ -70,9 +76,10 @@ class RoundEmulation {
         made_.push_back(bending_of(tests[t], runs));
         continue;
       }
-      made_.push_back({tests[t].observation.service.empty() ? life_of(tests[t], runs) : service_of(tests[t], runs.front())});
-      made_.back().moved_by = moved_by(tests[t], runs.front());
-      const RankingRow& row = row_of(tests[t], runs.front().centre);
+      made_.push_back({tests[t].observation.service.empty() ? life_of(tests[t], runs) : service_of(tests[t], runs)});
+      const std::size_t worst = most_damaging(tests[t], runs);
+      made_.back().moved_by = moved_by(tests[t], runs[worst]);
+      const RankingRow& row = row_of(tests[t], runs[worst].centre);
       if (!row.failing_mode.empty())
         made_.back().fails_first = fmt::format("{}, {:.0f} %", row.failing_mode, 100 * row.failing_mode_share);
     }
@@ -97,8 +104,23 @@ class RoundEmulation {
     return life;
   }
 
-  /// Dresspacks in service.
-  ObservedLife service_of(const ObservedTest& test, const RoundOfJobs::Runs& runs) {
+  /// Hours of operation of a program until half have failed, if it ran alone for its share of the time.
+  double hours_alone(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& programs, std::size_t program) const {
+    const double share = test.variants[program].share_of_time;
+    return lives_of(test.observation, row_of(test, programs[program].centre))[1] / share;
+  }
+
+  /// Of the programs of dresspacks in service; 0 for other tests, whose variants are no programs.
+  std::size_t most_damaging(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& programs) const {
+    std::size_t worst = 0;
+    if (test.observation.service.empty()) return worst;
+    for (std::size_t k = 1; k < programs.size(); ++k)
+      if (hours_alone(test, programs, k) < hours_alone(test, programs, worst)) worst = k;
+    return worst;
+  }
+
+  /// Dresspacks in service: under one program, or several with their shares of the time.
+  ObservedLife service_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& programs) {
     // Ages within 5 % of each other count as one: they are off by 1.4 % in the mean, and lives scatter by tens of per cent.
     constexpr double within = 0.05;
     constexpr std::size_t draws = 64;  // of what each has for itself: a share of failures is known to 3 % or better
@@ -111,18 +133,27 @@ class RoundEmulation {
     ObservedLife life;
     for (const auto& [of, count] : counts)
       if (count != 0) life.service.push_back({within * double(of.first), of.second, count});
-    const RankingRow& row = row_of(test, runs.centre);
+    const std::size_t worst = most_damaging(test, programs);
+    const RankingRow& row = row_of(test, programs[worst].centre);
     const LogLife centre = log_life_of(test.observation, row);
     if (row.life_response.empty() || centre.median >= endless_log_life) {
-      life.variants.push_back([centre](const VectorXd&) { return LifeAt{centre.median, std::exp(centre.spread)}; });
+      const double log_hours = std::min(endless_log_life, centre.median - std::log(test.variants[worst].share_of_time));
+      life.variants.push_back([log_hours, centre](const VectorXd&) { return LifeAt{log_hours, std::exp(centre.spread)}; });
       return life;
     }
-    const double log_hours = std::log(row.repeat_seconds / 3600);
-    const auto over = std::make_shared<const LifeOverParameters>(modes_from_text(row.life_response), runs.moves);
-    for (OwnValues& own : own_values(over->modes(), runs.own, draws))
-      life.variants.push_back([over, own = std::move(own), log_hours, at = round_.centre()](const VectorXd& z) {
-        const LifeAt repeats = over->at(z - at, &own);
-        return LifeAt{std::min(endless_log_life, repeats.log_median + log_hours), repeats.spread};
+    std::vector<ProgramModes> modes;
+    for (std::size_t k = 0; k < programs.size(); ++k) {
+      const RankingRow& of = row_of(test, programs[k].centre);
+      modes.push_back({modes_from_text(of.life_response), test.variants[k].share_of_time * 3600 / of.repeat_seconds});
+      if (!have_same_modes(modes.back().modes, modes.front().modes))
+        throw InputError(test.where, fmt::format("'{}': its programs have different dresspacks", test.observation.name),
+                         "name jobs that differ only in motion");
+    }
+    const auto over = std::make_shared<const LifeOverParameters>(std::move(modes), programs.front().moves);
+    for (OwnValues& own : own_values(over->modes(), programs.front().own, draws))
+      life.variants.push_back([over, own = std::move(own), at = round_.centre()](const VectorXd& z) {
+        const LifeAt hours = over->at(z - at, &own);
+        return LifeAt{std::min(endless_log_life, hours.log_median), hours.spread};
       });
     return life;
   }

@@ -32,8 +32,14 @@ std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bo
 }
 
 LifeOverParameters::LifeOverParameters(FailureModes modes, const std::array<bool, uncertain_count>& moves)
-    : modes_(std::move(modes)), moves_(moves) {
-  for (const LifeResponse& mode : modes_) surfaces_.emplace_back(mode);
+    : LifeOverParameters(std::vector<ProgramModes>{{std::move(modes), 1}}, moves) {}
+
+LifeOverParameters::LifeOverParameters(std::vector<ProgramModes> programs, const std::array<bool, uncertain_count>& moves)
+    : programs_(std::move(programs)), moves_(moves) {
+  for (const ProgramModes& program : programs_) {
+    surfaces_.emplace_back();
+    for (const LifeResponse& mode : program.modes) surfaces_.back().emplace_back(mode);
+  }
 }
 
 LifeAt LifeOverParameters::at(const VectorXd& beside, const OwnValues* own) const {
@@ -55,12 +61,21 @@ ParameterPoint LifeOverParameters::point(const VectorXd& beside, const OwnValues
 
 double LifeOverParameters::first(const ParameterPoint& z, double u, const OwnValues* own) const {
   double life = endless_log_life;
-  for (std::size_t m = 0; m < surfaces_.size(); ++m) {
-    const double common = modes_[m].scatter_shared;
+  for (std::size_t m = 0; m < modes().size(); ++m) {
+    const double common = modes()[m].scatter_shared;
     const double of_mode = own ? std::sqrt(common) * u + std::sqrt(1 - common) * own->scatter[m] : u;
-    life = std::min(life, surfaces_[m].log10_life(z, of_mode, Inside::as_is) * std::numbers::ln10);
+    life = std::min(life, log10_life(m, z, of_mode) * std::numbers::ln10);
   }
   return life;
+}
+
+double LifeOverParameters::log10_life(std::size_t mode, const ParameterPoint& z, double u) const {
+  if (programs_.size() == 1)  // exactly that of its job
+    return surfaces_[0][mode].log10_life(z, u, Inside::as_is) - std::log10(programs_[0].per_hour);
+  double damage = 0;  // per hour
+  for (std::size_t k = 0; k < programs_.size(); ++k)
+    damage += programs_[k].per_hour * std::pow(10.0, -surfaces_[k][mode].log10_life(z, u, Inside::as_is));
+  return damage > 0 ? -std::log10(damage) : endless_log_life;
 }
 
 }  // namespace dresslife::pipeline

@@ -24,15 +24,24 @@ struct OwnValues {
 std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bool, uncertain_count>& own,
                                   std::size_t count);
 
+/// One of the programs of a dresspack.
+struct ProgramModes {
+  FailureModes modes;
+  double per_hour = 0;  ///< repeats in an hour of operation; 1: lives are in repeats
+};
+
 class LifeOverParameters {
  public:
   /// moves: parameters that it depends on.
   LifeOverParameters(FailureModes modes, const std::array<bool, uncertain_count>& moves);
+  /// Of several programs on one dresspack: the damage of a mode adds up, as if all programs loaded one place. Precondition:
+  /// all have the same modes.
+  LifeOverParameters(std::vector<ProgramModes> programs, const std::array<bool, uncertain_count>& moves);
   LifeOverParameters(const LifeOverParameters&) = delete;
   LifeOverParameters& operator=(const LifeOverParameters&) = delete;
-  const FailureModes& modes() const { return modes_; }
+  const FailureModes& modes() const { return programs_.front().modes; }
 
-  /// In repeats. beside (parameter): z from the keys of the job. own: of one dresspack; null: median ones, and as if the scatter
+  /// In repeats, or in hours of operation. beside (parameter): z from the keys of the job. own: of one dresspack; null: median ones, and as if the scatter
   /// of wires were common to all modes. A life without end counts as endless_log_life.
   LifeAt at(const Eigen::VectorXd& beside, const OwnValues* own = nullptr) const;
   double log_median_at(const Eigen::VectorXd& beside) const;
@@ -40,10 +49,11 @@ class LifeOverParameters {
  private:
   ParameterPoint point(const Eigen::VectorXd& beside, const OwnValues* own) const;
   double first(const ParameterPoint& z, double u, const OwnValues* own) const;
+  double log10_life(std::size_t mode, const ParameterPoint& z, double u) const;
 
-  const FailureModes modes_;
+  const std::vector<ProgramModes> programs_;
   const std::array<bool, uncertain_count> moves_;
-  std::vector<LifeSurface> surfaces_;
+  std::vector<std::vector<LifeSurface>> surfaces_;  ///< (program) (mode)
 };
 
 }  // namespace dresslife::pipeline

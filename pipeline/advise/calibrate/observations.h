@@ -86,6 +86,7 @@ struct ObservedTest {
     std::string name;  ///< fit for a folder
     Node job;
     std::string failure;  ///< why the job cannot be made, else empty
+    double share_of_time = 1;  ///< of dresspacks in service: the variants are their programs
   };
   std::vector<Variant> variants;
   bool typical = false;  ///< of one of many makers' cables: it informs a cable that is none of them (typical_cables.h)

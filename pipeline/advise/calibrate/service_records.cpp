@@ -253,6 +253,36 @@ std::string test_name(const std::string& job) {
   return name;
 }
 
+struct Program {
+  std::string job;
+  double share_of_time = 1;
+};
+
+/// "a.yaml", or "a.yaml 60 % + b.yaml 25 %".
+std::vector<Program> programs_of(const Row& row) {
+  const std::string& text = row.job;
+  if (!text.ends_with('%')) return {{text, 1}};
+  std::vector<Program> programs;
+  double sum = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t plus = std::min(text.find(" + ", begin), text.size());
+    std::string part = text.substr(begin, plus - begin);
+    begin = plus + 3;
+    while (!part.empty() && (part.back() == ' ' || part.back() == '%')) part.pop_back();
+    const std::size_t blank = part.rfind(' ');
+    const std::optional<double> percent = blank == part.npos ? std::nullopt : number_of_export(part.substr(blank + 1));
+    if (!percent || !(*percent > 0 && *percent <= 100))
+      throw InputError(row.job_where, fmt::format("'{}' is no job with its share of the hours of operation", part),
+                       "write JOB.yaml 60 % + OTHER.yaml 25 %");
+    programs.push_back({part.substr(0, part.find_last_not_of(' ', blank) + 1), *percent / 100});
+    sum += *percent;
+  }
+  constexpr double rounding = 0.1;  // per cent, of shares with one decimal
+  if (sum > 100 + rounding)
+    throw InputError(row.job_where, fmt::format("the shares of the programs add up to {:g} %", sum), "at most 100");
+  return programs;
+}
+
 }  // namespace
 
 ServiceTests read_service_tests(const ServiceRequest& request) {
@@ -277,14 +307,20 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
     if (is_new) {
       ObservedTest& test = read.tests.emplace_back();
       test.where = row.job_where;
-      std::string name = test_name(row.job);
-      while (!names.insert(name).second) name += "_";
-      test.observation.name = name;
+      const auto unique = [&names](std::string name) {
+        while (!names.insert(name).second) name += "_";
+        return name;
+      };
       test.observation.what = "dresspacks of a plant";
       test.observation.source = request.file.filename().string();
-      test.variants.push_back({name, catalogue_entry("jobs", row.job, row.job_where, row.job_where), ""});
+      for (const Program& program : programs_of(row)) {
+        const std::string name = unique(test_name(program.job));
+        test.observation.name += (test.observation.name.empty() ? "" : "+") + name;
+        test.variants.push_back(
+            {name, catalogue_entry("jobs", program.job, row.job_where, row.job_where), "", program.share_of_time});
+      }
       hours_per_week[row.job] =
-          job_from(test.variants.back().job, request.sets).fatigue.operating_hours_per_week;
+          job_from(test.variants.front().job, request.sets).fatigue.operating_hours_per_week;
     }
     // Removals of the first day define it; they are no evidence of lives (a stopping time).
     const bool too_early = row.to < *since || (!request.since && row.end != End::in_use && row.to == *since);
@@ -309,7 +345,9 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
         {request.file.string()},
         fmt::format("no dresspack was in use after {}, the first day of the records", day_text(*since)),
         "give an earlier day: --records-since DATE");
-  for (ObservedTest& test : read.tests) test.text += to_yaml(test.variants.front().job);
+  for (ObservedTest& test : read.tests)
+    for (const ObservedTest::Variant& program : test.variants)
+      test.text += (program.share_of_time < 1 ? fmt::format("{} ", program.share_of_time) : "") + to_yaml(program.job);
   read.words = fmt::format("Columns: {}.\n", table.column_words());
   read.words += fmt::format("{} dresspacks: {} failed, {} were removed before, {} are in use on {}.\n",
                             failed + removed + in_use, failed, removed, in_use, day_text(request.today));

@@ -5,6 +5,8 @@
 //   R17;body side;14.01.2026;;
 //
 // Columns have usual names in English or German, in any order, beside any others. `replaced` is empty for one in use.
+// `job` names a job, or several with their shares of the hours of operation: "sills.yaml 60 % + doors.yaml 25 %". They
+// differ only in motion. The programs are taken to load the same place, so that their damage adds up.
 // Removals for other reasons than a failure end the observation (censored).
 // A system that begins at a day holds no dresspacks that were removed before. Those that were put in before that day are
 // therefore known only because they reached it (left-truncated): their life counts from their age then.
@@ -22,7 +24,7 @@ namespace dresslife::pipeline {
 
 struct ServiceRequest {
   std::filesystem::path file;
-  std::string job;  ///< of the rows without one of their own; empty: each row has one
+  std::string job;  ///< one or several, of the rows without one of their own; empty: each row has one
   std::optional<Day>
       since;  ///< the first day of the records; absent: that of the first removal, which does not count then
   Day today;  ///< until which dresspacks in use have lived
@@ -30,12 +32,12 @@ struct ServiceRequest {
 };
 
 struct ServiceTests {
-  std::vector<ObservedTest> tests;  ///< one per job
+  std::vector<ObservedTest> tests;  ///< one per cell of the column job
   std::string words;                ///< what was read from which columns, and what of it counts
 };
 
 /// Errors: InputError at line and column for a missing column, two columns for one thing, a date that is none or is not
-/// in order, a reason that is not known, a row without a job, two rows of one dresspack at the same time; where nothing can
+/// in order, a reason that is not known, a row without a job, shares of programs that are none, two rows of one dresspack at the same time; where nothing can
 /// be learned.
 ServiceTests read_service_tests(const ServiceRequest& request);
 

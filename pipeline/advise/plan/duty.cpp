@@ -41,6 +41,12 @@ void check(const Duty& duty, const std::string& key, Problems& problems) {
       problems.add(program.where, fmt::format("percent_of_repeats of '{}' has no number to refer to", program.job),
                    "give repeats_per_hour of the duty: all programs together");
   }
+  for (const OrderedProgram& program : duty.order)
+    if (!jobs.contains(program.job) && !problems.touch(key + ".order"))
+      problems.add(program.where, fmt::format("'{}' in the order is no program of duty '{}'", program.job, duty.name),
+                   "add it to programs, with its number of repeats");
+  if (duty.order.size() == 1 && !problems.touch(key + ".order"))
+    problems.add(duty.order.front().where, "an order of one program has no change to another", "name the other programs, or remove the order");
   constexpr double rounding = 1e-9;
   if (percent_of_repeats > 100 + rounding)
     problems.add(duty.where, fmt::format("percent_of_repeats adds up to {:g} %", percent_of_repeats), "at most 100");
@@ -63,6 +69,12 @@ void describe(Fields& f, DutyProgram& program) {
            "The standard deviation of the number of repeats, from one dresspack to the next.");
 }
 
+void describe(Fields& f, OrderedProgram& program) {
+  f.place(program.where);
+  f.text("job", program.job, Need::required, "The name of a job among the programs of the duty.");
+  f.integer("repeats", program.repeats, Need::optional, between(1, most_repeats), "Its repeats before the next one begins.");
+}
+
 void describe(Fields& f, PastDuty& past) {
   f.place(past.where);
   f.text("duty", past.duty, Need::required, "The name of a duty in this file.");
@@ -78,6 +90,8 @@ void describe(Fields& f, Duty& duty) {
   f.maybe_number("repeats_per_hour", duty.repeats_per_hour, between(0, most_repeats),
                  "The repeats of all programs together in an hour of operation, for `percent_of_repeats`.");
   f.list("programs", duty.programs, Need::required, "The programs, and how often each of them runs.");
+  f.list("order", duty.order, Need::optional,
+         "One round of the programs, which begins again after the last of them. With it the changes between programs count.");
   f.list("history", duty.history, Need::optional,
          "What the dresspack has done so far. With it the remaining life is predicted.");
 }

@@ -7,6 +7,9 @@
 //       programs:
 //         - {job: spot_robot_1, repeats_per_hour: 12}
 //         - {job: hard, percent_of_time: 5, deviation_percent: 10}
+//       order:
+//         - {job: spot_robot_1, repeats: 20}   then the next one, and again from the first
+//         - {job: hard}
 //       history:
 //         - {duty: night, hours: 2000}   what the dresspack has done before
 #pragma once
@@ -41,6 +44,13 @@ struct PastDuty {
   double hours = 0;
 };
 
+/// Repeats of one program in a row, in the order of a duty.
+struct OrderedProgram {
+  Where where;
+  std::string job;
+  int repeats = 1;
+};
+
 struct Duty {
   Where where;
   std::string name;
@@ -48,6 +58,7 @@ struct Duty {
   double shift_hours = 8;                  ///< of repeats_per_shift
   std::optional<double> repeats_per_hour;  ///< of all programs together, of percent_of_repeats
   std::vector<DutyProgram> programs;
+  std::vector<OrderedProgram> order;  ///< of a round; empty: changes between programs do not count
   std::vector<PastDuty> history;
 };
 

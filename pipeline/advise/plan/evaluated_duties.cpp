@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <set>
+#include <unordered_map>
 
+#include "pipeline/advise/plan/rounds.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/job.h"
@@ -21,16 +25,26 @@ namespace {
 
 constexpr double fewest_survivors = 1e-3;  // of the samples: percentiles of fewer than ten are chance
 
-const StudyJob& job_named(const Study& study, const DutyProgram& program) {
-  std::vector<std::string> names;
-  for (const StudyJob& job : study.jobs) {
-    if (job.name == program.job) return job;
-    names.push_back(job.name);
+/// The jobs of a study by their names.
+class Jobs {
+ public:
+  explicit Jobs(const Study& study) : study_(study) {
+    for (const StudyJob& job : study.jobs) by_name_.emplace(job.name, &job);
   }
-  const std::string near = nearest_word(program.job, names);
-  throw InputError(program.where, fmt::format("study '{}' has no job '{}'", study.name, program.job),
-                   near.empty() ? "dresslife status STUDY lists its jobs" : fmt::format("did you mean '{}'?", near));
-}
+  /// Errors: InputError for a program that is none of them.
+  const StudyJob& of(const DutyProgram& program) const {
+    if (const auto found = by_name_.find(program.job); found != by_name_.end()) return *found->second;
+    std::vector<std::string> names;
+    for (const StudyJob& job : study_.jobs) names.push_back(job.name);
+    const std::string near = nearest_word(program.job, names);
+    throw InputError(program.where, fmt::format("study '{}' has no job '{}'", study_.name, program.job),
+                     near.empty() ? "dresslife status STUDY lists its jobs" : fmt::format("did you mean '{}'?", near));
+  }
+
+ private:
+  const Study& study_;
+  std::unordered_map<std::string_view, const StudyJob*> by_name_;
+};
 
 /// All of a job but its motion. The texts of two jobs agree if their damage can be added.
 std::map<std::string, std::string> beside_motion(const Job& job) {
@@ -41,12 +55,12 @@ std::map<std::string, std::string> beside_motion(const Job& job) {
   return sections;
 }
 
-void check_same_dresspack(const Duty& duty, const Study& study) {
-  const StudyJob& first = job_named(study, duty.programs.front());
+void check_same_dresspack(const Duty& duty, const Jobs& jobs) {
+  const StudyJob& first = jobs.of(duty.programs.front());
   if (!first.job) return;
   const auto expected = beside_motion(*first.job);
   for (const DutyProgram& program : duty.programs) {
-    const StudyJob& job = job_named(study, program);
+    const StudyJob& job = jobs.of(program);
     if (!job.job) continue;
     for (const auto& [key, text] : beside_motion(*job.job)) {
       const auto found = expected.find(key);
@@ -74,43 +88,52 @@ bool starts_elsewhere(const Job& job, const Job& other) {
 }
 
 /// The first program that starts elsewhere than the duty's first one; null: none, or the hose is mounted in one pose for all.
-const DutyProgram* mounted_elsewhere(const Duty& duty, const Study& study) {
-  const StudyJob& first = job_named(study, duty.programs.front());
+const DutyProgram* mounted_elsewhere(const Duty& duty, const Jobs& jobs) {
+  const StudyJob& first = jobs.of(duty.programs.front());
   if (!first.job || !first.job->motion.needs_robot() || first.job->dresspacks.empty() ||
       !first.job->dresspacks.front().routing.mounting_pose.empty())
     return nullptr;
   for (const DutyProgram& program : duty.programs)
-    if (const StudyJob& job = job_named(study, program); job.job && starts_elsewhere(*first.job, *job.job)) return &program;
+    if (const StudyJob& job = jobs.of(program); job.job && starts_elsewhere(*first.job, *job.job)) return &program;
   return nullptr;
 }
 
-/// Programs of all duties, each read once.
+/// Precondition: the duty has an order.
+DutyProgram program_of_round(const Duty& duty) {
+  DutyProgram round;
+  round.where = duty.order.front().where, round.job = round_name(duty);
+  return round;
+}
+
+/// Programs of all duties. Jobs that share their last stage are read once.
 class Programs {
  public:
-  Programs(const Study& study, const std::vector<RankingRow>& rows) : study_(study), rows_(rows) {}
-
-  const EvaluatedProgram& of(const DutyProgram& program) {
-    const auto [found, is_new] = programs_.try_emplace(program.job);
-    if (is_new) found->second = read(program);
-    return found->second;
+  Programs(const Study& study, const std::vector<RankingRow>& rows) : jobs_(study) {
+    for (const RankingRow& row : rows) rows_.emplace(row.job, &row);
   }
+
   /// All of a duty, on one dresspack.
   std::vector<EvaluatedProgram> of(const Duty& duty) {
     std::vector<EvaluatedProgram> all;
     for (const DutyProgram& program : duty.programs) all.push_back(of(program));
-    for (const EvaluatedProgram& program : all)
-      if (program.wires.layout != all.front().wires.layout)
-        throw InputError(duty.where, fmt::format("the results of '{}' and '{}' have different wires", all.front().job, program.job),
-                         "make the results again with dresslife run");
+    for (const EvaluatedProgram& program : all) check_layout(duty, all.front(), program.job, *program.wires);
     return all;
   }
+  /// The round of a duty's order, at the medians of the uncertain parameters; empty: it has none.
+  std::optional<WireDamage> round_of(const Duty& duty, const EvaluatedProgram& first) const {
+    if (duty.order.empty()) return std::nullopt;
+    const DutyProgram round = program_of_round(duty);
+    WireDamage wires = wire_damage(row(round).life_file, *first.modes, failed_wires_percent(round));
+    check_layout(duty, first, round.job, wires);
+    return wires;
+  }
   const RankingRow& row(const DutyProgram& program) const {
-    const auto row = std::find_if(rows_.begin(), rows_.end(), [&](const RankingRow& r) { return r.job == program.job; });
-    if (row == rows_.end() || !row->done())
+    const auto row = rows_.find(program.job);
+    if (row == rows_.end() || !row->second->done())
       throw InputError(program.where,
-                       fmt::format("job '{}' has no result{}", program.job, row == rows_.end() ? "" : ": " + row->failure),
+                       fmt::format("job '{}' has no result{}", program.job, row == rows_.end() ? "" : ": " + row->second->failure),
                        "mend the job and run again");
-    return *row;
+    return *row->second;
   }
 
   std::vector<RankingRow> rows(const Duty& duty) const {
@@ -120,21 +143,72 @@ class Programs {
   }
 
  private:
-  EvaluatedProgram read(const DutyProgram& program) const {
+  static void check_layout(const Duty& duty, const EvaluatedProgram& first, const std::string& job, const WireDamage& wires) {
+    if (wires.layout != first.wires->layout)
+      throw InputError(duty.where, fmt::format("the results of '{}' and '{}' have different wires", first.job, job),
+                       "make the results again with dresslife run");
+  }
+
+  double failed_wires_percent(const DutyProgram& program) const { return jobs_.of(program).job->fatigue.failed_wires_percent; }
+
+  EvaluatedProgram of(const DutyProgram& program) {
     const RankingRow& of = row(program);
     if (of.life_response.empty())
       throw InputError(program.where, fmt::format("job '{}' has no samples of uncertain parameters", program.job),
                        "set uncertainty.enabled: true in the study");
-    const Job& job = *job_named(study_, program).job;
-    EvaluatedProgram read{of.job, of.repeat_seconds, modes_from_text(of.life_response), {}};
-    read.wires = wire_damage(of.life_file, read.modes, job.fatigue.failed_wires_percent);
-    return read;
+    // A file that jobs share is one file with several names (shared_stages.h).
+    const FileState state = state_of(of.life_file);
+    auto& [modes, wires] = lives_[{state.inode, state.changed_ns}];
+    if (!modes) {
+      modes = std::make_shared<const FailureModes>(modes_from_text(of.life_response));
+      wires = std::make_shared<const WireDamage>(wire_damage(of.life_file, *modes, failed_wires_percent(program)));
+    }
+    return {of.job, of.repeat_seconds, modes, wires};
   }
 
-  const Study& study_;
-  const std::vector<RankingRow>& rows_;
-  std::map<std::string, EvaluatedProgram> programs_;
+  const Jobs jobs_;
+  std::unordered_map<std::string_view, const RankingRow*> rows_;
+  std::map<std::pair<std::uint64_t, std::int64_t>, std::pair<std::shared_ptr<const FailureModes>, std::shared_ptr<const WireDamage>>>
+      lives_;  ///< by inode and time of change
 };
+
+/// Damage of one repeat for each dresspack of a plant. Programs with one result share it while duties need it.
+class PlantDamage {
+ public:
+  static constexpr std::size_t draws = 64;  // dresspacks in each world: a probability of 10 % is known to 3.8 % in one world
+  static std::string dresspack(std::size_t draw) { return fmt::format("dresspack {}", draw); }
+
+  PlantDamage(const std::vector<std::vector<EvaluatedProgram>>& duties, std::size_t worlds) : worlds_(worlds) {
+    for (const std::vector<EvaluatedProgram>& duty : duties)
+      for (const EvaluatedProgram& program : duty) ++known_[program.modes.get()].duties;
+  }
+  const RepeatDamage& of(const EvaluatedProgram& program, std::size_t draw) {
+    std::vector<RepeatDamage>& of_draw = known_[program.modes.get()].of_draw;
+    if (of_draw.empty())
+      for (std::size_t d = 0; d < draws; ++d) of_draw.push_back(damage_of_repeat(*program.modes, dresspack(d), worlds_));
+    return of_draw[draw];
+  }
+  /// A duty was evaluated.
+  void release(const std::vector<EvaluatedProgram>& duty) {
+    for (const EvaluatedProgram& program : duty)
+      if (--known_[program.modes.get()].duties == 0) known_[program.modes.get()].of_draw = {};
+  }
+
+ private:
+  struct Known {
+    std::size_t duties = 0;  ///< that still need it
+    std::vector<RepeatDamage> of_draw;
+  };
+  std::size_t worlds_;
+  std::unordered_map<const FailureModes*, Known> known_;
+};
+
+/// (program) per hour.
+std::vector<double> repeats_of(const std::vector<DutyPart>& parts) {
+  std::vector<double> repeats;
+  for (const DutyPart& part : parts) repeats.push_back(part.repeats_per_hour);
+  return repeats;
+}
 
 std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<DutyPart>& parts) {
   std::vector<Rate> rates;
@@ -148,6 +222,15 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
     time += parts.back().share_of_time;
     words += fmt::format("{}{} x {:.1f} s of '{}'", words.empty() ? "" : ", ", readable(rate), seconds, program.job);
   }
+  if (!duty.order.empty()) {
+    double moves = programs.row(program_of_round(duty)).repeat_seconds;  // between the programs of a round
+    for (const OrderedProgram& ordered : duty.order)
+      for (const DutyProgram& program : duty.programs)
+        if (program.job == ordered.job) moves -= programs.row(program).repeat_seconds;
+    const double rounds = repeats_in_rounds(duty, repeats_of(parts)).back();
+    time += rounds * moves / 3600;
+    words += fmt::format(", {} x {:.1f} s of moves between them", readable(rounds), moves);
+  }
   constexpr double rounding = 1e-9;
   if (time > 1 + rounding)
     throw InputError(duty.where,
@@ -156,15 +239,8 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
   return rates;
 }
 
-/// (program) per hour.
-std::vector<double> repeats_of(const std::vector<DutyPart>& parts) {
-  std::vector<double> repeats;
-  for (const DutyPart& part : parts) repeats.push_back(part.repeats_per_hour);
-  return repeats;
-}
-
 /// Lives at other numbers of repeats of one program at a time.
-void vary_repeats(DutyResult& result, const SamePlace& places) {
+void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result) {
   constexpr int steps = 10;  // of a chart
   const std::vector<double> repeats = repeats_of(result.parts);
   double idle = 1;
@@ -174,7 +250,7 @@ void vary_repeats(DutyResult& result, const SamePlace& places) {
     const auto lives_at = [&](double factor) {
       std::vector<double> times(repeats.size(), 1), changed = repeats;
       times[k] = factor, changed[k] *= factor;
-      return lives_with(result.damage, times, places.at(changed));
+      return lives_with(result.damage, times, places.at(changed, repeats_in_rounds(duty, changed)));
     };
     part.without = lives_at(0), part.as_twice = lives_at(2);
     if (!(part.share_of_time > 0)) continue;
@@ -206,18 +282,20 @@ std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std:
 
 void check_programs(const DutyFile& file, const Study& study) {
   Problems problems;
+  const Jobs jobs(study);
   for (const Duty& duty : file.duties)
     problems.attempt("", duty.where, [&] {
-      for (const DutyProgram& program : duty.programs) job_named(study, program);
-      check_same_dresspack(duty, study);
+      for (const DutyProgram& program : duty.programs) jobs.of(program);
+      check_same_dresspack(duty, jobs);
     });
   problems.finish(file.where.file);
 }
 
 std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study) {
   std::vector<Warning> warnings;
+  const Jobs jobs(study);
   for (const Duty& duty : file.duties)
-    if (const DutyProgram* const other = mounted_elsewhere(duty, study))
+    if (const DutyProgram* const other = mounted_elsewhere(duty, jobs))
       warnings.push_back(warning_of(
           WarningKind::twist, other->where.text(),
           fmt::format("the hose is mounted without twist in the first pose of '{}' and again in that of '{}' (they differ by more than {:g} "
@@ -230,12 +308,45 @@ std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study)
 
 std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingRow>& rows) {
   std::set<std::string> named;
-  for (const Duty& duty : file.duties)
+  for (const Duty& duty : file.duties) {
     for (const DutyProgram& program : duty.programs) named.insert(program.job);
+    if (!duty.order.empty()) named.insert(round_name(duty));
+  }
   std::vector<RankingRow> some;
   for (const RankingRow& row : rows)
     if (named.contains(row.job)) some.push_back(row);
   return some;
+}
+
+namespace {
+
+/// What needs no samples. rates: of the programs.
+DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& rates) {
+  DutyResult result;
+  result.name = duty.name;
+  result.hours_per_week = duty.hours_per_week;
+  rates = rates_of(duty, programs, result.parts);
+  result.others = other_modes(result.parts, programs.rows(duty));
+  result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
+  std::vector<DutyProgram> all = duty.programs;
+  if (!duty.order.empty()) all.push_back(program_of_round(duty));
+  for (const DutyProgram& program : all)
+    if (const RankingRow& row = programs.row(program); !is_believable(row))
+      result.doubtful.push_back(fmt::format("{} ({})", row.job, warning_kinds(row)));
+  result.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
+  return result;
+}
+
+}  // namespace
+
+std::vector<DutyResult> outlines(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
+                                 const std::set<std::string>& needed) {
+  Programs programs(study, rows);
+  std::vector<DutyResult> results;
+  std::vector<Rate> rates;
+  for (const Duty& duty : file.duties)
+    if (needed.contains(duty.name)) results.push_back(outline_of(duty, programs, rates));
+  return results;
 }
 
 std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows) {
@@ -244,21 +355,17 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
   const std::string dresspack;
   std::vector<DutyResult> results;
   for (const Duty& duty : file.duties) {
-    DutyResult& result = results.emplace_back();
-    result.name = duty.name;
-    result.hours_per_week = duty.hours_per_week;
-    const std::vector<Rate> rates = rates_of(duty, programs, result.parts);
-    result.others = other_modes(result.parts, programs.rows(duty));
-    result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
-    for (const DutyProgram& program : duty.programs)
-      if (const RankingRow& row = programs.row(program); !is_believable(row))
-        result.doubtful.push_back(fmt::format("{} ({})", row.job, warning_kinds(row)));
+    std::vector<Rate> rates;
+    DutyResult& result = results.emplace_back(outline_of(duty, programs, rates));
     const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
-    result.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
-    for (const LifeResponse& mode : evaluated.front().modes) result.modes.push_back(mode.mode);
-    const SamePlace places(evaluated);
-    result.damage = damage_under(evaluated, rates, places.at(repeats_of(result.parts)), dresspack);
-    vary_repeats(result, places);
+    for (const LifeResponse& mode : *evaluated.front().modes) result.modes.push_back(mode.mode);
+    const std::optional<WireDamage> round = programs.round_of(duty, evaluated.front());
+    const SamePlace places(evaluated, round ? &*round : nullptr);
+    const std::vector<double> repeats = repeats_of(result.parts), apart = places.at(repeats);
+    const std::vector<double> share = places.at(repeats, repeats_in_rounds(duty, repeats));
+    for (std::size_t m = 0; m < share.size(); ++m) result.changes.push_back(apart[m] > 0 ? share[m] / apart[m] : 1);
+    result.damage = damage_under(evaluated, rates, share, dresspack);
+    vary_repeats(duty, places, result);
   }
   for (std::size_t d = 0; d < file.duties.size(); ++d) {
     std::vector<PastDamage> history;
@@ -292,8 +399,10 @@ namespace {
 /// What the lives of these programs depend on and dresspacks share, each once.
 std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& programs, std::size_t worlds) {
   std::vector<SharedValue> values;
-  for (const EvaluatedProgram& program : programs)
-    for (const LifeResponse& mode : program.modes)
+  std::set<const FailureModes*> seen;
+  for (const EvaluatedProgram& program : programs) {
+    if (!seen.insert(program.modes.get()).second) continue;
+    for (const LifeResponse& mode : *program.modes)
       for (std::size_t p = 0; p < uncertain_count; ++p) {
         const SharedBy by = uncertain_parameters()[p].shared;
         const auto at = static_cast<Eigen::Index>(p);
@@ -302,6 +411,7 @@ std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& prog
         if (std::none_of(values.begin(), values.end(), [&](const SharedValue& known) { return known.parameter == p && known.of == of; }))
           values.push_back({p, of, shared_samples(mode, p, worlds)});
       }
+  }
   return values;
 }
 
@@ -309,15 +419,23 @@ std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& prog
 
 std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
                                              const std::set<std::string>& needed, std::size_t worlds) {
-  constexpr std::size_t draws = 64;  // dresspacks in each: a probability of 10 % is known to 3.8 % in one world
+  constexpr std::size_t draws = PlantDamage::draws;
   Programs programs(study, rows);
+  std::vector<const Duty*> duties;
+  std::vector<std::vector<EvaluatedProgram>> all;
+  for (const Duty& duty : file.duties)
+    if (needed.contains(duty.name)) duties.push_back(&duty), all.push_back(programs.of(duty));
+  PlantDamage plant(all, worlds);
   std::map<std::string, LifeTable> tables;
-  for (const Duty& duty : file.duties) {
-    if (!needed.contains(duty.name)) continue;
+  for (std::size_t k = 0; k < duties.size(); ++k) {
+    const Duty& duty = *duties[k];
+    const std::vector<EvaluatedProgram>& evaluated = all[k];
     std::vector<DutyPart> parts;
     const std::vector<Rate> rates = rates_of(duty, programs, parts);
-    const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
-    const std::vector<double> share = SamePlace(evaluated).at(repeats_of(parts));
+    const std::optional<WireDamage> round = programs.round_of(duty, evaluated.front());
+    const std::vector<double> repeats = repeats_of(parts);
+    const std::vector<double> share =
+        SamePlace(evaluated, round ? &*round : nullptr).at(repeats, repeats_in_rounds(duty, repeats));
     LifeTable& table = tables[duty.name];
     table.worlds = worlds, table.draws = draws, table.hours.resize(worlds * draws);
     table.hours_per_week = duty.hours_per_week;
@@ -325,10 +443,13 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
     table.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
     for (std::size_t d = 0; d < draws; ++d) {
       const std::vector<double> damage =
-          damage_under(evaluated, rates, share, fmt::format("dresspack {}", d), worlds).of_first_mode();
+          damage_under(evaluated, rates, share, PlantDamage::dresspack(d), worlds, [&](const EvaluatedProgram& program) -> const RepeatDamage& {
+            return plant.of(program, d);
+          }).of_first_mode();
       for (std::size_t w = 0; w < worlds; ++w)
         table.hours[w * draws + d] = damage[w] > 0 ? static_cast<float>(1 / damage[w]) : std::numeric_limits<float>::infinity();
     }
+    plant.release(evaluated);
     for (std::size_t w = 0; w < worlds; ++w)
       std::sort(table.hours.begin() + static_cast<std::ptrdiff_t>(w * draws),
                 table.hours.begin() + static_cast<std::ptrdiff_t>((w + 1) * draws));

@@ -40,6 +40,7 @@ struct DutyResult {
   double hours_per_week = 0, robot_life_hours = 0;
   std::vector<DutyPart> parts;
   std::vector<std::string> modes;
+  std::vector<double> changes;  ///< (mode) damage with the changes between programs over that without; 1: no order
   DutyDamage damage;
   DutyLives lives;
   double past_hours = 0;  ///< 0: no history
@@ -65,6 +66,11 @@ std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingR
 /// Errors: InputError for a program without a result or without uncertain parameters, for programs that take more than
 /// the whole time, and for a history that less than 1 in 1,000 samples survives.
 std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows);
+
+/// Parts, doubts and modes without validation of the `needed` duties, and nothing of samples. Errors: as evaluated(), without
+/// histories.
+std::vector<DutyResult> outlines(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
+                                 const std::set<std::string>& needed);
 
 /// 500 worlds: a probability of 10 % is known to 1.3 %.
 constexpr std::size_t usual_worlds = 500;

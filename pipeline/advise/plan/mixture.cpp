@@ -116,6 +116,7 @@ WireDamage wire_damage(const std::filesystem::path& life_file, const FailureMode
   for (std::size_t site = 0; site < wires.damage.size(); ++site)
     layout += fmt::format("{} {}\n", wires.wire[site], wires.wire[site] == nothing ? nothing : wires.place[wires.wire[site]]);
   wires.layout = sha256(layout);
+  wires.worst = worst_places(wires, wires.damage, modes.size());
   return wires;
 }
 
@@ -125,20 +126,23 @@ double DutyDamage::in_mode(std::size_t mode, std::size_t sample) const {
   return sum;
 }
 
-SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs) : programs_(programs) {
+SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDamage* round)
+    : programs_(programs), round_(round) {
   for (const EvaluatedProgram& program : programs)
-    alone_.push_back(worst_places(program.wires, program.wires.damage, program.modes.size()));
+    alone_.push_back(program.wires->worst.empty() ? worst_places(*program.wires, program.wires->damage, program.modes->size())
+                                                  : program.wires->worst);
 }
 
-std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour) const {
-  const WireDamage& wires = programs_.front().wires;
-  const std::size_t modes = programs_.front().modes.size();
+std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour, const std::vector<double>& in_rounds) const {
+  const WireDamage& wires = *programs_.front().wires;
+  const std::size_t modes = programs_.front().modes->size();
   std::vector<double> all(wires.damage.size(), 0.0), apart(modes, 0.0);
   for (std::size_t k = 0; k < programs_.size(); ++k) {
-    const double rate = repeats_per_hour[k];
-    for (std::size_t site = 0; site < all.size(); ++site) all[site] += rate * programs_[k].wires.damage[site];
-    for (std::size_t m = 0; m < modes; ++m) apart[m] += rate * alone_[k][m];
+    for (std::size_t site = 0; site < all.size(); ++site) all[site] += in_rounds[k] * programs_[k].wires->damage[site];
+    for (std::size_t m = 0; m < modes; ++m) apart[m] += repeats_per_hour[k] * alone_[k][m];
   }
+  if (round_ && in_rounds.size() > programs_.size())
+    for (std::size_t site = 0; site < all.size(); ++site) all[site] += in_rounds.back() * round_->damage[site];
   std::vector<double> share = worst_places(wires, all, modes);
   for (std::size_t m = 0; m < modes; ++m) share[m] = apart[m] > 0 ? share[m] / apart[m] : 1;
   return share;
@@ -151,18 +155,36 @@ DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std
   return damage_under(programs, rates, SamePlace(programs).at(repeats), dresspack, samples);
 }
 
+RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dresspack, std::size_t samples) {
+  RepeatDamage damage = mode_lives(modes, dresspack, samples);
+  for (std::vector<double>& of_mode : damage)
+    for (double& life : of_mode) life = std::pow(10.0, -life);
+  return damage;
+}
+
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                         const std::vector<double>& share, const std::string& dresspack, std::size_t samples) {
+  RepeatDamage damage;
+  return damage_under(programs, rates, share, dresspack, samples, [&](const EvaluatedProgram& program) -> const RepeatDamage& {
+    return damage = damage_of_repeat(*program.modes, dresspack, samples);
+  });
+}
+
+DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                        const std::vector<double>& share, const std::string& dresspack, std::size_t samples,
+                        const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat) {
   DutyDamage duty;
   duty.same_place = share;
   for (std::size_t k = 0; k < programs.size(); ++k) {
-    std::vector<std::vector<double>> lives = mode_lives(programs[k].modes, dresspack, samples);
-    const double deviation = log_deviation(rates[k].deviation_percent);
-    const std::vector<double> z = standard_normals("repeats of " + programs[k].job + "/job " + dresspack, samples);
-    for (std::size_t m = 0; m < lives.size(); ++m)
-      for (std::size_t s = 0; s < samples; ++s)
-        lives[m][s] = duty.same_place[m] * rates[k].repeats_per_hour * std::exp(deviation * z[s]) * std::pow(10.0, -lives[m][s]);
-    duty.of_program.push_back(std::move(lives));
+    RepeatDamage damage = of_repeat(programs[k]);
+    std::vector<double> factor(samples, 1.0);
+    if (const double deviation = log_deviation(rates[k].deviation_percent); deviation > 0) {
+      factor = standard_normals("repeats of " + programs[k].job + "/job " + dresspack, samples);
+      for (double& z : factor) z = std::exp(deviation * z);
+    }
+    for (std::size_t m = 0; m < damage.size(); ++m)
+      for (std::size_t s = 0; s < samples; ++s) damage[m][s] *= duty.same_place[m] * rates[k].repeats_per_hour * factor[s];
+    duty.of_program.push_back(std::move(damage));
   }
   return duty;
 }

@@ -6,14 +6,17 @@
 // L_k(m, s): repeats until the mode fails under program k alone (life_response.h), over common samples. The programs may
 // wear different places. The sum assumes one place, and c(m) <= 1 corrects it for that by the medians:
 //     c(m) = max over places p of sum_k r_k D_k(p) / sum_k r_k max over p of D_k(p)                          (D2)
+// Where the programs run in a known order, the numerator counts the changes between them (rounds.h, D8).
 // A place is a conductor at a segment. Its damage is that of the wire whose break is its failure: with n wires of which a
 // share q may be lost, of the n q-th wire. The dresspack fails with its first mode, after 1 / max over m of R(m, s) hours.
-// Cycles that open in one program and close in another are not counted. They need a strain in one program that the other
-// does not reach, and occur once per change of the program.
+// Without an order, cycles that open in one program and close in another are not counted. They need a strain in one program
+// that the other does not reach, and occur once per change of the program.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,17 +32,18 @@ struct WireDamage {
   std::vector<std::uint32_t> mode;     ///< (place) index into the modes
   std::vector<std::uint32_t> failing;  ///< (place) the number of broken wires that is its failure, at least 1
   std::string layout;                  ///< digest of sites and places: equal in all programs of one dresspack
+  std::vector<double> worst{};         ///< (mode) damage of the place that fails first; empty: not computed yet
 };
 /// From a life.h5. modes: of its life response. failed_percent: share of wires that a conductor may lose. Errors:
 /// InputError.
 WireDamage wire_damage(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent);
 
-/// A program as it was evaluated.
+/// A program as it was evaluated. Programs with the same result share modes and wires.
 struct EvaluatedProgram {
   std::string job;
   double repeat_seconds = 0;
-  FailureModes modes;
-  WireDamage wires;
+  std::shared_ptr<const FailureModes> modes;
+  std::shared_ptr<const WireDamage> wires;
 };
 
 /// How often it runs in an hour of operation.
@@ -52,7 +56,8 @@ struct Rate {
 struct DutyDamage {
   /// (program) (mode, sample) c(m) r_k(s) / L_k(m, s) [1/h]
   std::vector<std::vector<std::vector<double>>> of_program;
-  std::vector<double> same_place;  ///< (mode) c(m), 1: all programs wear the same place most
+  /// (mode) c(m), 1: all programs wear the same place most, and changes between them do no damage of their own
+  std::vector<double> same_place;
 
   std::size_t samples() const { return of_program.front().front().size(); }
   std::size_t modes() const { return of_program.front().size(); }
@@ -62,20 +67,31 @@ struct DutyDamage {
   std::vector<double> of_first_mode() const;
 };
 
-/// c(m) of one duty at any rates. Refers to the programs.
+/// c(m) of one duty at any rates. Refers to the programs and the round.
 class SamePlace {
  public:
-  /// Precondition: at least one program; all have the same modes and layout.
-  explicit SamePlace(const std::vector<EvaluatedProgram>& programs);
+  /// round: damage of a round of the order; null: none. Precondition: at least one program; all have the same modes and layout.
+  explicit SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDamage* round = nullptr);
   /// (mode) c(m), (D2). repeats_per_hour: (program).
-  std::vector<double> at(const std::vector<double>& repeats_per_hour) const;
+  std::vector<double> at(const std::vector<double>& repeats_per_hour) const { return at(repeats_per_hour, repeats_per_hour); }
+  /// The same with the numerator of (D8). in_rounds: (program, then the round).
+  std::vector<double> at(const std::vector<double>& repeats_per_hour, const std::vector<double>& in_rounds) const;
 
  private:
   const std::vector<EvaluatedProgram>& programs_;
+  const WireDamage* round_;
   std::vector<std::vector<double>> alone_;  ///< (program, mode) max over p of D_k(p)
 };
 
-/// Of one duty. share: of SamePlace. dresspack: names what only this dresspack has (first_failures()).
+/// (mode, sample) of one dresspack.
+using RepeatDamage = std::vector<std::vector<double>>;
+RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dresspack, std::size_t samples);
+
+/// Of one duty. share: of SamePlace. dresspack: names what only this dresspack has (first_failures()). of_repeat:
+/// damage_of_repeat() of each program for it, where they are known.
+DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                        const std::vector<double>& share, const std::string& dresspack, std::size_t samples,
+                        const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat);
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                         const std::vector<double>& share, const std::string& dresspack, std::size_t samples = life_samples);
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,

@@ -187,4 +187,26 @@ TEST_CASE("in service: dresspacks with values of their own live as long as the s
   }
 }
 
+TEST_CASE("in service: the damage of several programs adds up in each mode, and a program mixed with itself is itself") {
+  const auto mode = [](const std::string& name, double log10_life) {
+    LifeResponse response;
+    response.mode = name, response.construction = "hose", response.material = "copper";
+    response.knowledge = prior_of({});
+    response.planned = {{log10_life - 0.1, log10_life, log10_life + 0.1}};
+    response.worst_life = {log10_life};
+    return response;
+  };
+  const std::array<bool, uncertain_count> none{};
+  const VectorXd zero = VectorXd::Zero(uncertain_count);
+  const FailureModes one{mode("a", 5), mode("b", 6)}, other{mode("a", 7), mode("b", 5.2)};
+  constexpr double rounding = 1e-12;
+  const double alone = LifeOverParameters(one, none).log_median_at(zero);
+  CHECK(alone == Approx(5 * std::log(10.0)).epsilon(rounding));
+  CHECK(LifeOverParameters({{one, 12}, {one, 18}}, none).log_median_at(zero) == Approx(alone - std::log(30.0)).epsilon(rounding));
+  // Mode b under both programs, where each program alone would let another mode fail first.
+  const double a = 20e-5 + 200e-7, b = 20e-6 + 200 * std::pow(10, -5.2);
+  REQUIRE(b > a);
+  CHECK(LifeOverParameters({{one, 20}, {other, 200}}, none).log_median_at(zero) == Approx(-std::log(b)).epsilon(rounding));
+}
+
 }  // namespace dresslife::pipeline

@@ -136,3 +136,23 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
   CHECK_THAT(refusal(titles + "A,a,2024-01-01,2025-01-06,failed\n", "2025-06-01"),
              Contains("no dresspack was in use after 2025-06-01"));
 }
+
+TEST_CASE("service records: a dresspack of several programs has their shares of its hours") {
+  const File job("two.yaml",
+                 "motion: {rig: {kind: axial, elongation_percent: 0.2}}\ndresspack: {cable: {name: wire, source: test, radius_mm: "
+                 "0.1, components: [{name: strand, radius_mm: 0.1, helix_radius_mm: 0, material: copper_halved}]}}\n");
+  const std::string name = job.path.string(), titles = "robot;installed;replaced;reason;job\nA;2024-01-01;2025-01-06;failed;";
+  const ServiceTests plant = read(titles + name + " 60 % + " + name + " 25,5 %\nB;2024-01-01;;;" + name + "\n", "2024-01-01");
+  REQUIRE(plant.tests.size() == 2);
+  const auto& programs = plant.tests.front().variants;
+  REQUIRE(programs.size() == 2);
+  CHECK(programs[0].share_of_time == Approx(0.6));
+  CHECK(programs[1].share_of_time == Approx(0.255));
+  CHECK(programs[0].name != programs[1].name);
+  REQUIRE(plant.tests.back().variants.size() == 1);
+  CHECK(plant.tests.back().variants.front().share_of_time == 1);
+  for (const auto& [cell, words] : {std::pair{name + " 70 % + " + name + " 40 %", "plant.csv:2:32: error: the shares of the programs add up to 110 %"},
+                                    {name + " 70 % + 40 %", "'40' is no job with its share"},
+                                    {name + " 70 % + " + name + " 0 %", "is no job with its share"}})
+    CHECK_THAT(refusal(titles + cell + "\n", "2024-01-01"), Contains(words));
+}

@@ -115,6 +115,12 @@ TEST_CASE("a file of duties that contradicts itself is refused at its place") {
             .find("adds up to 120 %") != std::string::npos);
   CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1}\n", "    history: [{duty: dd, hours: 5}]\n"))
             .find("did you mean 'd'?") != std::string::npos);
+  CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1}\n", "    order: [{job: a}, {job: b}]\n"))
+            .find("'b' in the order is no program of duty 'd'") != std::string::npos);
+  CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1}\n", "    order: [{job: a}]\n")).find("has no change to another") !=
+        std::string::npos);
+  CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1}\n", "    order: [{job: a, repeats: 0}]\n")).find("repeats") !=
+        std::string::npos);
   CHECK(refusal(of_programs("      - {job: a, repeat_per_hour: 1}\n")).find("did you mean 'repeats_per_hour'") != std::string::npos);
   CHECK(refusal("study: s\nduties: []\n").find("duties") != std::string::npos);
   CHECK(refusal("duties: [{name: d, programs: [{job: a, percent_of_time: 5}]}]\n").find("study") != std::string::npos);

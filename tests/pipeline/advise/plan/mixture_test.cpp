@@ -40,7 +40,7 @@ WireDamage wires_of(const std::vector<std::vector<double>>& damage) {
 }
 
 EvaluatedProgram program(const std::string& name, double median, const std::vector<std::vector<double>>& damage) {
-  return {name, 60, {mode_of(median)}, wires_of(damage)};
+  return {name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(median)}), std::make_shared<const WireDamage>(wires_of(damage))};
 }
 
 const std::vector<std::vector<double>> first_place{{3, 2, 1}, {0, 0, 0}}, second_place{{0, 0, 0}, {3, 2, 1}};
@@ -88,9 +88,10 @@ TEST_CASE("damage of programs adds up at one place, and not at two") {
 
 TEST_CASE("the first of two modes decides in each sample, and programs may wear different modes") {
   const auto with_modes = [](const std::string& name, double one, double other) {
-    EvaluatedProgram of{name, 60, {mode_of(one, "wires of one"), mode_of(other, "wires of other")}, wires_of({{1}, {1}})};
-    of.wires.mode = {0, 1}, of.wires.failing = {1, 1};
-    return of;
+    WireDamage wires = wires_of({{1}, {1}});
+    wires.mode = {0, 1}, wires.failing = {1, 1};
+    return EvaluatedProgram{name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(one, "wires of one"), mode_of(other, "wires of other")}),
+                            std::make_shared<const WireDamage>(std::move(wires))};
   };
   const EvaluatedProgram first = with_modes("first", 5, 12), second = with_modes("second", 12, 4);
   const DutyDamage duty = damage_under({first, second}, {{1, 0}, {1, 0}}, "", many);
