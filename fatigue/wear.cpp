@@ -17,7 +17,7 @@ bool is_ring(const std::string& obstacle) { return obstacle.starts_with("ring ")
 
 Counterface counterface(const std::string& obstacle) {
   if (is_ring(obstacle)) return Counterface::ring;
-  for (const Counterface one : {Counterface::floor, Counterface::dresspack, Counterface::cell})
+  for (const Counterface one : {Counterface::floor, Counterface::dresspack, Counterface::cell, Counterface::hose})
     if (obstacle == word(one)) return one;
   return Counterface::robot;
 }
@@ -120,6 +120,13 @@ std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack) {
   }
   if (!worn.material || worn.material->wear.empty()) return {};
   return worn;
+}
+
+std::optional<WornMaterial> jacket_of(const pipeline::Dresspack& dresspack, const pipeline::Component& cable) {
+  if (!cable.jacket) return {};
+  const pipeline::Material* const material = find_material(dresspack, cable.jacket->material);
+  if (!material || material->wear.empty()) return {};
+  return WornMaterial{{cable.radius, cable.jacket->thickness, 0, 0}, material};
 }
 
 const pipeline::WearRate& wear_rate(const pipeline::Material& material, const std::string& obstacle) {
