@@ -409,12 +409,14 @@ std::string meant_section(const std::string& phrase) {
              : "";
 }
 
-/// Of "jacket pur", a name of config/materials; empty: none is known.
-std::string jacket_material(const std::string& words) {
+/// Of "jacket pur 1.1 mm", a name of config/materials; empty: none is known.
+std::string jacket_material(const std::string& phrase) {
   static const std::vector<std::pair<std::regex, const char*>> materials{
-      {std::regex(".* (pur|tpu|polyurethane).*"), "polyurethane"}, {std::regex(".* pvc.*"), "pvc"}, {std::regex(".* tpe.*"), "tpe"}};
-  for (const auto& [pattern, material] : materials)
-    if (std::regex_match(words, pattern)) return material;
+      {std::regex(R"(\b(pur|tpu|polyurethane)\b)"), "polyurethane"},
+      {std::regex(R"(\bpvc\b)"), "pvc"},
+      {std::regex(R"(\btpe\b)"), "tpe"}};
+  for (const auto& [word, material] : materials)
+    if (std::regex_search(phrase, word)) return material;
   return "";
 }
 
@@ -444,7 +446,7 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
       if (std::regex_match(found[1].str(), words)) {
         std::vector<std::pair<const char*, std::string>> keys{{key, found[2]}};
         if (key == std::string_view("jacket_thickness_mm"))
-          if (const std::string material = jacket_material(found[1]); !material.empty()) keys.emplace_back("jacket_material", material);
+          if (const std::string material = jacket_material(phrase); !material.empty()) keys.emplace_back("jacket_material", material);
         return keys;
       }
   const std::string meant = meant_section(phrase);
