@@ -11,7 +11,7 @@ namespace {
 
 using pipeline::Counterface;
 
-constexpr double on_links = 1, at_rings = 0.25;  // footprint over diameter
+constexpr double on_links = 1, at_rings = 0.25, in_hose = 10;  // footprint over diameter
 
 bool is_ring(const std::string& obstacle) { return obstacle.starts_with("ring "); }
 
@@ -145,7 +145,8 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
   const WornLayer& layer = worn.layer;
   const Grid grid(patches, 2 * layer.radius);
   const auto footprint = [&](const std::string& obstacle) {
-    return grid.cells_of((is_ring(obstacle) ? at_rings : on_links) * 2 * layer.radius);
+    const double share = is_ring(obstacle) ? at_rings : obstacle == word(Counterface::hose) ? in_hose : on_links;
+    return grid.cells_of(share * 2 * layer.radius);
   };
   std::map<std::string, Field> fields;
   for (const RubbedPatch& patch : patches)

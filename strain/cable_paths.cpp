@@ -469,7 +469,7 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
     cable.pressing[along_at(i, sample)] = static_cast<float>(press);
   }
   if (cable.rubbing)
-    cable.rubbing->move_across(sample, state.press, state.offset, cable.line_load,
+    cable.rubbing->move_across(sample, loose_->cable(state_index), state, cable.line_load,
                                loose_->length() / static_cast<double>(elements));
 }
 

@@ -1067,8 +1067,8 @@ TEST_CASE("life.h5: of the cables in a hose the one whose jacket is worn through
   CHECK(modes[0].place == "cable 2");
   CHECK(modes[0].position_from_tool == Approx(0.85));
   CHECK(modes[0].step == "weld");
-  // A(t, 0) d / (k N s), as of a hose
-  const double area = 4.0 / 3 * 1e-3 * std::sqrt(2 * cable.radius * 1e-3), repeats = area * 2 * cable.radius / (1e-14 * 1e4);
+  // A(t, 0) l / (k N s), with a footprint of ten diameters
+  const double area = 4.0 / 3 * 1e-3 * std::sqrt(2 * cable.radius * 1e-3), repeats = area * 20 * cable.radius / (1e-14 * 1e4);
   constexpr double strata = 1e-3;  // 10,000 samples
   CHECK(modes[0].hours[1] == Approx(hours(repeats, duration)).epsilon(strata));
   f.jackets[1].cable = 2;

@@ -105,7 +105,7 @@ TEST_CASE("wear: the jacket of a cable drawn over an arc is worn through when k 
   const std::optional<WornMaterial> jacket = jacket_of(dresspack, cable);
   REQUIRE(jacket);
   // F = T kappa per length, drawn by s over an arc of half a metre.
-  constexpr double tension = 20, curvature = 2, way = 0.01, arc = 0.5;
+  constexpr double tension = 20, curvature = 2, way = 0.01, arc = 0.5;  // longer than the footprint
   const Abrasion worn = abrasion(*jacket, rubbed(tension * curvature * way * arc, 0.5, 0.5 + arc, 5e-3, 0, 1, "hose"));
   const double area = 4.0 / 3 * 1e-3 * std::sqrt(2 * 5e-3 * 1e-3);  // a circle's segment as a parabola
   CHECK(worn.repeats == Approx(area / (2 * rate * tension * curvature * way)));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "strain/cable_paths.h"
 #include "tests/catch.h"
@@ -48,7 +49,7 @@ struct Run {
   std::size_t segments;
   CablePaths paths;
 
-  Run(const Dresspack& dresspack, std::size_t segments, std::size_t samples, const Motion& motion)
+  Run(const Dresspack& dresspack, std::size_t segments, std::size_t samples, const Motion& motion, std::size_t rehearsals = 1)
       : construction(dresspack, Kinematics::exact),
         segments(segments),
         paths(construction, plan_slip(construction, {Slip::friction, Slip::free}, length), {.rub = true},
@@ -58,7 +59,7 @@ struct Run {
       for (std::size_t i = 0; i < segments; ++i) history.set(i, t, motion(arcs()[i], t));
     paths.record_rubbing();
     CablePaths* const all = &paths;
-    CablePaths::rehearse({&all, 1}, {history});
+    for (std::size_t k = 0; k < rehearsals; ++k) CablePaths::rehearse({&all, 1}, {history});
     paths.add({history});
     paths.finish();
   }
@@ -101,12 +102,18 @@ TEST_CASE("a cable that is drawn over an arc rubs with its tension, the arc's cu
 }
 
 TEST_CASE("a hose that does not move wears no jacket") {
-  const Run run(hose(), 16, 40, [](double arc, std::size_t) { return Deformation{0.5 * arc, 0.8, 0.3, 1e-3}; });
-  double most = 0;
-  for (std::size_t k = 0; k < run.paths.cables(); ++k)
-    for (const double work : run.work_per_length(k)) most = std::max(most, work);
-  // Loose cables come to rest within micrometres: with 5 N/m some 1e-5 N, a thousandth of what a motion does.
-  CHECK(most < 1e-4);
+  const auto still = [](double arc, std::size_t) { return Deformation{0.5 * arc, 0.8, 0.3, 1e-3}; };
+  const Run held(drawn(10), 16, 40, still);
+  CHECK(held.paths.rubbing(0)->patches().empty());
+  const auto largest = [&](std::size_t rehearsals) {
+    const Run run(hose(), 16, 40, still, rehearsals);
+    double most = 0;
+    for (std::size_t k = 0; k < run.paths.cables(); ++k) most = std::max(most, std::ranges::max(run.work_per_length(k)));
+    return most;
+  };
+  // Loose cables creep to rest under their drag. A rehearsal lasts 1.6 s.
+  const double soon = largest(1);
+  CHECK(largest(100) < 0.01 * soon);
 }
 
 TEST_CASE("jackets rub by as much with twice the segments") {
@@ -116,44 +123,71 @@ TEST_CASE("jackets rub by as much with twice the segments") {
     return Deformation{(0.8 + 0.4 * std::sin(w)) * std::sin(std::numbers::pi * z), 0.5 * std::cos(w) * std::cos(std::numbers::pi * z / 2),
                        0.4 * std::sin(w), 1e-4 * std::cos(w)};
   };
+  // The mean over the footprint of ten diameters, of which wear is computed.
   const auto largest = [&](std::size_t segments) {
     const Run run(hose(), segments, samples, motion);
+    const auto wide = static_cast<std::size_t>(std::lround(0.106 * static_cast<double>(segments) / length));
     double most = 0;
-    for (std::size_t k = 0; k < run.paths.cables(); ++k) most = std::max(most, std::ranges::max(run.work_per_length(k)));
+    for (std::size_t k = 0; k < run.paths.cables(); ++k) {
+      const std::vector<double> work = run.work_per_length(k);
+      for (std::size_t i = 0; i + wide <= segments; ++i)
+        most = std::max(most, std::accumulate(work.begin() + static_cast<std::ptrdiff_t>(i),
+                                              work.begin() + static_cast<std::ptrdiff_t>(i + wide), 0.0) /
+                                  static_cast<double>(wide));
+    }
     return most;
   };
-  constexpr double refined = 0.1;  // of issue 35; wear rates are known to a factor of 6
-  const double coarse = largest(32);
+  constexpr double refined = 0.1;  // wear rates are known to a factor of 6
+  const double coarse = largest(64);
   CHECK(coarse > 0.1);  // [N]
-  CHECK(largest(64) == Approx(coarse).epsilon(refined));
+  CHECK(largest(128) == Approx(coarse).epsilon(refined));
 }
 
-TEST_CASE("a cable that moves across its hose rubs with its pressure, on the side to which it lies") {
+namespace {
+
+/// On a ring of 18 mm between a core and a wall.
+LooseCable in_ring() {
+  LooseCable cable;
+  cable.place = {18e-3, 0};
+  cable.nearest = 17e-3, cable.farthest = 20e-3;
+  return cable;
+}
+
+/// (node) all at one place, pressed alike.
+CableState pressed_at(double x, double y, double press, std::size_t nodes) {
+  CableState state;
+  state.press.assign(nodes, press);
+  for (std::size_t i = 0; i < nodes; ++i) state.offset.insert(state.offset.end(), {x - in_ring().place[0], y - in_ring().place[1]});
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("a cable that moves around its hose rubs with its pressure, on the side of the wall or the core") {
   constexpr std::size_t elements = 8, segments = 2, steps = 360;
-  constexpr double press = 20, load = 5, radius = 3e-3, spacing = 0.01;
+  constexpr double press = 20, load = 5, spacing = 0.01;
+  const double radius = GENERATE(17e-3, 20e-3);
   CableRubbing rubbing(segments, steps + 1);
-  const std::vector<double> pressed(elements + 1, press);
   for (std::size_t t = 0; t <= steps; ++t) {
-    std::vector<double> offset;
     const double angle = 2 * std::numbers::pi * static_cast<double>(t) / steps;
-    for (std::size_t i = 0; i <= elements; ++i) offset.insert(offset.end(), {radius * std::cos(angle), radius * std::sin(angle)});
-    rubbing.move_across(t, pressed, offset, load, spacing);
+    rubbing.move_across(t, in_ring(), pressed_at(radius * std::cos(angle), radius * std::sin(angle), press, elements + 1), load, spacing);
   }
   double sum = 0;
   const double whole = (press + load) * 2 * std::numbers::pi * radius * elements * spacing;
   for (const CableRubbing::Patch& patch : rubbing.patches()) {
     sum += patch.work;
     CHECK(patch.work == Approx(whole / segments / CableRubbing::sectors).epsilon(0.11));  // one of ten steps at a border
+    // In each segment the first sector is passed first: at the wall, and half a turn later at the core.
+    const double turned = std::fmod(patch.angle + (radius > 18e-3 ? 0 : std::numbers::pi), 2 * std::numbers::pi);
+    CHECK(std::abs(static_cast<double>(patch.sample) * 2 * std::numbers::pi / steps - turned) <= CableRubbing::width());
   }
   CHECK(sum == Approx(whole).epsilon(1e-4));  // chords of 1 degree
 }
 
 TEST_CASE("a cable that leaves one wall for another does not rub on its way") {
   CableRubbing rubbing(1, 3);
-  const std::vector<double> at_wall{10, 10, 10}, away{0, 0, 0}, left{-2e-3, 0, -2e-3, 0, -2e-3, 0}, middle(6, 0.0),
-      right{2e-3, 0, 2e-3, 0, 2e-3, 0};
-  rubbing.move_across(0, at_wall, left, 0, 0.01);
-  rubbing.move_across(1, away, middle, 0, 0.01);
-  rubbing.move_across(2, at_wall, right, 0, 0.01);
+  rubbing.move_across(0, in_ring(), pressed_at(-20e-3, 0, 10, 3), 0, 0.01);
+  rubbing.move_across(1, in_ring(), pressed_at(0, 0, 0, 3), 0, 0.01);
+  rubbing.move_across(2, in_ring(), pressed_at(20e-3, 0, 10, 3), 0, 0.01);
   CHECK(rubbing.patches().empty());
 }
