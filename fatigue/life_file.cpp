@@ -589,6 +589,8 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c) {
 /// that are.
 std::string write_unvalidated(const Context& c, const std::vector<double>& lives) {
   std::vector<pipeline::UnvalidatedMode> modes = abrasion_modes(c.strain, c.job, lives);
+  const auto jackets = jacket_modes(c.strain, c.job, lives);
+  modes.insert(modes.end(), jackets.begin(), jackets.end());
   const auto rated = rating_modes(c.strain, c.job, lives);
   modes.insert(modes.end(), rated.begin(), rated.end());
   const auto wall = write_hose(c);
@@ -597,8 +599,11 @@ std::string write_unvalidated(const Context& c, const std::vector<double>& lives
   c.life.attribute("not_evaluated", not_evaluated(c.strain, c.job));
   std::string summary;
   for (const pipeline::UnvalidatedMode& mode : modes)
-    if (mode.mode == pipeline::UnvalidatedMode::wall || mode.mode == pipeline::UnvalidatedMode::abrasion)
-      summary += fmt::format("; the {} {}", mode.mode == pipeline::UnvalidatedMode::wall ? "hose's wall" : "surface",
+    if (mode.mode != pipeline::UnvalidatedMode::rating)
+      summary += fmt::format("; the {} {}",
+                             mode.mode == pipeline::UnvalidatedMode::wall     ? "hose's wall"
+                             : mode.mode == pipeline::UnvalidatedMode::jacket ? "worst jacket"
+                                                                              : "surface",
                              std::isinf(mode.hours[1]) ? "is not damaged"
                                                        : "lasts " + pipeline::readable(mode.hours[1]) + " h");
   return summary;

@@ -9,11 +9,13 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "fatigue/damage.h"
 #include "fatigue/inspection.h"
 #include "fatigue/life_distribution.h"
 #include "fatigue/rated_cables.h"
+#include "fatigue/verdict.h"
 #include "fatigue/wear.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
@@ -28,7 +30,38 @@ using pipeline::FileReader;
 using pipeline::LifeResponse;
 using pipeline::UnvalidatedMode;
 
-constexpr const char* table_of_work = "/rubbing/work";
+constexpr const char *table_of_work = "/rubbing/work", *work_of_jackets = "/jacket/work";
+
+/// Throws for patches that are none. group: of the file, "/rubbing".
+class PatchCheck {
+ public:
+  PatchCheck(const FileReader& strain, std::string group, std::span<const double> place)
+      : strain_(strain), group_(std::move(group)), place_(place) {}
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw pipeline::InputError(strain_.where(), group_ + ": " + what, "make the file again with dresslife-strain");
+  }
+  /// owner: a dresspack or a cable of the file, of so many.
+  void see(std::size_t row, std::int32_t owner, std::size_t owners, double work) {
+    const double* const p = place_.data() + 4 * row;
+    const auto is_length = [](double value, double longest) { return value > 0 && value <= longest; };
+    if (owner < 0 || static_cast<std::size_t>(owner) >= owners || !(work >= 0) || !is_length(p[0], most) ||
+        !is_length(p[1], most) || !(p[2] >= 0 && p[2] <= turn) || !is_length(p[3], turn) || p[3] != place_[3])
+      refuse(fmt::format("row {} is no patch of a dresspack", row + 1));
+    shortest_ = std::min(shortest_, p[1]), end_ = std::max(end_, p[0] + p[1]);
+  }
+  void finish() const {
+    constexpr double most_patches = 5e7;  // 0.4 GB
+    if (!place_.empty() && end_ / shortest_ * turn / place_[3] > most_patches) refuse("its patches are too small to hold");
+  }
+
+ private:
+  static constexpr double turn = 2 * std::numbers::pi, most = 1e3;  // [m] of a dresspack
+  const FileReader& strain_;
+  std::string group_;
+  std::span<const double> place_;
+  double shortest_ = most, end_ = 0;
+};
 
 /// (dresspack) the patches of each.
 std::vector<std::vector<RubbedPatch>> patches_of(const FileReader& strain, std::size_t dresspacks) {
@@ -37,27 +70,32 @@ std::vector<std::vector<RubbedPatch>> patches_of(const FileReader& strain, std::
              time = strain.read<double>("/rubbing/time");
   const auto obstacle = strain.read<std::string>("/rubbing/obstacle");
   std::vector<std::vector<RubbedPatch>> patches(dresspacks);
-  const double turn = 2 * std::numbers::pi;
-  constexpr double most = 1e3;          // [m] of a dresspack
-  constexpr double most_patches = 5e7;  // 0.4 GB
-  const auto refuse = [&](const std::string& what) {
-    throw pipeline::InputError(strain.where(), "/rubbing: " + what,
-                               "make the file again with dresslife-strain");
-  };
-  const auto is_length = [](double value, double longest) { return value > 0 && value <= longest; };
-  double shortest = most, end = 0;
+  PatchCheck check(strain, "/rubbing", place);
   for (std::size_t k = 0; k < work.size(); ++k) {
     const double* const p = &place[4 * k];
-    if (dresspack[k] < 0 || static_cast<std::size_t>(dresspack[k]) >= dresspacks || !(work[k] >= 0) ||
-        !is_length(p[0], most) || !is_length(p[1], most) || !(p[2] >= 0 && p[2] <= turn) ||
-        !is_length(p[3], turn) || p[3] != place[3])
-      refuse(fmt::format("row {} is no patch of a dresspack", k + 1));
-    shortest = std::min(shortest, p[1]), end = std::max(end, p[0] + p[1]);
-    patches[static_cast<std::size_t>(dresspack[k])].push_back(
-        {p[0], p[1], p[2], p[3], obstacle[k], work[k], time[k]});
+    check.see(k, dresspack[k], dresspacks, work[k]);
+    patches[static_cast<std::size_t>(dresspack[k])].push_back({p[0], p[1], p[2], p[3], obstacle[k], work[k], time[k]});
   }
-  if (!place.empty() && end / shortest * turn / place[3] > most_patches)
-    refuse("its patches are too small to hold");
+  check.finish();
+  return patches;
+}
+
+/// (cable of the file) the patches of its jacket.
+std::vector<std::vector<RubbedPatch>> patches_of_jackets(const FileReader& strain, std::size_t cables,
+                                                         const std::vector<double>& time) {
+  const auto cable = strain.read<std::int32_t>("/jacket/cable");
+  const auto place = strain.read<double>("/jacket/place"), work = strain.read<double>(work_of_jackets);
+  const auto sample = strain.read<std::uint32_t>("/jacket/sample");
+  std::vector<std::vector<RubbedPatch>> patches(cables);
+  PatchCheck check(strain, "/jacket", place);
+  for (std::size_t k = 0; k < work.size(); ++k) {
+    const double* const p = &place[4 * k];
+    check.see(k, cable[k], cables, work[k]);
+    if (sample[k] >= time.size()) check.refuse(fmt::format("row {} is of no sample", k + 1));
+    patches[static_cast<std::size_t>(cable[k])].push_back(
+        {p[0], p[1], p[2], p[3], std::string(word(pipeline::Counterface::hose)), work[k], time[sample[k]]});
+  }
+  check.finish();
   return patches;
 }
 
@@ -104,6 +142,9 @@ struct Program {
         step(strain.read<std::int32_t>("/program/step")),
         text(strain.read<std::string>("/program/text")) {}
   double repeat() const { return time.empty() ? 0 : time.back() - time.front(); }
+  std::size_t sample_at(double when) const {
+    return static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), when) - time.begin());
+  }
   void put_sample(UnvalidatedMode& mode, std::size_t sample) const {
     if (sample < step.size() && step[sample] >= 0) mode.step = text[static_cast<std::size_t>(step[sample])];
   }
@@ -198,11 +239,48 @@ std::vector<UnvalidatedMode> abrasion_modes(const FileReader& strain, const pipe
       own = pipeline::first_failures(
           {response_of(mode.mode, worn.repeats, worn.log10_spread, job, mode.dresspack)}, "", lives.size());
       put_place(mode, strain, d, worn.position);
-      program.put_sample(mode, static_cast<std::size_t>(
-                                   std::lower_bound(program.time.begin(), program.time.end(), worn.time) -
-                                   program.time.begin()));
+      program.put_sample(mode, program.sample_at(worn.time));
     }
     if (job.inspection.interval_weeks > 0) put_inspection(mode, visible_from(*material, worn, job.inspection), own, program.repeat(), job);
+    set_lives(mode, std::move(own), lives, program.repeat());
+  }
+  return modes;
+}
+
+std::vector<UnvalidatedMode> jacket_modes(const FileReader& strain, const pipeline::Job& job,
+                                          const std::vector<double>& lives) {
+  std::vector<UnvalidatedMode> modes;
+  if (!strain.has(work_of_jackets)) return modes;
+  const auto names = strain.read<std::string>("/cable/name");
+  const auto dresspack = strain.read<std::int32_t>("/cable/dresspack"), component = strain.read<std::int32_t>("/cable/component");
+  const Program program(strain);
+  const auto patches = patches_of_jackets(strain, names.size(), program.time);
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    const pipeline::Dresspack& mounted = job.dresspacks[d].dresspack;
+    if (!is_hose(mounted)) continue;
+    std::optional<std::size_t> first;
+    Abrasion worst;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const auto part = static_cast<std::size_t>(component[k]);
+      if (static_cast<std::size_t>(dresspack[k]) != d || part >= mounted.components.size()) continue;
+      const std::optional<WornMaterial> jacket = jacket_of(mounted, mounted.components[part]);
+      if (!jacket) continue;
+      const Abrasion worn = abrasion(*jacket, patches[k]);
+      if (!first || worn.repeats < worst.repeats) first = k, worst = worn;
+    }
+    if (!first) continue;
+    UnvalidatedMode& mode = modes.emplace_back();
+    mode.mode = UnvalidatedMode::jacket;
+    mode.dresspack = pipeline::name_among(job, d);
+    std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
+    if (std::isfinite(worst.repeats)) {
+      mode.place = path_in_job(job, names[*first]).inside;
+      mode.time = worst.time;
+      own = pipeline::first_failures({response_of(mode.mode, worst.repeats, worst.log10_spread, job, mode.dresspack)}, "",
+                                     lives.size());
+      put_place(mode, strain, d, worst.position);
+      program.put_sample(mode, program.sample_at(worst.time));
+    }
     set_lives(mode, std::move(own), lives, program.repeat());
   }
   return modes;
@@ -261,7 +339,8 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job) {
     if (of_twist == 0) add("twist of " + part.name);
     if (of_twist == std::ssize(part.ratings)) add("bending of " + part.name);
   };
-  bool cables = false;
+  std::vector<std::string> bare;  // cables whose jackets have no life
+  std::size_t cables = 0;
   for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
     const pipeline::Dresspack& dresspack = mounted.dresspack;
     for (const pipeline::Component& part : dresspack.components)
@@ -271,17 +350,20 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job) {
     else if (dresspack.core_diameter > 0)
       add(fmt::format("the core of {:.4g} mm", 1e3 * dresspack.core_diameter));
     if (is_hose(dresspack) && dresspack.hose_material.empty()) add(UnvalidatedMode::wall);
-    cables = cables || std::any_of(dresspack.components.begin(), dresspack.components.end(),
-                                   [](const pipeline::Component& part) {
-                                     return !part.components.empty() ||
-                                            (part.plain && part.plain->kind == pipeline::PlainKind::cable);
-                                   });
+    for (const pipeline::Component& part : dresspack.components) {
+      if (part.components.empty() && !(part.plain && part.plain->kind == pipeline::PlainKind::cable)) continue;
+      ++cables;
+      const bool rubs = !part.components.empty() && strain.has(work_of_jackets);
+      if (!rubs || !jacket_of(dresspack, part)) bare.push_back(part.name);
+    }
   }
   const bool worn = strain.has(table_of_work) &&
                     std::all_of(job.dresspacks.begin(), job.dresspacks.end(),
                                 [](const auto& mounted) { return worn_of(mounted.dresspack).has_value(); });
   if (!worn) add(UnvalidatedMode::abrasion);
-  if (cables) add("jackets of the cables");
+  if (!bare.empty() && bare.size() == cables) add("jackets of the cables");
+  else
+    for (const std::string& cable : bare) add("jacket of " + cable);
   for (const char* always : {"kinks", "corkscrew", "fretting and grip at clamps", "connectors"}) add(always);
   return fmt::format("{}", fmt::join(names, ", "));
 }

@@ -21,6 +21,11 @@ std::vector<pipeline::UnvalidatedMode> abrasion_modes(const pipeline::FileReader
                                                       const pipeline::Job& job,
                                                       const std::vector<double>& lives);
 
+/// Wear of the cables' jackets in each hose, of the cable that is worn through first. Jackets without thickness or wear rates
+/// are left out. lives: as above. Errors: InputError for a patch that lies nowhere.
+std::vector<pipeline::UnvalidatedMode> jacket_modes(const pipeline::FileReader& strain, const pipeline::Job& job,
+                                                    const std::vector<double>& lives);
+
 /// The ends of what makers promise of the cables without described wires (rated_cables.h), one mode for each. lives: as above;
 /// the damage exponent is sampled beside them. Errors: InputError for deformations that are not of the dresspack's segments.
 std::vector<pipeline::UnvalidatedMode> rating_modes(const pipeline::FileReader& strain,

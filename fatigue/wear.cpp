@@ -11,13 +11,13 @@ namespace {
 
 using pipeline::Counterface;
 
-constexpr double on_links = 1, at_rings = 0.25;  // footprint over diameter
+constexpr double on_links = 1, at_rings = 0.25, in_hose = 10;  // footprint over diameter
 
 bool is_ring(const std::string& obstacle) { return obstacle.starts_with("ring "); }
 
 Counterface counterface(const std::string& obstacle) {
   if (is_ring(obstacle)) return Counterface::ring;
-  for (const Counterface one : {Counterface::floor, Counterface::dresspack, Counterface::cell})
+  for (const Counterface one : {Counterface::floor, Counterface::dresspack, Counterface::cell, Counterface::hose})
     if (obstacle == word(one)) return one;
   return Counterface::robot;
 }
@@ -122,6 +122,13 @@ std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack) {
   return worn;
 }
 
+std::optional<WornMaterial> jacket_of(const pipeline::Dresspack& dresspack, const pipeline::Component& cable) {
+  if (!cable.jacket) return {};
+  const pipeline::Material* const material = find_material(dresspack, cable.jacket->material);
+  if (!material || material->wear.empty()) return {};
+  return WornMaterial{{cable.radius, cable.jacket->thickness, 0, 0}, material};
+}
+
 const pipeline::WearRate& wear_rate(const pipeline::Material& material, const std::string& obstacle) {
   const auto of = [&](Counterface against) {
     return std::find_if(material.wear.begin(), material.wear.end(),
@@ -138,7 +145,8 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
   const WornLayer& layer = worn.layer;
   const Grid grid(patches, 2 * layer.radius);
   const auto footprint = [&](const std::string& obstacle) {
-    return grid.cells_of((is_ring(obstacle) ? at_rings : on_links) * 2 * layer.radius);
+    const double share = is_ring(obstacle) ? at_rings : obstacle == word(Counterface::hose) ? in_hose : on_links;
+    return grid.cells_of(share * 2 * layer.radius);
   };
   std::map<std::string, Field> fields;
   for (const RubbedPatch& patch : patches)

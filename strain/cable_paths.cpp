@@ -146,6 +146,12 @@ int CablePaths::component(std::size_t cable) const {
   return construction_.layers()[construction_.parts()[cables_[cable].part].layer].component;
 }
 
+void CablePaths::record_rubbing() {
+  assert(next_ == 0);
+  for (Cable& cable : cables_)
+    if (cable.rubs) cable.rubbing.emplace(lengths_.size(), all_);
+}
+
 void CablePaths::share_loose(const CablePaths& other) {
   assert(next_ == 0 && other.next_ == 0);
   if (!loose_ || !other.loose_ || !loose_->same_cables(*other.loose_)) return;
@@ -243,6 +249,7 @@ void CablePaths::add_held(const SpanBlock& block) {
         cable.along[at] = cable.radial_share * (ratio / (1 + cable.slack) - 1);
         cable.pressing[at] =
             static_cast<float>(std::hypot(columns.curvature1[t], columns.curvature2[t]) + coiled);
+        if (cable.rubbing) cable.rubbing->touch(segment, next_ + t, columns.curvature2[t], -columns.curvature1[t]);
       }
     }
   }
@@ -461,6 +468,9 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
     cable.along[along_at(i, sample)] = (1 + gain) / free_length - 1;
     cable.pressing[along_at(i, sample)] = static_cast<float>(press);
   }
+  if (cable.rubbing)
+    cable.rubbing->move_across(sample, loose_->cable(state_index), state, cable.line_load,
+                               loose_->length() / static_cast<double>(elements));
 }
 
 namespace {
@@ -541,7 +551,7 @@ void CablePaths::slide(Cable& cable) {
   std::vector<double> lengths = lengths_;
   if (!cable.rubs) lengths = {std::accumulate(lengths_.begin(), lengths_.end(), 0.0)};
   SlidingLine line(lengths, cable.axial_stiffness, cable.base_grip, cable.tool_grip);
-  std::vector<double> unslid(segments), limits(segments), held(segments, 0.0);
+  std::vector<double> unslid(segments), limits(segments), held(segments, 0.0), slid(segments);
   const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
   std::array<double, 2> before{};
   std::vector<double> ended(segments, without_limit);
@@ -582,6 +592,7 @@ void CablePaths::slide(Cable& cable) {
           if (cable.loose) break;  // its limits do not depend on its tension
         }
         line.keep();
+        if (cable.rubbing && (last || t + 1 == next_)) slide_past(cable, line, unslid, t, last, slid);
       }
       if (!last) continue;
       if (!cable.rubs) cable.strain[t] = line.strain(0) - by_twist;
@@ -590,6 +601,21 @@ void CablePaths::slide(Cable& cable) {
     }
   }
   cable.grip_slip = {line.travel_at_base() - before[0], line.travel_at_tool() - before[1]};
+}
+
+/// The work of a sample along the hose (W41). unslid: strains if nothing slid. slid: (segment) from its place until the sample
+/// before [m]; gets that until this one.
+void CablePaths::slide_past(Cable& cable, const SlidingLine& line, std::span<const double> unslid, std::size_t sample,
+                            bool counts, std::vector<double>& slid) const {
+  double begin = line.let_in_at_base();
+  for (std::size_t i = 0; i < lengths_.size(); ++i) {
+    const double end = begin + lengths_[i] * (line.strain(i) - unslid[i]), middle = (begin + end) / 2;
+    const double pressing = cable.pressing[along_at(i, sample)];
+    const double load = cable.line_load + (cable.loose ? pressing : std::max(0.0, line.force()[i]) * pressing);
+    if (counts) cable.rubbing->slide_along(i, sample, load * lengths_[i] * std::abs(middle - slid[i]));
+    slid[i] = middle;
+    begin = end;
+  }
 }
 
 /// Strains that cause forces. A cable's force grows with its strain, so the largest strain gives the largest force.

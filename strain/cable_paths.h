@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "pipeline/cable/cable_pulls.h"
+#include "strain/cable_rubbing.h"
 #include "strain/loose/loose_cables.h"
 #include "strain/path_rates.h"
 #include "strain/segment_motion.h"
@@ -82,6 +83,8 @@ class CablePaths {
   /// find_bent().
   std::vector<int> bent_most(std::size_t segment) const;
 
+  /// Before the first sample: cables with friction record where they rub, see rubbing().
+  void record_rubbing();
   void add(const SpanBlock& block);  ///< in order of time
   /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone. All that
   /// share loose cables are among them.
@@ -114,6 +117,8 @@ class CablePaths {
   int component(std::size_t cable) const;
   /// Both ways along, in a repeat of the motion, at base and tool clamp [m].
   std::array<double, 2> grip_slip(std::size_t cable) const { return cables_[cable].grip_slip; }
+  /// Where its jacket rubs in one repeat; null: it was not recorded.
+  const CableRubbing* rubbing(std::size_t cable) const { return cables_[cable].rubbing ? &*cables_[cable].rubbing : nullptr; }
   /// Radius of the helix into which it can wind [m]; 0: it is held.
   double room(std::size_t cable) const { return cables_[cable].room; }
   /// Growth of its path over the motion, relative to its length as installed, without its slack: the least, if it
@@ -147,6 +152,7 @@ class CablePaths {
     std::vector<double> strain{};   ///< (sample) of all segments; before finish(): unslid
     std::vector<double> along{};    ///< (sample, segment) the same, each segment its own: with friction
     std::vector<float> pressing{};  ///< (sample, segment) curvature [1/m], or press of a loose one [N/m]
+    std::optional<CableRubbing> rubbing{};
   };
 
   /// Loose cables lie in at least so many segments: a hose of fewer is cut as if it had them.
@@ -175,6 +181,8 @@ class CablePaths {
   /// could.
   double pulled_by_twist(const Cable& cable, double twist) const;
   void slide(Cable& cable);
+  void slide_past(Cable& cable, const SlidingLine& line, std::span<const double> unslid, std::size_t sample, bool counts,
+                  std::vector<double>& slid) const;
   void ask_for_forces();
 
   const Construction& construction_;

@@ -86,6 +86,8 @@ class Evaluation {
              const Scratch& scratch = {});
 
   std::size_t segments() const { return lengths_.size(); }
+  const std::vector<double>& lengths() const { return lengths_; }  ///< (segment) [m]
+  const std::vector<double>& arcs() const { return arcs_; }  ///< (segment) of centres from the dresspack's base clamp [m]
   /// (segment) arc from the dresspack's base clamp at which its wires are evaluated [m].
   const std::vector<double>& places() const { return places_; }
   std::size_t sites() const {
@@ -128,6 +130,7 @@ class Evaluation {
   /// What the cables do. Precondition: end_first_pass(), or evaluate(), which does the same.
   /// Before the first sample, see CablePaths.
   void share_loose(const Evaluation& other) { cables_.share_loose(other.cables_); }
+  void record_rubbing() { cables_.record_rubbing(); }
   const CablePaths& cables() const { return cables_; }
   void wind(std::uint64_t seed) { cables_.wind(seed); }
   void find_bent() { cables_.find_bent(); }  ///< see CablePaths

@@ -134,6 +134,7 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
     // Strain of each cable and the three that make its force, strain and pressing along one that rubs
     // (cable_paths.h); curvature along a loose one (segment_rows.h), and the rows of one segment.
     cable_rows += begun * (4 * counts.cables + in_span * 1.5 * counts.rubbing + 2 * counts.loose);
+    cable_rows += (begun - laid + 1) * in_span * counts.rubbing / value;  // sides that rub (cable_rubbing.h)
     bent_rows += begun * in_span * counts.loose;
     part_rows = std::max(part_rows, laid * frictions * counts.clamp_rows);
     // A thread's states of a part and of its parent, and what friction holds of every level.

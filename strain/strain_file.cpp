@@ -411,6 +411,7 @@ class CableRows {
         place_.insert(place_.end(), at_clamp.begin(), at_clamp.end());
     }
   }
+  std::size_t size() const { return names_.size(); }
   void write(FileWriter& file, std::size_t samples) const {
     file.set_axis("cable", names_.size());
     const auto shorter = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
@@ -437,16 +438,53 @@ class CableRows {
   std::vector<const pipeline::PulledCable*> pulled_;
 };
 
+/// Where the jackets of all spans' cables rub.
+class RubbingRows {
+ public:
+  /// first: number of the span's first cable in the file.
+  void add(std::size_t first, const Evaluation& evaluation) {
+    const CablePaths& cables = evaluation.cables();
+    for (std::size_t k = 0; k < cables.cables(); ++k) {
+      const CableRubbing* const rubbing = cables.rubbing(k);
+      if (!rubbing) continue;
+      recorded_ = true;
+      for (const CableRubbing::Patch& patch : rubbing->patches()) {
+        cable_.push_back(static_cast<std::int32_t>(first + k));
+        place_.insert(place_.end(), {evaluation.arcs()[patch.segment], evaluation.lengths()[patch.segment], patch.angle,
+                                     CableRubbing::width()});
+        work_.push_back(patch.work);
+        sample_.push_back(static_cast<std::uint32_t>(patch.sample));
+      }
+    }
+  }
+  void write(FileWriter& file) const {
+    if (!recorded_) return;
+    file.set_axis("jacket_patch", work_.size());
+    file.append("/jacket/cable", cable_);
+    file.append("/jacket/place", place_);
+    file.append("/jacket/work", work_);
+    file.append("/jacket/sample", sample_);
+  }
+
+ private:
+  bool recorded_ = false;
+  std::vector<std::int32_t> cable_;
+  std::vector<double> place_, work_;
+  std::vector<std::uint32_t> sample_;
+};
+
 /// What the cables of all spans do, of which their forces follow. Nothing where there is no cable. Returns
 /// what a person should look at: pieces that are too long.
 std::vector<Warning> write_cables(FileWriter& file, const pipeline::SimulationSettings& settings,
                                   const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   CableRows rows;
+  RubbingRows rubbing;
   std::vector<const std::vector<double>*> hose_moment;  // of spans with cables
   double mesh_error = 0;
   std::size_t pieces = 0, restless = 0;
   for (const auto& evaluation : evaluations) {
     if (!evaluation->any_cables()) continue;
+    rubbing.add(rows.size(), *evaluation);
     rows.add(static_cast<std::int32_t>(hose_moment.size()), *evaluation);
     hose_moment.push_back(&evaluation->cables().hose_moment());
     restless += evaluation->cables().restless();
@@ -456,6 +494,7 @@ std::vector<Warning> write_cables(FileWriter& file, const pipeline::SimulationSe
   if (hose_moment.empty()) return {};
   const std::size_t samples = hose_moment.front()->size();
   rows.write(file, samples);
+  rubbing.write(file);
   file.set_axis("cable_span", hose_moment.size());
   std::vector<double> moments;
   for (std::size_t t = 0; t < samples; ++t)
@@ -639,6 +678,10 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   variations.go_on();
   varied = true;
   if (loose && samples > 1) rehearse(samples_of(rehearsed_varied), 0);
+  for (std::size_t k = 0; k < evaluations.size(); ++k) {  // each of these may become the job's own
+    evaluations[k]->record_rubbing();
+    for (Evaluation* const placed : starts.placed(k)) placed->record_rubbing();
+  }
   reader.run(loose, [&](const MotionBlock& block) {
     append_deformation(strain, block.deformation);
     each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {

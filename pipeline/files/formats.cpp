@@ -243,6 +243,14 @@ Format make_strain_format() {
     {"/cable/offset_sample",     u32,  "picture",            "1",    maybe, "samples of /cable/offset"},
     {"/cable/offset",            f64,  "picture, cable, segment, 2", "m",    maybe,
      "displacement of loose cables from their places, toward d1 and d2; only with one span"},
+    {"/jacket/cable",            i32,  "jacket_patch",       "1",    maybe | deflated,
+     "cable of each patch of jacket that rubs in the hose; absent: no cable has friction, or an older file"},
+    {"/jacket/place",            f64,  "jacket_patch, 4",    "m, m, rad, rad", maybe | deflated,
+     "middle of the patch from the base clamp along the dresspack, its length; its middle around the cable from d1 toward "
+     "d2, its width"},
+    {"/jacket/work",             f64,  "jacket_patch",       "J",    maybe | deflated,
+     "normal force times sliding distance, of one repeat (W41)"},
+    {"/jacket/sample",           u32,  "jacket_patch",       "1",    maybe | deflated, "sample in which it rubs most"},
     {"/cable_span/hose_moment",  f64,  "sample, cable_span", "N m",  maybe,
      "bending moment that the simulated hose carries at the clamps of each span with cables, by its E I: the "
      "larger of both"},

@@ -83,6 +83,9 @@ void describe(Fields& f, Component& component) {
            "The share of the measured stiffness of jacket and insulation.");
   f.list("ratings", component.ratings, Need::optional,
          "The cycles in test rigs that the maker of a cable states. They give a life to a cable without described wires.");
+  f.maybe_group("jacket", component.jacket,
+                "The jacket of a cable in the dresspack, which may wear through on hose and neighbours. A data_sheet that "
+                "names the jacket's material gives it. Default: its wear is not evaluated.");
 }
 
 void describe(Fields& f, Corrugation& corrugation) {

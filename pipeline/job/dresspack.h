@@ -42,6 +42,13 @@ struct Laying {
   bool operator==(const Laying&) const = default;
 };
 
+/// What wears: a sleeve over the hose, the jacket of a cable without a hose, or of a cable in a hose.
+struct Sleeve {
+  double thickness = 0;  ///< [m]
+  std::string material;  ///< a key of Dresspack::materials
+  Where where;
+};
+
 /// K equal parts on one helix, each of which may hold further layers of parts (strain/README.md).
 struct Component {
   std::string name;         ///< "signal cable"; parts are numbered "signal cable 1", ...
@@ -64,6 +71,7 @@ struct Component {
   std::optional<PlainPart> plain;  ///< of a part of the first level that is no wire and holds none
   Laying laying;                   ///< of a part of the first level that is no wire
   std::vector<Rating> ratings;     ///< of a cable
+  std::optional<Sleeve> jacket;    ///< of a cable in the dresspack; absent: its wear is not evaluated
   std::vector<Component> components;
   Where where;
 };
@@ -75,13 +83,6 @@ struct Corrugation {
   double pitch = 0;   ///< of one corrugation along the hose [m]
   double height = 0;  ///< half the difference of outer and inner diameter [m]
   double wall = 0;    ///< thickness of the material [m]
-  Where where;
-};
-
-/// What is worn first from outside: a sleeve over the hose, or the jacket of a cable without a hose.
-struct Sleeve {
-  double thickness = 0;  ///< [m]
-  std::string material;  ///< a key of Dresspack::materials
   Where where;
 };
 

@@ -13,10 +13,11 @@ namespace dresslife::pipeline {
 
 class Fields;
 
-/// What rubs on a hose: a link of the robot, a guide ring, meshes of the cell, the floor, a hose.
-enum class Counterface { robot, ring, cell, floor, dresspack };
+/// What rubs: on a hose a link of the robot, a guide ring, meshes of the cell, the floor, a hose; on a cable the inside of
+/// its hose.
+enum class Counterface { robot, ring, cell, floor, dresspack, hose };
 constexpr std::string_view word(Counterface value) {
-  return word_at({"robot", "ring", "cell", "floor", "dresspack"}, value);
+  return word_at({"robot", "ring", "cell", "floor", "dresspack", "hose"}, value);
 }
 
 /// Archard's wear rate of a pair of materials.

@@ -14,6 +14,7 @@ struct UnvalidatedMode {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   static constexpr const char* wall = "hose's wall";
   static constexpr const char* abrasion = "abrasion";
+  static constexpr const char* jacket = "jacket wear";
   static constexpr const char* rating = "maker's rating";
 
   std::string mode;       ///< one of the above
@@ -24,7 +25,7 @@ struct UnvalidatedMode {
   double together_p10 = unknown;  ///< the planner's hours if this mode counted, too [h]
   int segment_from_tool = 0;      ///< of its worst place, 1 is nearest to the tool; 0: not known
   double position_from_tool = 0;  ///< [m]
-  std::string place;              ///< what rubs: "link_4"; of the wall the place around it: "hose 5"; a rated cable
+  std::string place;              ///< what rubs: "link_4"; of the wall the place around it: "hose 5"; a cable
   double time = 0;                ///< when it is loaded most [s]
   std::string step;               ///< program line that runs then; empty: none
   double bends_at_limit = 0;      ///< of the wall by its law: bends of a straight hose to its bend radius limit; 0: not known

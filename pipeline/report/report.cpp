@@ -349,8 +349,8 @@ std::string facts(const RankingRow& row) {
     }
     const std::string life =
         wall ? fmt::format("{} of motion until it cracks, {}", unvalidated_life(mode.hours[1]), escaped(mode.place))
-             : fmt::format("{} of motion until it is worn through (10 .. 90 %), on {}", range_text(mode.hours[0], mode.hours[2]),
-                           escaped(mode.place));
+             : fmt::format("{} of motion until it is worn through (10 .. 90 %), {} {}", range_text(mode.hours[0], mode.hours[2]),
+                           mode.mode == UnvalidatedMode::jacket ? "of" : "on", escaped(mode.place));
     fact(mode.mode + of + ", unvalidated",
          std::isinf(mode.hours[1])
              ? "not damaged"

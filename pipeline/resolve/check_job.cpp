@@ -106,21 +106,38 @@ void check_uses(const Component& part, const Dresspack& dresspack) {
   if (is_wire(part) && !lives(part.material))
     throw InputError(part.where, fmt::format("'{}' is of '{}', which only has wear rates", part.name, part.material),
                      "name a material with a strain-life curve");
-  for (const Component& inner : part.components) check_uses(inner, dresspack);
+  for (const Component& inner : part.components) {
+    if (inner.jacket)
+      throw InputError(inner.jacket->where, fmt::format("'{}' lies in a cable and has a jacket", inner.name),
+                       "give the jacket to the cable in dresspack.components");
+    check_uses(inner, dresspack);
+  }
+}
+
+void check_wear(const Sleeve& layer, const std::string& key, const Dresspack& dresspack) {
+  const Material* const material = find_material(dresspack, layer.material);
+  if (material && material->wear.empty())
+    throw InputError(layer.where, fmt::format("{}.material '{}' has no wear rates", key, material->name),
+                     fmt::format("give the material the list wear, or leave the {} out", key));
 }
 
 void check_uses(const Dresspack& dresspack) {
-  for (const Component& part : dresspack.components) check_uses(part, dresspack);
+  for (const Component& part : dresspack.components) {
+    check_uses(part, dresspack);
+    if (!part.jacket) continue;
+    check_wear(*part.jacket, "jacket", dresspack);
+    if (!(part.jacket->thickness < part.radius))
+      throw InputError(part.jacket->where,
+                       fmt::format("the jacket of '{}' is {:.4g} mm thick, the cable {:.4g} mm wide", part.name,
+                                   1e3 * part.jacket->thickness, 2e3 * part.radius),
+                       "give thickness_mm of one wall, less than the radius");
+  }
   const Material* const hose = find_material(dresspack, dresspack.hose_material);
   if (hose && !hose->has_strain_life())
     throw InputError(dresspack.where,
                      fmt::format("hose_material '{}' only has wear rates (the wall's strain needs a life)", hose->name),
                      "give it a strain_life_table, or name it in sleeve");
-  if (!dresspack.sleeve) return;
-  const Material* const sleeve = find_material(dresspack, dresspack.sleeve->material);
-  if (sleeve && sleeve->wear.empty())
-    throw InputError(dresspack.sleeve->where, fmt::format("sleeve.material '{}' has no wear rates", sleeve->name),
-                     "give the material the list wear, or leave the sleeve out");
+  if (dresspack.sleeve) check_wear(*dresspack.sleeve, "sleeve", dresspack);
 }
 
 /// Of one dresspack. path: of what holds its keys, "" or "dresspacks[2].". Returns how many levels of parts

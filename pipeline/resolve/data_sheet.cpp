@@ -104,6 +104,11 @@ class Expansion {
   }
 
   double radius() const { return outer_ / 2; }
+  /// Whose wear is known; nothing: no material is given.
+  std::optional<Sleeve> jacket() const {
+    if (sheet_.jacket_material.empty() || jacket_ <= 0) return {};
+    return Sleeve{jacket_, sheet_.jacket_material, {}};
+  }
 
   /// What a rule stands in for: "wire 0.15 mm, jacket 1.21 mm"; empty: nothing.
   std::string estimates() const {
@@ -348,8 +353,12 @@ class Expansion {
 
 struct Layers {
   std::vector<Component> components;
+  std::optional<Sleeve> jacket;
 };
-void describe(Fields& f, Layers& layers) { f.list("components", layers.components, Need::required, ""); }
+void describe(Fields& f, Layers& layers) {
+  f.list("components", layers.components, Need::required, "");
+  f.maybe_group("jacket", layers.jacket, "");
+}
 
 /// notes: gets what rules stand in for.
 void expand(Node& component, std::vector<std::string>& notes) {
@@ -367,7 +376,7 @@ void expand(Node& component, std::vector<std::string>& notes) {
     const Node* name = component.find("name");
     notes.push_back(fmt::format("{} {}", name ? name->text : "cable", estimates));
   }
-  Node made = echo_fields(Layers{expansion.components()});
+  Node made = echo_fields(Layers{expansion.components(), component.find("jacket") ? std::nullopt : expansion.jacket()});
   made["radius_mm"] = scalar(text_in_unit(expansion.radius(), unit_of_key("radius_mm")));
   place_at(made, sheet.where);
   std::erase_if(component.entries, [](const Entry& entry) { return entry.key == "data_sheet"; });
@@ -400,6 +409,17 @@ std::string meant_section(const std::string& phrase) {
              : "";
 }
 
+/// Of "jacket pur 1.1 mm", a name of config/materials; empty: none is known.
+std::string jacket_material(const std::string& phrase) {
+  static const std::vector<std::pair<std::regex, const char*>> materials{
+      {std::regex(R"(\b(pur|tpu|polyurethane)\b)"), "polyurethane"},
+      {std::regex(R"(\bpvc\b)"), "pvc"},
+      {std::regex(R"(\btpe\b)"), "tpe"}};
+  for (const auto& [word, material] : materials)
+    if (std::regex_search(phrase, word)) return material;
+  return "";
+}
+
 /// The keys that one phrase of a sheet's line stands for.
 std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase,
                                                                 const Where& where) {
@@ -423,7 +443,12 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
   }
   if (std::regex_match(phrase, found, length))
     for (const auto& [words, key] : lengths)
-      if (std::regex_match(found[1].str(), words)) return {{key, found[2]}};
+      if (std::regex_match(found[1].str(), words)) {
+        std::vector<std::pair<const char*, std::string>> keys{{key, found[2]}};
+        if (key == std::string_view("jacket_thickness_mm"))
+          if (const std::string material = jacket_material(phrase); !material.empty()) keys.emplace_back("jacket_material", material);
+        return keys;
+      }
   const std::string meant = meant_section(phrase);
   throw InputError(
       where, fmt::format("'{}' of a data sheet is not understood", phrase),
@@ -474,6 +499,8 @@ void describe(Fields& f, DataSheet& sheet) {
       "jacket_thickness_mm", sheet.jacket_thickness, at_least(0),
       "The thickness of the jacket with tapes and screens. The cores fill the rest if core_diameter_mm is "
       "not given. Default: with a class, 1 mm and 3.5 % of the width of the cores (IEC 60502-1).");
+  f.text("jacket_material", sheet.jacket_material, Need::optional,
+         "A material with `wear`: a name of config/materials. Default: the wear of the jacket is not evaluated.");
   f.maybe_number("core_diameter_mm", sheet.core_diameter, above(0),
                  "The diameter of a core over its insulation. Default: with a class and without "
                  "outer_diameter_mm, by EN 50525.");

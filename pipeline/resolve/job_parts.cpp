@@ -87,6 +87,23 @@ void describe(Fields& echo, RatedKeys& keys) {
   echo.list("ratings", keys.ratings, Need::required, "");
 }
 
+/// Of a cable whose jacket may wear.
+struct JacketKeys {
+  std::string name;
+  Sleeve jacket;
+};
+
+void describe(Fields& echo, JacketKeys& keys) {
+  echo.text("name", keys.name, Need::required, "");
+  echo.group("jacket", keys.jacket, Need::required, "");
+}
+
+/// Takes out what only the fatigue stage reads.
+void drop_fatigue_keys(Dresspack& dresspack) {
+  drop_ratings(dresspack);
+  for (Component& component : dresspack.components) component.jacket.reset();
+}
+
 /// What of a dresspack decides its lives.
 struct FatigueKeys {
   MountedDresspack mounted;
@@ -101,6 +118,10 @@ void describe(Fields& echo, FatigueKeys& keys) {
   for (const Component& part : dresspack.components)
     if (part.plain && !part.ratings.empty()) rated.push_back({part.name, part.radius, part.plain->damage_exponent, part.ratings});
   if (!rated.empty()) echo.list("rated", rated, Need::optional, "");
+  std::vector<JacketKeys> jackets;
+  for (const Component& part : dresspack.components)
+    if (part.jacket) jackets.push_back({part.name, *part.jacket});
+  if (!jackets.empty()) echo.list("jackets", jackets, Need::optional, "");
   if (!dresspack.core_parts.empty()) echo.text("core_parts", dresspack.core_parts, Need::optional, "");
 }
 
@@ -127,7 +148,7 @@ void count_as_numbers(Dresspack& dresspack) {
 void describe_sim(Fields& echo, Job copy) {
   const JobForms forms = forms_of(copy);
   for (MountedDresspack& mounted : copy.dresspacks) {
-    drop_ratings(mounted.dresspack);
+    drop_fatigue_keys(mounted.dresspack);
     mounted.routing.longest_bracket.reset();
     Dresspack& dresspack = mounted.dresspack;
     dresspack.estimates.clear();
@@ -158,7 +179,7 @@ void describe_sim(Fields& echo, Job copy) {
 void describe_strain(Fields& echo, Job copy) {
   std::vector<StrainKeys> keys;
   for (MountedDresspack& mounted : copy.dresspacks) {
-    drop_ratings(mounted.dresspack);
+    drop_fatigue_keys(mounted.dresspack);
     keys.push_back(StrainKeys(mounted));
   }
   describe_each(echo, forms_of(copy), keys);

@@ -77,6 +77,7 @@ class Table {
     add_abrasion();
     add_rating();
     add_inspection();
+    add_jacket();
   }
   std::vector<RankingColumn> columns;
 
@@ -130,6 +131,21 @@ class Table {
                 abrasion, [](const UnvalidatedMode& mode) { return mode.found_share; }));
     add(of_mode("abrasion_unseen_share", "1", "share of all dresspacks that wear through within the robot's life, unseen by checks",
                 abrasion, [](const UnvalidatedMode& mode) { return mode.unseen_share; }));
+  }
+
+  void add_jacket() {
+    constexpr const char* jacket = UnvalidatedMode::jacket;
+    for (const auto& [end, share, i] : {std::tuple{"p10", "10", 0u}, std::tuple{"p50", "50", 1u}, std::tuple{"p90", "90", 2u}})
+      add(of_mode(fmt::format("jacket_life_hours_{}", end), "h",
+                  fmt::format("by then a cable's jacket has worn through inside the hose in {} % of such dresspacks; not validated", share),
+                  jacket, [i = i](const UnvalidatedMode& mode) { return mode.hours[i]; }));
+    add(of_mode("jacket_first_share", "1", "share of the samples in which jacket wear comes before the wires", jacket,
+                [](const UnvalidatedMode& mode) { return mode.first_share; }));
+    add(of_mode("jacket_together_hours_p10", "h", "life_hours_p10 if jacket wear counted", jacket,
+                [](const UnvalidatedMode& mode) { return mode.together_p10; }));
+    add(of_mode("jacket_of", "text", "that cable", jacket, [](const UnvalidatedMode& mode) { return mode.place; }));
+    add(of_mode("jacket_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", jacket,
+                [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
   }
 
   void add_worst_wire() {

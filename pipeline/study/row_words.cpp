@@ -75,6 +75,9 @@ std::string inspection_words(const RankingRow& row) {
   if (mode->mode == UnvalidatedMode::abrasion)
     return fmt::format("{} may wear through on {}, {}, after {} (not validated): inspect it there.", of, mode->place, place,
                        range_text(mode->hours[0], mode->hours[2]));
+  if (mode->mode == UnvalidatedMode::jacket)
+    return fmt::format("The jacket of {} may wear through in the hose, {}, after {} (not validated): inspect it there.", mode->place,
+                       place, range_text(mode->hours[0], mode->hours[2]));
   if (mode->mode == UnvalidatedMode::rating)
     return fmt::format("The maker's rating of {} covers only {} (not validated): test or replace it by then.", mode->place,
                        range_text(mode->hours[0], mode->hours[2]));
@@ -201,13 +204,18 @@ std::string unvalidated_words(const UnvalidatedMode& mode) {
     return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.{}", of,
                        unvalidated_life(mode.hours[1]), too_short_wall(mode));
   if (mode.mode == UnvalidatedMode::rating) return joined_words({rating_words(mode, of), mode.note});
-  if (mode.place.empty()) return fmt::format("Abrasion{}: nothing rubs on the dresspack.", of);
+  const bool jacket = mode.mode == UnvalidatedMode::jacket;
+  if (mode.place.empty())
+    return jacket ? fmt::format("Jacket wear{}: no cable rubs in the hose.", of)
+                  : fmt::format("Abrasion{}: nothing rubs on the dresspack.", of);
   const std::string when = std::isinf(mode.hours[0])
                                ? "in fewer than 1 of 10 dresspacks"
                                : fmt::format("after {} (10 .. 90 %)", range_text(mode.hours[0], mode.hours[2]));
-  std::string text = fmt::format("Abrasion{} is not validated and not in the hours above. By the model it wears through {}, on {}, "
-                                 "{:.2f} m from the tool, most at {:.1f} s{}.",
-                                 of, when, mode.place, mode.position_from_tool, mode.time,
+  const std::string what = jacket ? fmt::format("Jacket wear{} is not validated and not in the hours above. By the model the jacket of {} "
+                                                "wears through in the hose {}", of, mode.place, when)
+                                  : fmt::format("Abrasion{} is not validated and not in the hours above. By the model it wears through "
+                                                "{}, on {}", of, when, mode.place);
+  std::string text = fmt::format("{}, {:.2f} m from the tool, most at {:.1f} s{}.", what, mode.position_from_tool, mode.time,
                                  mode.step.empty() ? "" : ", during '" + mode.step + "'");
   if (mode.first_share >= 0.01)
     text += fmt::format(" It comes before the wires in {:.0f} % of the samples; with it 1 of 10 has failed after {}.",

@@ -65,6 +65,12 @@ struct StrainFile {
   struct Rubbed {
     double position, work, time;  // [m], [J], [s]
   };
+  struct Jacket {
+    std::int32_t cable;
+    double position, work;  // [m], [J]
+    std::uint32_t sample;
+  };
+  std::vector<Jacket> jackets;  // patches of 5 mm in one sector of 10 degrees; empty: no table
   struct Cable {
     std::int32_t span;
     std::vector<double> place;  // base d1, d2, tool d1, d2 [m]
@@ -156,6 +162,12 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
     file.append("/rubbing/obstacle", std::vector<std::string>{"link_4"});
     file.append("/rubbing/work", std::vector<double>{rubbed.work});
     file.append("/rubbing/time", std::vector<double>{rubbed.time});
+  }
+  for (const StrainFile::Jacket& jacket : f.jackets) {
+    file.append("/jacket/cable", std::vector<std::int32_t>{jacket.cable});
+    file.append("/jacket/place", std::vector<double>{jacket.position, 5e-3, 1, std::numbers::pi / 18});
+    file.append("/jacket/work", std::vector<double>{jacket.work});
+    file.append("/jacket/sample", std::vector<std::uint32_t>{jacket.sample});
   }
   if (!f.cables.empty()) {
     file.set_axis("cable", f.cables.size());
@@ -1023,6 +1035,47 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   f.rubbed[1] = {-0.15, 10, 30};
   CHECK_THROWS_WITH(run(folder, f, job, "damaged.h5"),
                     Catch::Contains("/rubbing: row 2 is no patch of a dresspack; make the file again with dresslife-strain"));
+}
+
+TEST_CASE("life.h5: of the cables in a hose the one whose jacket is worn through first is named, beside the wires") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;
+  dresspack.inner_diameter = 0.05;
+  pipeline::Material polymer;
+  polymer.name = "polymer";
+  polymer.wear = {{pipeline::Counterface::robot, 1e-15, 5, "test"}, {pipeline::Counterface::hose, 1e-14, 5, "test"}};
+  dresspack.materials.push_back(polymer);
+  pipeline::Component& cable = dresspack.components.front();
+  cable.radius = 5e-3;
+  StrainFile f = example();
+  f.cables = {{0, {0, 0, 0, 0}, {0, 0, 0}}, {0, {0, 0, 0, 0}, {0, 0, 0}}};
+  f.hose_moment = {1};
+  f.jackets = {{0, 0.65, 10, 20}, {1, 0.15, 1e4, 60}};
+  const auto jackets_of = [&](const char* name) {
+    const FileReader life(run(folder, f, job, name).file, pipeline::life_format());
+    auto modes = pipeline::unvalidated_from(life.text_attribute("unvalidated_modes"));
+    std::erase_if(modes, [](const auto& mode) { return mode.mode != pipeline::UnvalidatedMode::jacket; });
+    return std::pair(modes, life.text_attribute("not_evaluated"));
+  };
+  CHECK(jackets_of("bare.h5").first.empty());
+  CHECK_THAT(jackets_of("bare.h5").second, Catch::Contains("jackets of the cables"));
+  cable.jacket = pipeline::Sleeve{1e-3, "polymer", {}};
+  const auto [modes, missing] = jackets_of("worn.h5");
+  CHECK_THAT(missing, !Catch::Contains("jacket"));
+  REQUIRE(modes.size() == 1);
+  CHECK(modes[0].place == "cable 2");
+  CHECK(modes[0].position_from_tool == Approx(0.85));
+  CHECK(modes[0].step == "weld");
+  // A(t, 0) l / (k N s), with a footprint of ten diameters
+  const double area = 4.0 / 3 * 1e-3 * std::sqrt(2 * cable.radius * 1e-3), repeats = area * 20 * cable.radius / (1e-14 * 1e4);
+  constexpr double strata = 1e-3;  // 10,000 samples
+  CHECK(modes[0].hours[1] == Approx(hours(repeats, duration)).epsilon(strata));
+  f.jackets[1].cable = 2;
+  CHECK_THROWS_WITH(run(folder, f, job, "damaged.h5"),
+                    Catch::Contains("/jacket: row 2 is no patch of a dresspack; make the file again with dresslife-strain"));
+  f.jackets[1] = {1, 0.15, 1e4, 1000};
+  CHECK_THROWS_WITH(run(folder, f, job, "late.h5"), Catch::Contains("/jacket: row 2 is of no sample"));
 }
 
 TEST_CASE("life.h5: a cable without described wires has the life of its rating, one with wires does not have it, too") {

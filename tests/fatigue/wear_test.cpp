@@ -95,6 +95,25 @@ TEST_CASE("wear: a hose rubbed over an edge at constant force is worn through wh
   }
 }
 
+TEST_CASE("wear: the jacket of a cable drawn over an arc is worn through when k F s is its volume") {
+  pipeline::Component cable;
+  cable.name = "cable", cable.radius = 5e-3, cable.jacket = pipeline::Sleeve{1e-3, "polymer", {}};
+  pipeline::Dresspack dresspack;
+  CHECK_FALSE(jacket_of(dresspack, cable));  // no such material
+  dresspack.materials = {polymer()};
+  dresspack.materials[0].wear.push_back({pipeline::Counterface::hose, 2 * rate, 6, "test"});
+  const std::optional<WornMaterial> jacket = jacket_of(dresspack, cable);
+  REQUIRE(jacket);
+  // F = T kappa per length, drawn by s over an arc of half a metre.
+  constexpr double tension = 20, curvature = 2, way = 0.01, arc = 0.5;  // longer than the footprint
+  const Abrasion worn = abrasion(*jacket, rubbed(tension * curvature * way * arc, 0.5, 0.5 + arc, 5e-3, 0, 1, "hose"));
+  const double area = 4.0 / 3 * 1e-3 * std::sqrt(2 * 5e-3 * 1e-3);  // a circle's segment as a parabola
+  CHECK(worn.repeats == Approx(area / (2 * rate * tension * curvature * way)));
+  CHECK(worn.obstacle == "hose");
+  cable.jacket.reset();
+  CHECK_FALSE(jacket_of(dresspack, cable));
+}
+
 TEST_CASE("wear: contacts that wander around the hose wear a strip, over the zero of the angle, too") {
   const pipeline::Material material = polymer();
   const WornLayer layer = smooth();

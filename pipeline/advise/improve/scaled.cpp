@@ -29,6 +29,7 @@ void scale(Component& component, double factor) {
     multiply(factor, {&component.plain->bore});
     multiply(inertia, {&component.plain->bending_stiffness});
   }
+  if (component.jacket) component.jacket->thickness *= factor;
   for (Component& part : component.components) scale(part, factor);
 }
 

@@ -330,6 +330,24 @@ TEST_CASE("job: a sleeve has a material with wear rates, which wires and the hos
   refused("  sleeve: {thickness_mm: 0, material: polyurethane}\n", "thickness_mm");
 }
 
+TEST_CASE("job: the jacket of a cable has a material with wear rates, and only lives depend on it") {
+  const auto with = [&](const std::string& jacket) {
+    const std::string radius = "      helix_radius_mm: 18.45\n";
+    return edited(sample_job, radius, radius + (jacket.empty() ? "" : "      jacket: " + jacket + "\n"));
+  };
+  const Job job = job_of_text(with("{thickness_mm: 1, material: pvc}")), bare = job_of_text(with(""));
+  REQUIRE(find_material(job.dresspacks[0].dresspack, "pvc"));
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
+  CHECK(part_text(job, JobPart::sim) == part_text(bare, JobPart::sim));
+  CHECK(part_text(job, JobPart::strain) == part_text(bare, JobPart::strain));
+  CHECK(part_text(job, JobPart::fatigue) != part_text(bare, JobPart::fatigue));
+  const auto refused = [&](const std::string& jacket, const std::string& words) {
+    CHECK_THAT(message_of([&] { job_of_text(with(jacket)); }), Catch::Contains(words));
+  };
+  refused("{thickness_mm: 1, material: copper}", "jacket.material 'copper' has no wear rates; give the material the list wear, or leave the jacket out");
+  refused("{thickness_mm: 5, material: pvc}", "the jacket of 'cable' is 5 mm thick, the cable 10 mm wide; give thickness_mm of one wall");
+}
+
 TEST_CASE("job: the hose's wall has a material of its own and a factor or a profile") {
   const auto with = [&](const std::string& keys) {
     return edited(sample_job, "  damping_source: guessed\n",

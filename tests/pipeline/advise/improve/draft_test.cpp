@@ -155,6 +155,11 @@ TEST_CASE("modes beside the wires have limits in hours, and a limit of what a jo
   CHECK(outcome_of(row, folder, asked).violation() == Approx(std::log(2.0) + std::log(1000 / 700.0)));
   asked.rating = 500, asked.wall = 700;  // just kept
   CHECK(outcome_of(row, folder, asked).violation() == 0);
+  row.unvalidated.push_back(mode(UnvalidatedMode::jacket, 400, 4000));
+  asked.jacket = 1200;
+  CHECK(outcome_of(row, folder, asked).violation() == Approx(std::log(3.0)));
+  CHECK(outcome_of(row, folder, asked).words() == "jacket wear passed by 1.1");
+  row.unvalidated.pop_back(), asked.jacket.reset();
   row.unvalidated[0].hours.fill(endless), row.unvalidated[1].hours.fill(endless);
   asked.rating = 1e5;
   CHECK(outcome_of(row, folder, asked).violation() == 0);

@@ -99,6 +99,10 @@ TEST_CASE("a duty names the mode beside the wires that comes first, and all that
   CHECK_THAT(duty_action(duty), Catch::EndsWith("at 80 h per week)."));  // after the wires
   duty.lives.percentiles[0] = 50000;
   CHECK_THAT(duty_action(duty), Catch::EndsWith(" The hose may wear through after 20,000 h (not validated): inspect it."));
+  duty.others = {{UnvalidatedMode::jacket, "", "", 10000}};
+  CHECK_THAT(duty_action(duty),
+             Catch::EndsWith(" A cable's jacket may wear through in the hose after 10,000 h (not validated): inspect it."));
+  CHECK_THAT(in_one_line(caution_words(duty)), Catch::Contains("1 of 10 dresspacks has a jacket worn through in the hose after 10,000 h"));
 }
 
 TEST_CASE("a file of duties that contradicts itself is refused at its place") {
