@@ -438,6 +438,11 @@ Format make_life_format() {
      "the parameter (pipeline/job/uncertainty.h) whose measurement narrows life_hours_p10 .. _p90 most; empty: none does"},
     {"best_test_life_hours_p10", f64, maybe, "life_hours_p10 after that measurement, if it confirms today's median"},
     {"best_test_life_hours_p90", f64, maybe, "life_hours_p90 after that measurement, if it confirms today's median"},
+    {"life_error_p10", f64, maybe,
+     "standard error of life_hours_p10 by the number of samples and by the response between computed lives, as a factor "
+     "(pipeline/life/first_failure.h); absent: a life without end"},
+    {"life_error_p50", f64, maybe, "the same of life_hours_p50"},
+    {"life_error_p90", f64, maybe, "the same of life_hours_p90"},
     {"life_shares", text, maybe,
      "shares of the variance of log life by cause (Shapley effects), largest first; they add up to 100 %"},
     {"measure_next", text, maybe, "the parameter with the largest share; empty: the scatter of wires has it"},

@@ -43,9 +43,9 @@ void describe(Fields& f, MotionStep& step) {
                  "The duration of the whole move, instead of a speed.");
   f.maybe_number("acceleration_percent", step.acceleration_percent, between(1, 150),
                  "The acceleration of this move. It multiplies the one of the program.");
-  f.maybe_number("jerk_percent", step.jerk_percent, between(10, 100),
+  f.maybe_number("jerk_percent", step.jerk_percent, between(1, 100),
                  "The rate at which the acceleration of this move builds up, as the second argument of "
-                 "AccSet in RAPID.");
+                 "AccSet in RAPID and as $GEAR_JERK or $JERK.CP in KRL.");
   f.maybe_number("acceleration_deg_per_s2", step.acceleration, above(0),
                  "The highest acceleration of the axis with the longest way. The limits of the axes hold as "
                  "well.");
@@ -103,10 +103,15 @@ void describe(Fields& f, Motion& motion) {
            "The acceleration of all moves, as a share of the highest one of each axis.");
   f.number("ramp_percent", motion.ramp_percent, Need::optional, between(1, 50),
            "The share of each change of speed in a joint move in which the acceleration builds up, and "
-           "again in which it ends. At 50 it is never constant. ESTIMATE: controllers do not publish it.");
+           "again in which it ends. At 50 it is never constant. ESTIMATE (config/defaults.md, ramps of controllers).");
+  f.maybe_number("jerk_deg_per_s3", motion.jerk, above(0),
+                 "The highest jerk of each axis in a joint move, instead of ramp_percent. KUKA: $AXIS_JERK of $machine.dat.");
   f.number("path_smoothing_ms", motion.path_smoothing, Need::optional, between(1, 200),
-           "The smoothing of tool paths. The acceleration builds up within twice this time. ESTIMATE: "
-           "controllers do not publish it.");
+           "The smoothing of tool paths. The acceleration builds up within twice this time. ESTIMATE "
+           "(config/defaults.md, ramps of controllers).");
+  f.maybe_number("path_jerk_m_per_s3", motion.path_jerk, above(0),
+                 "The jerk with which the acceleration of the tool along its path builds up, instead of path_smoothing_ms. KUKA: "
+                 "$JERK_MA.CP of $machine.dat.");
   f.number("zone_deg", motion.zone, Need::optional, at_least(0),
            "The zone of moves without a zone of their own. 0: the robot stops at each target.");
   f.text("hold_joint", motion.hold_joint, Need::optional,

@@ -93,6 +93,8 @@ struct Motion {
   double acceleration_percent = 100;
   double ramp_percent = 25;      ///< of a joint move's change of speed: the acceleration builds up [%]
   double path_smoothing = 0.015; ///< of tool paths: the acceleration builds up within twice this time [s]
+  std::optional<double> jerk;       ///< largest of each axis in joint moves, instead of ramp_percent [rad/s3]
+  std::optional<double> path_jerk;  ///< with which the tool's acceleration builds up, instead of path_smoothing [m/s3]
   double zone = 0;               ///< default of the moves [rad]
   std::string hold_joint;        ///< name of a joint of the robot that stands still; empty: none
   std::vector<MotionFrame> tools, work_objects;

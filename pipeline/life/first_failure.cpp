@@ -321,7 +321,101 @@ void find_best_test(const FailureModes& modes, const std::vector<LifeSurface>& s
   }
 }
 
+// ---- errors of percentiles --------------------------------------------------------------------------------
+
+constexpr std::size_t of_friction = index_of(Uncertain::friction_inside), of_slack = index_of(Uncertain::slack);
+
+/// The response without the points that `drops`.
+template <class Drops>
+LifeResponse without_points(const LifeResponse& response, const Drops& drops) {
+  LifeResponse left = response;
+  left.points.clear(), left.inside.clear(), left.worst_life.clear();
+  const std::size_t of_point = response.strength.size() * response.slope.size();
+  for (std::size_t k = 0; k < response.points.size(); ++k) {
+    if (drops(response.points[k])) continue;
+    left.points.push_back(response.points[k]), left.inside.push_back(response.inside[k]);
+    const auto begin = response.worst_life.begin() + static_cast<std::ptrdiff_t>(k * of_point);
+    left.worst_life.insert(left.worst_life.end(), begin, begin + static_cast<std::ptrdiff_t>(of_point));
+  }
+  return left;
+}
+
+LifeResponse without_strength(const LifeResponse& response, double z) {
+  LifeResponse left = response;
+  const auto found = std::ranges::find(response.strength, z);
+  if (found == response.strength.end()) return left;
+  const auto node = static_cast<std::size_t>(found - response.strength.begin());
+  left.strength.erase(left.strength.begin() + static_cast<std::ptrdiff_t>(node));
+  left.worst_life.clear();
+  const std::size_t slopes = response.slope.size();
+  for (std::size_t k = 0; k < response.worst_life.size(); ++k)
+    if (k / slopes % response.strength.size() != node) left.worst_life.push_back(response.worst_life[k]);
+  return left;
+}
+
+/// Nodes between the outermost ones but 0.
+std::vector<double> inner(std::vector<double> nodes) {
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  if (nodes.size() < 3) return {};
+  nodes.pop_back(), nodes.erase(nodes.begin());
+  std::erase(nodes, 0.0);
+  return nodes;
+}
+
+std::vector<double> nodes_of(const FailureModes& modes, std::size_t parameter) {
+  std::vector<double> nodes;
+  for (const LifeResponse& mode : modes)
+    for (const auto& point : mode.points) nodes.push_back(point[parameter]);
+  return nodes;
+}
+
+/// The modes with a coarser response, in each way that error_factors() names.
+std::vector<FailureModes> coarser(const FailureModes& modes) {
+  std::vector<FailureModes> all;
+  const auto add = [&](const auto& change) {
+    FailureModes changed;
+    for (const LifeResponse& mode : modes) changed.push_back(change(mode));
+    all.push_back(std::move(changed));
+  };
+  for (const std::size_t p : {of_friction, of_slack})
+    for (const double z : inner(nodes_of(modes, p)))
+      add([&](const LifeResponse& mode) { return without_points(mode, [&](const auto& point) { return point[p] == z; }); });
+  for (const double z : inner(modes.front().strength))
+    add([&](const LifeResponse& mode) { return without_strength(mode, z); });
+  bool others = false;
+  for (std::size_t p = 0; p < strain_parameters; ++p)
+    others |= p != of_friction && p != of_slack && std::ranges::any_of(nodes_of(modes, p), [](double z) { return z != 0; });
+  if (others)
+    add([](const LifeResponse& mode) {
+      return without_points(mode, [](const auto& point) { return point[of_friction] != 0 && point[of_slack] != 0; });
+    });
+  return all;
+}
+
 }  // namespace
+
+LifePercentiles error_factors(const FailureModes& modes, const std::string& job, std::size_t count,
+                              const std::vector<double>& log10_lives) {
+  const LifePercentiles percentiles = percentiles_of(log10_lives);
+  std::vector<double> sorted = log10_lives;
+  std::ranges::sort(sorted);
+  constexpr std::array<double, 3> shares{0.1, 0.5, 0.9};
+  LifePercentiles squares{};
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const double rank = shares[i] * double(count) - 0.5, reach = std::sqrt(double(count) * shares[i] * (1 - shares[i]));
+    squares[i] = std::pow((number_at(sorted, rank + reach) - number_at(sorted, rank - reach)) / 2, 2);
+  }
+  const std::vector<Samples> samples = samples_of(modes, job, count);
+  for (const FailureModes& changed : coarser(modes)) {
+    const LifePercentiles other = percentiles_of(lives_of(surfaces_of(changed), samples, Inside::as_is));
+    for (std::size_t i = 0; i < shares.size(); ++i) squares[i] += std::pow(std::log10(other[i] / percentiles[i]), 2);
+  }
+  LifePercentiles factors{};
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    factors[i] = std::isfinite(percentiles[i]) ? std::pow(10.0, std::sqrt(squares[i])) : std::nan("");
+  return factors;
+}
 
 std::string modes_text(const FailureModes& modes) {
   std::string text;
@@ -386,6 +480,7 @@ FirstFailures summary_of(const FailureModes& modes, const std::string& job, std:
   summary.glued = percentiles_of(lives_of(surfaces, samples, Inside::glued));
   summary.free = percentiles_of(lives_of(surfaces, samples, Inside::free));
   summary.share = shares_of(modes, surfaces, job);
+  summary.error_factor = error_factors(modes, job, count, summary.log10_life);
   find_best_test(modes, surfaces, job, count, summary);
   return summary;
 }

@@ -43,7 +43,22 @@ struct FirstFailures {
   /// The parameter whose test (UncertainParameter::test) narrows 10 .. 90 % most; absent: none does.
   std::optional<std::size_t> best_test;
   LifePercentiles after_test{};  ///< if that test confirms today's median of the parameter
+  /// Standard error of each of `percentiles`, as a factor of at least 1; NaN: a life without end. See error_factors().
+  LifePercentiles error_factor{};
 };
+
+/// Standard errors of percentiles, as factors: of the number of samples, and of what the response puts between and beside the
+/// lives that were computed. Both are sums of squares of differences of log10 of a percentile:
+///     samples     half the way between the lives at the ranks n s -+ sqrt(n s (1 - s)), s the share (order statistics of
+///                 independent samples; a Latin hypercube is better)
+///     nodes       without one node of friction, slack or strength, each in turn. A straight line's error grows with the
+///                 square of the distance of nodes, so this is three times the error there. It counts in full, because other
+///                 intervals are as wide as the one without the node
+///     together()  friction and slack put together by it, instead of their computed combinations; where further parameters
+///                 are put together so
+/// Beyond the outermost nodes nothing is known of the error. percentiles: of the modes' lives over `samples`.
+LifePercentiles error_factors(const FailureModes& modes, const std::string& job, std::size_t samples,
+                              const std::vector<double>& log10_lives);
 
 /// (sample) log10 lives in repeats. job: names what only it has. The same names give the same samples,
 /// anywhere; of each parameter every stratum of its distribution occurs once (Latin hypercube).

@@ -94,6 +94,7 @@ void read_scatter(const LifeRoot& file, RankingRow& row) {
     row.tested_p10 = file.number_attribute("best_test_life_hours_p10");
     row.tested_p90 = file.number_attribute("best_test_life_hours_p90");
   }
+  for (std::size_t i = 0; i < ends.size(); ++i) read(fmt::format("life_error_{}", ends[i]), row.planned_errors[i]);
   row.failing_conductor = file.text_attribute("failing_conductor");
   row.failing_position_from_tool = file.number_attribute("failing_position_from_tool");
 }

@@ -79,6 +79,8 @@ struct RankingRow {
   double failing_mode_share = 0;  ///< in which share of them
   std::string best_test;  ///< the parameter whose test narrows planned_hours most; empty: none does
   double tested_p10 = unknown, tested_p90 = unknown;  ///< planned_hours after that test
+  /// Standard errors of planned_hours as factors (pipeline/life/first_failure.h); NaN: not known.
+  std::array<double, 3> planned_errors{unknown, unknown, unknown};
   double planned_months = unknown;                    ///< planned_hours[0] in months
   /// Tables show a longer life as longer than the robot's [h]; infinite: no robot moves.
   double robot_life_hours = std::numeric_limits<double>::infinity();

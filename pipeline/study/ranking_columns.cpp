@@ -78,6 +78,12 @@ class Table {
     add_rating();
     add_inspection();
     add_jacket();
+    for (const auto& [end, i] : {std::pair{"p10", 0u}, std::pair{"p50", 1u}, std::pair{"p90", 2u}})
+      add(where(fmt::format("life_error_{}", end), "1",
+                fmt::format("standard error of life_hours_{}, as a factor: of the number of samples, and of what lies between "
+                            "computed lives", end),
+                [i = i](const RankingRow& row) { return std::isfinite(row.planned_errors[i]); },
+                [i = i](const RankingRow& row) { return row.planned_errors[i]; }));
   }
   std::vector<RankingColumn> columns;
 

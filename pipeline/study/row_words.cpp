@@ -41,6 +41,14 @@ std::string test_words(const RankingRow& row) {
                      range_text(row.tested_p10, row.tested_p90));
 }
 
+std::string error_words(const RankingRow& row) {
+  std::string words;
+  for (const auto& [share, error] : {std::pair{"10", row.planned_errors[0]}, std::pair{"50", row.planned_errors[1]},
+                                     std::pair{"90", row.planned_errors[2]}})
+    if (std::isfinite(error)) words += fmt::format("{}{} % by a factor of {:.2f}", words.empty() ? "" : ", ", share, error);
+  return words.empty() ? "" : fmt::format("Standard errors of these hours, by few samples and by lives between computed ones: {}.", words);
+}
+
 std::string joined_words(const std::vector<std::string>& sentences) {
   std::string text;
   for (const std::string& sentence : sentences)
@@ -173,7 +181,9 @@ std::string action_words(const RankingRow& row) {
                        inspection});
 }
 
-std::string uncertainty_words(const RankingRow& row) { return joined_words({cause_words(row), test_words(row)}); }
+std::string uncertainty_words(const RankingRow& row) {
+  return joined_words({cause_words(row), test_words(row), error_words(row)});
+}
 
 std::string failure_words(const RankingRow& row) {
   if (row.worst_component.empty()) return "No wire was evaluated.";

@@ -28,6 +28,9 @@ bool has(const Statement& statement, const char* word) {
   return (" " + statement.text + " ").find(fmt::format(" {} ", word)) != std::string::npos;
 }
 
+/// Whether the spline planner makes a move: only it takes $GEAR_JERK and $JERK.
+bool is_spline(const Statement& statement) { return statement.name.starts_with("s") || has(statement, "in_spline"); }
+
 /// A distance of SAPO_PTP that stands for "the percentage counts alone" [mm].
 constexpr double no_distance = 1e5;
 
@@ -321,6 +324,10 @@ bool Krl::read_axis_speed(const Statement& statement, Instruction& move, Interpr
   if (!speed || !acceleration) return false;
   move.speed.axis_percent = *speed;
   move.acceleration_percent = std::max(1.0, *acceleration);
+  const Value* jerks = run.variable("$gear_jerk");
+  for (std::size_t axis = 0; is_spline(statement) && jerks && axis < 6 && axis < jerks->items.size(); ++axis)
+    if (const Value& jerk = jerks->items[axis]; jerk.is_number() && jerk.number > 0)
+      move.jerk_percent = std::clamp(jerk.number, 1.0, move.jerk_percent);
   return true;
 }
 
@@ -359,6 +366,8 @@ bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpr
   if (acceleration && *acceleration > 0)
     move.acceleration_percent =
         std::clamp(100 * *acceleration / whole.value_or(standard_path_acceleration), 1.0, 100.0);
+  if (const auto jerk = setting("$jerk", "cp", run); is_spline(statement) && jerk && *jerk > 0)
+    move.jerk_percent = std::clamp(100 * *jerk / standard_path_jerk, 1.0, 100.0);
   return true;
 }
 
@@ -648,7 +657,7 @@ bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& 
   };
   for (const Branch& settings : statement.branches)
     for (const Statement& s : settings.body) {
-      for (const char* list : {"$vel_axis", "$acc_axis"})
+      for (const char* list : {"$vel_axis", "$acc_axis", "$gear_jerk"})
         keep(list);  // SVEL_JOINT and its like set all of them
       const Expression* base = &s.arguments[0];
       while (base->kind != Expression::Kind::name) base = &base->items[0];

@@ -525,7 +525,19 @@ std::optional<Value> Krl::spline_function(const Expression& call, const std::vec
   if (name == "sipo_mode") return first.kind == Value::Kind::list ? part(first, "ipo_frame") : first;
   if (name == "sori_typ") return part(first, "ori_typ");
   if (name == "scirc_typ") return part(first, "circ_typ");
-  for (const char* other : {"sload", "scirc_m", "sgear_jerk", "sjerk", "s_exax_ign"})
+  if (name == "sgear_jerk") {
+    const Value* percent = first.field("gear_jerk");
+    if (!percent || !percent->is_number()) return unset_value();
+    set_axes("$gear_jerk", at_most(*percent, 100), call.place, run);
+    return *percent;
+  }
+  if (name == "sjerk") {
+    const Value* percent = first.field("jerk_fac");
+    if (!percent || !percent->is_number()) return unset_value();
+    const double whole = setting("def_jerk_struc", "cp", run).value_or(standard_path_jerk);
+    return with("jerk_struc", {{"cp", scaled(at_most(*percent, 100), whole / 100)}});
+  }
+  for (const char* other : {"sload", "scirc_m", "s_exax_ign"})
     if (name == other) return unset_value();
   return {};
 }

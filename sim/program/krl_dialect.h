@@ -153,6 +153,8 @@ namespace krl {
 
 /// DEF_ACC_CP as KUKA delivers it [m/s2]: without $config.dat it stands on both sides of a percentage.
 constexpr double standard_path_acceleration = 2.3;
+/// $JERK_MA.CP and DEF_JERK_STRUC.CP of published backups of KR 6, KR 125, KR 210 (KSS 8.3 to 8.6) [m/s3].
+constexpr double standard_path_jerk = 500;
 
 /// A part of a variable: "$vel" "cp", "tool_data" 3.
 Expression field_at(const std::string& name, const std::string& field, const Place& place);

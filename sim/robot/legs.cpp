@@ -45,6 +45,7 @@ class Layout {
  public:
   Layout(const pipeline::Motion& motion, const pipeline::Robot& robot, const VectorXd& accelerations)
       : motion_(motion), robot_(robot), axes_(axes_of(robot)), accelerations_(accelerations), arm_(robot) {
+    if (motion.jerk) jerks_ = jerk_limits(motion, robot);
     for (const pipeline::MotionFrame& frame : motion.tools) tools_[frame.name] = &frame;
     for (const pipeline::MotionFrame& frame : motion.work_objects) objects_[frame.name] = &frame;
   }
@@ -433,7 +434,13 @@ class Layout {
     leg.acceleration = axis_limit(leg.direction, accelerations_) *
                        std::min(1.0, step.acceleration_percent.value_or(100) / 100);
     leg.jerk = step.jerk_percent.value_or(100) / 100;
-    if (chain_ == 0) std::tie(leg.ramp, leg.slowing) = ramp_of(motion_.ramp_percent / 100, leg.jerk);
+    if (distance > 0) leg.tool_share = distance / length;
+    if (chain_ == 0 && motion_.jerk) {
+      leg.acceleration /= 1 - motion_.ramp_percent / 100;  // a of A in (M2)
+      leg.jerk_limit = leg.jerk * axis_limit(leg.direction, jerks_);
+    } else if (chain_ == 0) {
+      std::tie(leg.ramp, leg.slowing) = ramp_of(motion_.ramp_percent / 100, leg.jerk);
+    }
     leg.acceleration *= leg.slowing;
     if (step.acceleration) leg.acceleration = std::min(leg.acceleration, *step.acceleration);
     if (step.tool_acceleration && distance > 0)
@@ -523,10 +530,18 @@ class Layout {
     }
   }
 
-  /// From rest to rest in the time T: L/v + v/A = T; the time at the speed v that this takes.
+  /// From rest to rest in the time T: L/v + tau(v) = T; the time L/v at the speed v that this takes.
   double cruise_time(const VectorXd& way, double time) const {
     const double length = way.lpNorm<Eigen::Infinity>();
     const double acceleration = axis_limit(way, accelerations_) * length;
+    if (motion_.jerk && length > 0) {  // L/v = T - tau(v) from below
+      Leg leg;
+      leg.acceleration = acceleration / (1 - motion_.ramp_percent / 100);
+      leg.jerk_limit = axis_limit(way, jerks_) * length;
+      double left = time;
+      for (int i = 0; i < 100 && left > 0; ++i) left = time - change_on(leg, length / left).duration;
+      return std::max(0.0, left);
+    }
     const double root = time * time - 4 * length / acceleration;
     if (root < 0) return 0;  // as fast as the axes can
     return length / ((time - std::sqrt(root)) * acceleration / 2);
@@ -588,6 +603,7 @@ class Layout {
   const pipeline::Robot& robot_;
   const std::vector<Axis> axes_;
   const VectorXd& accelerations_;  // A_i
+  VectorXd jerks_;                 // J_i of (M13); empty: no limit
   InverseKinematics arm_;
   std::map<std::string, const pipeline::MotionFrame*> tools_, objects_;
   std::map<std::string, int> line_of_;
@@ -612,6 +628,29 @@ std::pair<double, double> ramp_of(double ramp, double jerk) {
   const double constant = jerk * (1 - ramp);  // over the ramp it is what the ramps leave between them, over one of them
   if (constant >= ramp) return {ramp / (ramp + constant), jerk / (ramp + constant)};
   return {0.5, 0.5 * std::sqrt(constant / ramp) / (1 - ramp)};
+}
+
+SpeedChange limited_change(double at_full, double by_jerk) {
+  if (by_jerk >= at_full * at_full) return {2 * std::sqrt(by_jerk), 0.5};
+  return {at_full + by_jerk / at_full, by_jerk / (at_full * at_full + by_jerk)};
+}
+
+SpeedChange change_on(const Leg& leg, double change) {
+  if (leg.jerk_limit == 0) return {change / leg.acceleration, leg.ramp};
+  return limited_change(change / leg.acceleration, change / leg.jerk_limit);
+}
+
+VectorXd jerk_limits(const pipeline::Motion& motion, const pipeline::Robot& robot) {
+  const std::vector<Axis> axes = axes_of(robot);
+  double largest = 0;
+  for (const Axis& axis : axes)
+    if (axis.turns) largest = std::max(largest, axis.acceleration);
+  VectorXd limits(static_cast<long>(axes.size()));
+  for (long i = 0; i < limits.size(); ++i) {
+    const Axis& axis = axes[static_cast<std::size_t>(i)];
+    limits[i] = axis.turns || largest == 0 ? *motion.jerk : *motion.jerk * axis.acceleration / largest;
+  }
+  return limits;
 }
 
 Legs legs_of(const pipeline::Motion& motion, const pipeline::Robot& robot, const VectorXd& accelerations) {

@@ -16,6 +16,10 @@
 // (M11) A move with a share p of the jerk has ramps 1/p times as long: r' = r/(r + p (1 - r)) and
 //      A' = A p/(r + p (1 - r)) with the same acceleration. Where r' would exceed 1/2 the acceleration is never
 //      constant: r' = 1/2, and it reaches a sqrt(p (1 - r)/r) only. A tool path is smoothed 1/p times as long.
+// (M13) With a jerk limit J (motion.jerk_deg_per_s3) a change of speed by V has tau = V/a + a/J and r = a/(J tau). Where
+//      V < a^2/J the acceleration is never constant: tau = 2 sqrt(V/J), r = 1/2. In a blend V/a and V/J are the largest of
+//      all axes, so none exceeds its limits. A sliding external axis has the J that builds its acceleration up in the same
+//      time as that of the turning axis with the largest acceleration. A share p of the jerk makes it p J.
 // (M7) A leg's speed is the least that the axes, the tool's speed ds/dt and its turning dtheta/dt allow.
 #pragma once
 
@@ -37,6 +41,8 @@ struct Leg {
   double acceleration = 0;          ///< A along the leg [rad/s2]
   double ramp = 0.25;               ///< r of (M1); nothing changes in a dwell
   double slowing = 1, jerk = 1;     ///< A'/A and p of (M11)
+  double jerk_limit = 0;            ///< p J of (M13) along the leg [rad/s3]; acceleration is a then. 0: (M2) and (M11) hold
+  double tool_share = 0;            ///< way of the tool over length [m/rad]
   double zone = 0;                  ///< at its end: blending begins at most this far before it [rad]
   double zone_behind = 0;           ///< and ends at most this far behind it [rad]
   double dwell = 0;                 ///< [s]
@@ -47,6 +53,17 @@ struct Leg {
 
 /// (M11) r' and A'/A of a move with a share `jerk` of the jerk, 0 < jerk <= 1, where others have ramps of r = `ramp`.
 std::pair<double, double> ramp_of(double ramp, double jerk);
+
+/// A change of speed.
+struct SpeedChange {
+  double duration, ramp;  ///< tau [s], r of (M1)
+};
+/// (M13) at_full: V/a [s]; by_jerk: V/J [s2], above 0.
+SpeedChange limited_change(double at_full, double by_jerk);
+/// (M13), or (M2) and (M11), of a leg whose speed changes by `change` >= 0 [rad/s].
+SpeedChange change_on(const Leg& leg, double change);
+/// (axis) J of (M13) [rad/s3, m/s3]. Precondition: motion.jerk.
+Eigen::VectorXd jerk_limits(const pipeline::Motion& motion, const pipeline::Robot& robot);
 
 struct Legs {
   std::vector<Leg> legs;

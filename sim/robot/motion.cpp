@@ -41,6 +41,21 @@ VectorXd mean_accelerations(const pipeline::Motion& motion, const pipeline::Robo
   return accelerations;
 }
 
+/// The highest speed that a leg with a jerk limit reaches over this length between two speeds, and slows down from in time
+/// (M13): by bisection, the way grows with it.
+double reached_speed(const Leg& leg, double length, double v0, double v1) {
+  const auto way = [&](double top) {
+    return (v0 + top) / 2 * change_on(leg, top - v0).duration + (top + v1) / 2 * change_on(leg, top - v1).duration;
+  };
+  double low = std::max(v0, v1), high = std::max(leg.cruise, low);
+  if (way(high) <= length) return high;
+  for (int i = 0; i < 50; ++i) {  // 2^-50 of the speed
+    const double middle = (low + high) / 2;
+    (way(middle) <= length ? low : high) = middle;
+  }
+  return low;
+}
+
 /// How leg k goes over into leg k + 1.
 struct Corner {
   double limit = 0;                                    // w [rad/s]
@@ -55,8 +70,9 @@ struct Corner {
 
 class CornerSpeeds {
  public:
-  CornerSpeeds(const std::vector<Leg>& legs, const VectorXd& accelerations)
-      : legs_(legs), accelerations_(accelerations), corners_(legs.size()) {
+  /// jerks: J_i of (M13), and accelerations a_i then; empty: A_i.
+  CornerSpeeds(const std::vector<Leg>& legs, const VectorXd& accelerations, const VectorXd& jerks)
+      : legs_(legs), accelerations_(accelerations), jerks_(jerks), corners_(legs.size()) {
     for (size_t k = 0; k + 1 < legs.size(); ++k) {
       if (legs[k].dwell > 0 || legs[k + 1].dwell > 0 || legs[k].zone == 0) continue;
       const double top = std::max(legs[k].cruise, legs[k + 1].cruise);
@@ -73,8 +89,15 @@ class CornerSpeeds {
   Corner corner(size_t k, double limit) const {
     const Leg &leg = legs_[k], &next = legs_[k + 1], &softer = leg.ramp > next.ramp ? leg : next;
     Corner c{limit, std::min(limit, leg.cruise), std::min(limit, next.cruise), 0, softer.ramp};
-    const VectorXd change = c.out * next.direction - c.in * leg.direction;
-    c.duration = change.cwiseAbs().cwiseQuotient(accelerations_).maxCoeff() / softer.slowing;
+    const VectorXd change = (c.out * next.direction - c.in * leg.direction).cwiseAbs();
+    const double at_full = change.cwiseQuotient(accelerations_).maxCoeff();
+    if (jerks_.size() == 0) {
+      c.duration = at_full / softer.slowing;
+    } else if (at_full > 0) {
+      const double by_jerk = change.cwiseQuotient(jerks_).maxCoeff() / std::min(leg.jerk, next.jerk);
+      const SpeedChange limited = limited_change(at_full, by_jerk);
+      c.duration = limited.duration, c.ramp = limited.ramp;
+    }
     return c;
   }
 
@@ -100,6 +123,7 @@ class CornerSpeeds {
 
   bool long_enough(size_t k, double v0, double before, double v1, double after) const {
     const Leg& leg = legs_[k];
+    if (jerks_.size() > 0) return (v0 + v1) / 2 * change_on(leg, std::abs(v1 - v0)).duration <= leg.length - before - after;
     return std::abs(v1 * v1 - v0 * v0) <= 2 * leg.acceleration * (leg.length - before - after);
   }
 
@@ -132,7 +156,7 @@ class CornerSpeeds {
   }
 
   const std::vector<Leg>& legs_;
-  const VectorXd& accelerations_;  // A_i
+  const VectorXd &accelerations_, &jerks_;
   std::vector<Corner> corners_;
   Corner still_;
 };
@@ -161,15 +185,20 @@ class Pieces {
   void add_leg(const Leg& leg, const Corner& entry, const Corner& exit) {
     const double v0 = entry.out, v1 = exit.in, twice = 2 * leg.acceleration;
     const double length = leg.length - entry.after() - exit.before();
-    const double reached = std::sqrt((twice * length + v0 * v0 + v1 * v1) / 2);
+    const double reached = leg.jerk_limit > 0 ? reached_speed(leg, length, v0, v1)
+                                              : std::sqrt((twice * length + v0 * v0 + v1 * v1) / 2);
     const double top = std::max({std::min(leg.cruise, reached), v0, v1});
-    const double up = (top * top - v0 * v0) / twice, down = (top * top - v1 * v1) / twice;
+    const SpeedChange rise = change_on(leg, top - v0), fall = change_on(leg, top - v1);
+    const auto way = [&](double v, const SpeedChange& change) {
+      return leg.jerk_limit > 0 ? (top + v) / 2 * change.duration : (top * top - v * v) / twice;
+    };
+    const double up = way(v0, rise), down = way(v1, fall);
     const double along = std::max(0.0, length - up - down);
     const auto at = [&](double s) { return VectorXd(leg.from + (entry.after() + s) * leg.direction); };
     const auto speed = [&](double v) { return VectorXd(v * leg.direction); };
-    add(at(0), speed(v0), speed(top), (top - v0) / leg.acceleration, leg.step, leg.step, leg.ramp);
+    add(at(0), speed(v0), speed(top), rise.duration, leg.step, leg.step, rise.ramp);
     add(at(up), speed(top), speed(top), along / top, leg.step, leg.step, leg.ramp);
-    add(at(up + along), speed(top), speed(v1), (top - v1) / leg.acceleration, leg.step, leg.step, leg.ramp);
+    add(at(up + along), speed(top), speed(v1), fall.duration, leg.step, leg.step, fall.ramp);
   }
 
   void add_blend(const Leg& leg, const Leg& next, const Corner& corner) {
@@ -183,8 +212,8 @@ class Pieces {
 namespace {
 
 /// Legs none of which is part of a path, one by one.
-void add_legs(const std::vector<Leg>& legs, const VectorXd& accelerations, Pieces& laid) {
-  const CornerSpeeds corners(legs, accelerations);
+void add_legs(const std::vector<Leg>& legs, const VectorXd& accelerations, const VectorXd& jerks, Pieces& laid) {
+  const CornerSpeeds corners(legs, accelerations, jerks);
   for (int k = 0; k < static_cast<int>(legs.size()); ++k) {
     const Leg& leg = legs[k];
     if (leg.dwell > 0) {
@@ -233,6 +262,15 @@ std::vector<MotionPiece> spline_pieces(const pipeline::Motion& motion, const std
   return pieces;
 }
 
+/// (M10) h of a chain: the acceleration of the tool builds up within 2 h.
+double smoothing_of(const pipeline::Motion& motion, const std::vector<Leg>& legs) {
+  if (!motion.path_jerk) return motion.path_smoothing;
+  double most = 0;  // acceleration of the tool [m/s2]
+  for (const Leg& leg : legs) most = std::max(most, leg.tool_share * leg.acceleration);
+  constexpr double shortest = 1e-3;  // the least motion.path_smoothing_ms
+  return most > 0 ? std::max(shortest, most / (2 * *motion.path_jerk)) : motion.path_smoothing;
+}
+
 AxisLimits limits_of(const pipeline::Robot& robot) {
   const std::vector<Axis> axes = axes_of(robot);
   AxisLimits limits{VectorXd(static_cast<long>(axes.size())), VectorXd(static_cast<long>(axes.size()))};
@@ -250,6 +288,8 @@ JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& 
   Legs program = legs_of(motion, robot, accelerations);
   if (motion.rows == pipeline::RecordedRows::spline) program.legs.clear();
   const AxisLimits limits = limits_of(robot);
+  const VectorXd jerks = motion.jerk ? jerk_limits(motion, robot) : VectorXd();
+  const VectorXd full = limits.acceleration * (motion.acceleration_percent / 100);
   Pieces laid;
   if (motion.rows == pipeline::RecordedRows::spline) laid.append(spline_pieces(motion, program.targets));
   for (auto begin = program.legs.begin(); begin != program.legs.end();) {
@@ -257,9 +297,9 @@ JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& 
         std::find_if(begin, program.legs.end(), [&](const Leg& leg) { return leg.path != begin->path; });
     const std::vector<Leg> legs(begin, end);
     if (begin->path == 0)
-      add_legs(legs, accelerations, laid);
+      add_legs(legs, motion.jerk ? full : accelerations, jerks, laid);
     else
-      laid.append(path_pieces(legs, accelerations, limits, motion.path_smoothing, laid.time));
+      laid.append(path_pieces(legs, accelerations, limits, smoothing_of(motion, legs), laid.time));
     begin = end;
   }
   duration_ = laid.time;

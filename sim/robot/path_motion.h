@@ -8,7 +8,8 @@
 //      straight.
 // (M9) u = ds/dt: with q'' = q_ss u^2 + q_s u', u <= c_k, |q_ss,i| u^2 <= 0.7 A_i, and what is left of A_i
 //      changes the speed, forward from the stop at the begin and backward from the one at the end.
-// (M10) The controls P_j = q(s(j h)), h = motion.path_smoothing_ms, make a uniform cubic B-spline in time: q_i' is a mean of
+// (M10) The controls P_j = q(s(j h)), h = motion.path_smoothing_ms or the largest a/(2 j) of a leg with the tool's
+//      acceleration a and j = motion.path_jerk_m_per_s3, make a uniform cubic B-spline in time: q_i' is a mean of
 //      (P_j+1 - P_j)/h, q_i'' one of (P_j+1 - 2 P_j + P_j-1)/h^2, so no axis is faster than its controls.
 //      Ends of three equal controls make it begin and end at rest, without a jump of acceleration. It leaves
 //      the curve by (h u)^2/6 of its curvature: 6 um for 0.4 m/s on a radius of 1 m and 15 ms. Acceleration rises

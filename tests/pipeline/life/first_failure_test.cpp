@@ -137,6 +137,37 @@ TEST_CASE("what is known moves nothing, and what is known better moves less") {
   CHECK(std::log10(summary_of({response}, "job").percentiles[1]) == Approx(4.4).margin(0.01));
 }
 
+TEST_CASE("the error of a percentile is that of few samples where the response is straight, and grows where it bends") {
+  const double a = 0.6;
+  LifeResponse response = straight(a, 0, 0);
+  for (const std::size_t p : {strength, model})
+    response.knowledge.covariance(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(p)) = 0;
+  response.planned = {{5, 5, 5}};
+  constexpr std::size_t samples = 10000;
+  const auto errors = [&](const LifeResponse& of) {
+    return error_factors({of}, "job", samples, first_failures({of}, "job", samples));
+  };
+  // Of a quantile q of s normal numbers with deviation a: a sqrt(q (1 - q) / s) over the density of the standard normal there.
+  const LifePercentiles of_samples = errors(response);
+  CHECK(std::log10(of_samples[1]) == Approx(a * std::sqrt(std::acos(-1.0) / 2 / samples)).epsilon(0.05));
+  const double density = std::exp(-decile * decile / 2) / std::sqrt(2 * std::acos(-1.0));
+  CHECK(std::log10(of_samples[0]) == Approx(a * 0.3 / density / std::sqrt(double(samples))).epsilon(0.05));
+  // One more node, whose life lies 0.2 decades below the line: without it the life there is longer by 0.2.
+  const double bend = 0.2, z = 0.75;
+  for (const double s : {0.0, -1.5, 1.5}) {
+    response.points.push_back({});
+    response.inside.push_back(Inside::as_is);
+    response.points.back()[friction] = z, response.points.back()[slack] = s;
+    for (std::size_t k = 0; k < response.strength.size(); ++k) response.worst_life.push_back(5 + 0.3 - a * z - bend);
+  }
+  // 10 % fail first at z = 1.28, between that node and the one at 1.5. The median lies at z = 0, which moves nothing.
+  const LifePercentiles bent = errors(response);
+  const double by_node = bend * (1.5 - decile) / (1.5 - z), slope = a - bend / (1.5 - z);
+  const double by_samples = slope * 0.3 / density / std::sqrt(double(samples));
+  CHECK(std::log10(bent[0]) == Approx(std::hypot(by_node, by_samples)).epsilon(0.02));
+  CHECK(std::log10(bent[1]) < 2 * std::log10(of_samples[1]));
+}
+
 TEST_CASE("the best test is that of the cause that spreads most, and its range is that of what is left") {
   const double a = 0.8, c = 0.4, by_scatter = 0.1 / decile;
   const FirstFailures lives = summary_of({straight(a, 0, c)}, "job");

@@ -197,6 +197,22 @@ TEST_CASE("krl: WITH sets speed, approximation, tool and base for its move alone
   CHECK(r.move(3).speed.tool.value() == 2.0);  // DEF_VEL_CP is the most
 }
 
+TEST_CASE("krl: moves of the spline planner take their jerk from $GEAR_JERK and $JERK, others do not") {
+  const Reading r = run("$VEL.CP=1\nSPTP " + pose +
+                            " WITH $GEAR_JERK[1]=SGEAR_JERK(PP1)\nSLIN {X 900} WITH $JERK=SJERK(LP1)\nSLIN {X 800}\n"
+                            "$GEAR_JERK[2]=60\n$JERK.CP=125\nPTP " + pose + "\nLIN {X 850}\nSPTP " + pose + "\nSLIN {X 820}",
+                        "DECL PDAT PP1={VEL 100.0,ACC 100.0,APO_DIST 60.0,APO_MODE #CPTP,GEAR_JERK 50.0}\n"
+                        "DECL LDAT LP1={VEL 2.0,ACC 100.0,APO_DIST 8.0,APO_FAC 50.0,JERK_FAC 40.0}",
+                        {{"$config.dat", config}});
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 7);
+  const double expected[] = {50, 40, 100, 100, 100, 60, 25};  // 125 of the 500 m/s3 of the machine data
+  for (int k = 0; k < 7; ++k) {
+    CAPTURE(k);
+    CHECK(r.move(k).jerk_percent == Approx(expected[k]).epsilon(rounding));
+  }
+}
+
 TEST_CASE("krl: what a SPLINE block sets WITH ends with the block") {
   const Reading r = run("$VEL.CP=1\nLIN " + pose +
                         "\nSPLINE WITH $VEL.CP=0.2\nSLIN {X 900}\nSLIN {X 800} WITH "

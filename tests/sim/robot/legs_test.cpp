@@ -130,6 +130,11 @@ TEST_CASE("legs: a step's own acceleration counts below those of the axes") {
   // the way it would be v/a + d/v = 4 s; here u^2 = 2 a int dy/r^2 from the end on, and 2 int dy/(r u) over half the way is
   // 4.128 s. The three equal controls at both ends (M10) add 3 h.
   CHECK(slow.duration() == Approx(4.128 + 3 * 0.015).epsilon(1e-3));
+  pipeline::Motion by_jerk = motion({to(PathKind::joint, from, 1, 0), line});
+  by_jerk.path_jerk = 5;  // 0.25 m/s2 build up within 0.05 s = 2 h
+  const JointMotion softer(by_jerk, robot);
+  CHECK(softer.pieces()[softer.pieces().size() - 2].duration == Approx(0.025).epsilon(1e-9));
+  CHECK(softer.duration() == Approx(4.128 + 3 * 0.025).epsilon(1e-3));
   pipeline::MotionStep a, b;
   a.joints = std::vector<double>(6, 0.0);
   b.joints = {1, 0, 0, 0, 0, 0.5};

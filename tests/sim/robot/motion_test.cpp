@@ -121,6 +121,61 @@ TEST_CASE("motion: a share of the jerk builds the acceleration up as much slower
   }
 }
 
+TEST_CASE("motion: with a jerk the acceleration takes the same time to build up for every change of speed") {
+  for (const double jerk : {200.0, 20.0, 5.0}) {  // rad/s3; with 5 the acceleration of 4 rad/s2 is not reached
+    CAPTURE(jerk);
+    for (const double share : {1.0, 0.5}) {
+      pipeline::Motion program = motion_of({move_to({0}), move_to({9})});
+      program.jerk = jerk / share;
+      program.steps[1].jerk_percent = 100 * share;
+      const JointMotion motion(program, robot_with({2}, {4}));
+      const double highest = std::min(4.0, std::sqrt(2 * jerk)), ramp = highest / jerk;
+      CHECK(motion.duration() == Approx(9 / 2.0 + 2 / highest + ramp).epsilon(rounding));
+      CHECK(motion.acceleration(ramp / 2)[0] == Approx(highest / 2).epsilon(rounding));
+      CHECK(motion.acceleration(ramp)[0] == Approx(highest).epsilon(rounding));
+    }
+  }
+}
+
+TEST_CASE("motion: a short move with a jerk reaches the speed that its way allows") {
+  // Four parts of constant jerk: a third of half the way would be too long for the acceleration of 4 rad/s2.
+  pipeline::Motion program = motion_of({move_to({0}), move_to({0.1})});
+  program.jerk = 20;
+  const JointMotion motion(program, robot_with({2}, {4}));
+  CHECK(motion.duration() == Approx(4 * std::cbrt(0.1 / (2 * 20))).epsilon(1e-9));  // bisected
+  CHECK(motion.position(motion.duration())[0] == Approx(0.1).epsilon(1e-9));
+}
+
+TEST_CASE("motion: no axis exceeds its acceleration nor its jerk, in moves and in blends") {
+  const std::vector<double> accelerations{4, 5, 6};
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    pipeline::Motion program = random_program(seed, 3, 40, 0.2);
+    program.jerk = 30;
+    const JointMotion motion(program, robot_with({2, 1, 3}, accelerations));
+    double over_acceleration = 0, over_jerk = 0, gap = 0;
+    for (const MotionPiece& piece : motion.pieces()) {
+      const double tau = piece.duration, r = piece.ramp;
+      for (long i = 0; i < 3; ++i) {
+        const double highest = std::abs(piece.velocity_change[i]) / (tau * (1 - r));
+        over_acceleration = std::max(over_acceleration, highest / accelerations[static_cast<std::size_t>(i)]);
+        over_jerk = std::max(over_jerk, highest / (r * tau) / 30);
+      }
+      if (&piece != &motion.pieces().front())
+        gap = std::max(gap, (motion.position(piece.start) - motion.position(piece.start - 1e-9)).cwiseAbs().maxCoeff());
+    }
+    CHECK(over_acceleration < 1 + limit_margin);
+    CHECK(over_jerk < 1 + limit_margin);
+    CHECK(gap < 1e-8);  // 3 rad/s for 1e-9 s, and legs bisected to 2^-50 of a speed
+  }
+}
+
+TEST_CASE("motion: a move with a duration takes it with a jerk, too") {
+  pipeline::Motion program = motion_of({move_to({0}), move_to({1})});
+  program.steps[1].duration = 2.5;
+  program.jerk = 20;
+  CHECK(JointMotion(program, robot_with({2}, {4})).duration() == Approx(2.5).epsilon(1e-9));
+}
+
 TEST_CASE("motion: the ramps are the program's share of each change of speed") {
   for (const double percent : {2.0, 25.0, 50.0}) {
     pipeline::Motion program = motion_of({move_to({0}), move_to({3})});
