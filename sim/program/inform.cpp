@@ -484,7 +484,8 @@ class Inform final : public Dialect {
     auto number = speed_of(statement, option);
     if (!number && argument_of(statement, option)) return false;  // asked for
     if (!axes && argument_of(statement, "vr")) number = std::nullopt;
-    const auto turn = axes ? std::nullopt : speed_of(statement, "vr");
+    std::optional<double> turn;
+    if (!axes) turn = speed_of(statement, "vr");
     if (!number && !turn) {
       if (const auto given = run_->given(option); given && given->is_number()) number = given->number;
       if (!number)
@@ -682,7 +683,8 @@ class Inform final : public Dialect {
     Value value = run.evaluate(target);
     const bool list = value.kind == Value::Kind::list && value.items.size() == 5;
     if (statement.name == "sete") {
-      const auto which = given.size() == 3 ? run.number(given[1]) : std::nullopt;
+      std::optional<double> which;
+      if (given.size() == 3) which = run.number(given[1]);
       const auto read = position_in(value);
       if (!which || !read || !with.is_number() || *which < 1 ||
           *which > static_cast<double>(read->numbers.size()))

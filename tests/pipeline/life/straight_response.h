@@ -15,7 +15,7 @@ inline LifeResponse straight_response(double a, double b, double c, double media
   response.strength = {-2, 0, 2};
   for (const double f : {0.0, -1.5, 1.5})
     for (const double s : {0.0, -1.5, 1.5}) {
-      ParameterPoint& point = response.points.emplace_back();
+      auto& point = response.points.emplace_back();
       point[index_of(Uncertain::friction_inside)] = f, point[index_of(Uncertain::slack)] = s;
       response.inside.push_back(Inside::as_is);
       for (const double of_strength : response.strength)

@@ -28,7 +28,7 @@ using Angles = std::vector<double>;
 std::vector<double> first_axes(const Reading& reading) {
   INFO(reading.problem());
   CHECK(reading.problems.empty());
-  return first_axes(reading.program);
+  return tests::first_axes(reading.program);
 }
 
 /// Warned of or only noted.
@@ -276,10 +276,10 @@ TEST_CASE("rapid controller: values behind one branch are one question, the one 
   CHECK_THAT(r.problem(),
              Catch::Contains("'x' depends on the branch in m.mod:5, that on 'gi1', which is a name") &&
                  Catch::Contains("give --value 'gi1=...', or --assume m.mod:5=then or =else"));
-  const Reading given =
+  const Reading answered =
       run("VAR num x:=0;\nIF gi1=2 THEN\nx:=1;\nENDIF\nMoveL Offs(p,x,0,0),v100,fine,tool0;\n", pose,
           given({{"gi1", "2"}}));
-  REQUIRE(given.problem() == "no such problem");
+  REQUIRE(answered.problem() == "no such problem");
 }
 
 TEST_CASE("rapid controller: a refusal names the routine and all that its condition lacks") {
