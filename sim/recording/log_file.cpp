@@ -361,10 +361,12 @@ double unit_by_size(const std::filesystem::path& file, const pipeline::Robot& ro
 
 LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& robot,
                     const LogOptions& options) {
-  std::string text = pipeline::beginning_of(file, sample_bytes);
+  const pipeline::PlainFile log(file);
+  std::string text = log.beginning(sample_bytes);
   refuse_other_kinds(file, text);
-  const double bytes = static_cast<double>(pipeline::state_of(file).size);
-  if (static_cast<double>(text.size()) < bytes) text.resize(text.rfind('\n') + 1);
+  const double bytes = static_cast<double>(log.size());
+  if (const std::size_t end = text.rfind('\n'); static_cast<double>(text.size()) < bytes && end != text.npos)
+    text.resize(end + 1);
   const double share = static_cast<double>(text.size()) / bytes;
   std::vector<double> times;
   Pass(file, robot, options, pipeline::CsvReader(std::move(text), file.string(), separators))

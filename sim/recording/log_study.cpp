@@ -125,7 +125,7 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
   };
   if (const auto& glitches = log.impossible.glitches; !glitches.empty())
     lines.push_back(fmt::format(
-        "warning: {} row{} left out, to which no axis could move and from which it could not move back: {}",
+        "warning: {} row{} left out, because no axis can get there and back in time: {}",
         glitches.size(), glitches.size() == 1 ? "" : "s", lines_text(glitches)));
   if (const auto& jumps = log.impossible.jumps; !jumps.empty())
     lines.push_back(fmt::format(
