@@ -117,9 +117,10 @@ Format make_motion_format() {
   Format format{"dresslife-motion", 1, "dresslife-sim", "how the dresspack moves", {}, {}};
   add(format, {
     {"/time",                  f64,  "sample",             "s",    always, "time of each sample"},
-    {"/segment/position",      f64,  "sample, segment, 3", "m",    decimals_11, "segment centres in the world"},
+    {"/segment/position",      f64,  "sample, segment, 3", "m",    decimals_11,
+     "segment centres in the world, kept to 5e-12 m"},
     {"/segment/orientation",   f64,  "sample, segment, 4", "1",    decimals_11,
-     "unit quaternion w x y z, body to world; body z is the tangent toward the tool"},
+     "unit quaternion w x y z, body to world, kept to 5e-12; body z is the tangent toward the tool"},
     {"/segment/length",        f64,  "segment",            "m",    always, "rest length"},
     {"/clamp/position",        f64,  "sample, clamp, 3",   "m",    always,
      "clamps in the world, dresspack by dresspack: base side first, tool side last"},
@@ -131,7 +132,7 @@ Format make_motion_format() {
      "travel of each dresspack's base clamp in its retraction unit; absent without one"},
     {"/robot/joint_position",  f64,  "sample, joint",      "rad",  maybe, "joint angles"},
     {"/robot/link_pose",       f64,  "sample, link, 7",    "m, 1", maybe | decimals_11,
-     "position and quaternion w x y z of each link; attribute `links` names them, comma-separated"},
+     "position and quaternion w x y z of each link, kept to 5e-12; attribute `links` names them, comma-separated"},
     {"/program/step",          i32,  "sample",             "1",    always,
      "index of the program line being executed"},
     {"/program/text",          text, "line",               "1",    always, "the lines of the program"},
@@ -150,7 +151,8 @@ Format make_motion_format() {
      "another), cell, guide rings"},
     {"/contact/largest_force", f64,  "segment, obstacle",  "N",    maybe, "largest normal force over the motion"},
     {"/energy",                f64,  "sample, 3",          "J",    always, "kinetic, elastic, gravitational"},
-    {"/tension",               f64,  "sample, segment",    "N",    decimals_4, "axial force in each segment"},
+    {"/tension",               f64,  "sample, segment",    "N",    decimals_4,
+     "axial force in each segment, kept to 5e-5 N"},
   });
   add_dresspacks(format);
   add_rubbing(format);
@@ -213,7 +215,8 @@ Format make_strain_format() {
      "arc from the base clamp of its dresspack at which its wires are evaluated: its centre, or the clamp beside it"},
     {"/deformation/curvature",  f32,  "sample, segment, 2", "1/m",  always, "about d1 and d2 of the segment"},
     {"/deformation/twist",      f32,  "sample, segment",    "rad/m", always, "about the tangent"},
-    {"/deformation/elongation", f32,  "sample, segment",    "1",    decimals_7, "relative change of length"},
+    {"/deformation/elongation", f32,  "sample, segment",    "1",    decimals_7,
+     "relative change of length, kept to 5e-8"},
   });
   add_dresspacks(format);
   add_rubbing(format);
@@ -259,9 +262,10 @@ Format make_strain_format() {
     {"/bending/moment",          f64,  "bend",               "N m",  maybe,
      "its moment: polymer, wires and friction (W29)"},
     {"/probe/site",              u32,  "probe",              "1",    always, "site of each probe"},
-    {"/probe/strain",            f32,  "probe, sample",      "1",    decimals_7, "whole strain history of each probe"},
+    {"/probe/strain",            f32,  "probe, sample",      "1",    decimals_7,
+     "whole strain history of each probe, kept to 5e-8"},
     {"/probe/shear",             f32,  "probe, sample",      "1",    maybe | decimals_7,
-     "shear strain gamma of its surface, by the wire's torsion"},
+     "shear strain gamma of its surface, by the wire's torsion, kept to 5e-8"},
     {"/plane/site",              u32,  "plane",              "1",    maybe,
      "likely worst wires of each segment and layer; with strain.equivalent critical_plane only"},
     {"/plane/strain",            f32,  "plane, sample",      "1",    maybe, "strain along their fibre"},

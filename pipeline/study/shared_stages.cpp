@@ -91,7 +91,7 @@ bool take_up_to(const fs::path& from, const fs::path& to, const JobState& state,
     if (needed(stage)) {
       give_second_name(from / files.output, to / files.output);
       if (checksum_of(to / files.output) != receipt->output) {  // another run or its owner was faster
-        fs::remove(to / files.output);
+        remove_ours(to / files.output);
         return false;
       }
     }

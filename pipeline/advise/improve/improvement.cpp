@@ -275,8 +275,7 @@ class Improver {
 
   std::vector<Trial> tried(const std::vector<std::vector<std::string>>& sets) {
     std::vector<Trial> trials(sets.size());
-    // The jobs as they are run again at the end, with all files.
-    Study study{done_.name, {}, done_.trials.empty() ? done_.keep_finals : done_.keep_trials};
+    Study study{done_.name, {}, done_.keep_trials};
     std::map<std::string, std::pair<std::size_t, std::size_t>> trial_of;  // job: trial, and which of its jobs
     for (std::size_t k = 0; k < sets.size(); ++k) {
       Trial& trial = trials[k];

@@ -51,6 +51,38 @@ TEST_CASE("nearest points of two segments are those of a search over both") {
   }
 }
 
+TEST_CASE("no pair of segments is nearer than the search says, which is no less than the nearest pair or a segment") {
+  const Rod rod(soft_hose(64));
+  const double l = rod.segment_length(), d = rod.properties().diameter, own = pi / 2 * d;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-1, 1);
+  int far = 0, near = 0;
+  for (int k = 0; k < 300; ++k) {
+    RodState state = rod.straight(planar_frame(0, 0, 0));
+    const Vector3 rate(12 * number(random), 12 * number(random), 6 * number(random));  // [1/m]: part of a helix
+    for (int i = 1; i < rod.segments(); ++i) {
+      state.orientation[i] = state.orientation[i - 1] * rotation(l * rate);
+      state.position[i] = state.position[i - 1] + l / 2 * (tangent(state.orientation[i - 1]) + tangent(state.orientation[i]));
+    }
+    std::vector<Contact> contacts;
+    const double reach = 0.01, clear = find_self_contacts(rod, state, reach, contacts);
+    double nearest = 1e9, nearest_with_neighbours = 1e9;
+    for (int i = 0; i < rod.segments(); ++i)
+      for (int j = i + 1; j < rod.segments(); ++j) {
+        const double gap = (state.position[j] - state.position[i]).norm() - l - d, between = (j - i - 1) * l;
+        if (between >= own + l) nearest = std::min(nearest, gap);
+        if (between >= own - l) nearest_with_neighbours = std::min(nearest_with_neighbours, gap);
+      }
+    const double rounding = 1e-12;  // [m] of a chain of 1.6 m
+    CHECK(clear <= nearest + rounding);
+    CHECK(clear >= std::min(nearest_with_neighbours, reach + l) - rounding);
+    if (clear > reach) CHECK(contacts.empty());
+    ++(clear > reach ? far : near);
+  }
+  CHECK(far > 30);
+  CHECK(near > 30);
+}
+
 TEST_CASE("a slack hose that is wound up coils onto itself and stays outside itself") {
   RodProperties p = soft_hose(64);
   p.gravity.setZero();

@@ -24,6 +24,21 @@ TEST_CASE("the tangent is the rotated z axis and a roll leaves it alone") {
   CHECK((tangent(rolled(frame, 1.3).orientation) - tangent(frame.orientation)).norm() < 1e-15);
 }
 
+TEST_CASE("a link's turn alone is that of its whole state") {
+  RodProperties p;
+  p.segments = 4, p.length = 1, p.mass_per_length = 1, p.diameter = 0.05;
+  p.bending_stiffness = p.torsional_stiffness = 1, p.axial_stiffness = 1e4;
+  RodProperties hanging = p;
+  hanging.tool_end = End::free;
+  const Rod rod(std::vector<RodProperties>{p, hanging});
+  RodState state = rod.straight(Frame{});
+  for (int i = 0; i < rod.segments(); ++i) state.orientation[i] = rotation(Vector3(0.2 * i, -0.3, 0.1 * i * i));
+  state.clamps.end(1).orientation = rotation({0.3, 0, 0});
+  state.clamps.end(2).orientation = rotation({0, 0.4, 0});
+  for (int j = 0; j < rod.links(); ++j) CHECK(rod.turn(state, j) == rod.link_state(state, j).turn);
+  CHECK(rod.turn(state, rod.links() - 1) == Vector3::Zero());
+}
+
 TEST_CASE("a link's map G gives the rate of its rotation vector") {
   // Central differences of log(R_a^T R_b) while the second body turns: their error is of order step^2.
   const double step = 1e-5, tolerance = 1e-9;
