@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <map>
 #include <string>
 #include <unordered_map>
 
@@ -82,6 +84,28 @@ int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& 
   return built.executed;
 }
 
+/// Of jobs with the same recipes the first one runs, and the others take its results: robots that do the same are made once.
+/// Jobs without others like them wait for the next graph. Returns how many stages were started.
+int make_first_of_likes(const Study& study, const StudyPlaces& places, const RunOptions& options,
+                        std::vector<JobState>& states, Progress& progress) {
+  if (study.keep == Keep::lives) return 0;  // the first one would keep nothing to take
+  std::map<std::array<std::string, stage_count>, std::vector<std::size_t>> likes;
+  for (std::size_t k = 0; k < states.size(); ++k)
+    if (study.jobs[k].failure.empty() && !states[k].done()) likes[states[k].recipes].push_back(k);
+  Study first{study.name, {}, study.keep};
+  std::vector<std::size_t> jobs;
+  for (const auto& [recipes, same] : likes)
+    if (same.size() > 1) jobs.push_back(same.front());
+  if (jobs.empty()) return 0;
+  std::vector<JobState> of_first;
+  for (const std::size_t k : jobs) first.jobs.push_back(study.jobs[k]), of_first.push_back(states[k]);
+  write_build_graph(first, places, of_first, options.limits, options.launcher);
+  const int started = build_rest(first, places, options, jobs.size(), of_first, progress);
+  for (std::size_t i = 0; i < jobs.size(); ++i) states[jobs[i]] = of_first[i];
+  share_stages(study, places, states);
+  return started;
+}
+
 }  // namespace
 
 int make_rest(const StudyRequest& request, StudyState& standing, const RunOptions& options) {
@@ -96,12 +120,19 @@ int make_rest(const StudyRequest& request, StudyState& standing, const RunOption
     if (!states[k].damaged.empty())
       progress.note(fmt::format("{}: {}", places.job(study.jobs[k].name).string(), states[k].words()));
   }
+  int started = 0;
+  if (!remembered && left > 1) {
+    started = make_first_of_likes(study, places, options, standing.states, progress);
+    left = static_cast<std::size_t>(std::count_if(states.begin(), states.end(), [&](const JobState& state) {
+      return study.jobs[static_cast<std::size_t>(&state - states.data())].failure.empty() && !state.done();
+    }));
+  }
   if (remembered)
     renew_receipts(study, places, states);
   else
     write_build_graph(study, places, states, options.limits, options.launcher);
   if (!remembered && places.shard.empty()) remember(request, standing);
-  return left == 0 ? 0 : build_rest(study, places, options, left, standing.states, progress);
+  return left == 0 ? started : started + build_rest(study, places, options, left, standing.states, progress);
 }
 
 std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options) {

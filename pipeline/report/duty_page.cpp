@@ -80,6 +80,7 @@ std::string section(const DutyResult& duty) {
     text += "<p class=\"soft\">Life of a new dresspack over the share of one program, all others as often as today. Orange: 1 of 10 has failed. Blue: half. "
             "Upright line: today. Dashed: the life of the robot.</p>\n<div class=\"pairs\">\n" + charts + "</div>\n";
   if (const std::string caution = caution_words(duty); !caution.empty()) text += "<p class=\"soft\">" + escaped(caution) + "</p>\n";
+  if (const std::string mixture = mixture_words(duty); !mixture.empty()) text += "<p class=\"soft\">" + escaped(mixture) + "</p>\n";
   return text;
 }
 

@@ -16,9 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The last stage makes what is a job's own.
-constexpr std::size_t shared_count = stage_count - 1;
-
 /// What a job's stages up to one are made from.
 std::string recipes_up_to(const JobState& state, std::size_t stage) {
   std::string all;
@@ -141,6 +138,7 @@ void give_stage(const fs::path& from, const std::vector<fs::path>& folders, std:
     remove_ours(to / files.receipt);  // it is of a file that is about to go
     if (is_there) give_second_name(from / files.output, to / files.output);
     copy_if_there(from / files.log, to / files.log);
+    if (stage + 1 == stage_count) copy_if_there(from / "log", to / "log");
   }
   if (is_there)
     renew_receipt(from / files.receipt, from / files.output);  // another name changed one of its times
@@ -157,20 +155,20 @@ void share_stages(const Study& study, const StudyPlaces& places, std::vector<Job
     return;
   std::unordered_map<std::string, std::size_t> havers;
   for (std::size_t k = 0; k < states.size(); ++k)
-    for (std::size_t stage = 0; study.jobs[k].failure.empty() && stage < shared_count; ++stage)
+    for (std::size_t stage = 0; study.jobs[k].failure.empty() && stage < stage_count; ++stage)
       if (has_up_to(states[k], places.job(study.jobs[k].name), stage))
         havers.emplace(recipes_up_to(states[k], stage), k);
   std::map<std::size_t, std::vector<Receiver>> gifts;  // by giving job
   for (std::size_t k = 0; k < states.size(); ++k) {
     if (!study.jobs[k].failure.empty()) continue;
-    for (std::size_t stage = shared_count; stage-- > states[k].next;)
+    for (std::size_t stage = stage_count; stage-- > states[k].next;)
       if (const auto haver = havers.find(recipes_up_to(states[k], stage)); haver != havers.end()) {
         gifts[haver->second].push_back({k, stage});
         break;
       }
   }
   for (const auto& [from, all] : gifts) {
-    for (std::size_t stage = 0; stage < shared_count; ++stage) {
+    for (std::size_t stage = 0; stage < stage_count; ++stage) {
       std::vector<fs::path> folders;
       for (const Receiver& gift : all)
         if (gift.last >= stage) folders.push_back(places.job(study.jobs[gift.to].name));

@@ -270,7 +270,7 @@ std::vector<Program> programs_of(const Row& row) {
     begin = plus + 3;
     while (!part.empty() && (part.back() == ' ' || part.back() == '%')) part.pop_back();
     const std::size_t blank = part.rfind(' ');
-    const std::optional<double> percent = blank == part.npos ? std::nullopt : number_of_export(part.substr(blank + 1));
+    const std::optional<double> percent = blank == part.npos ? std::nullopt : exported_number(part.substr(blank + 1));
     if (!percent || !(*percent > 0 && *percent <= 100))
       throw InputError(row.job_where, fmt::format("'{}' is no job with its share of the hours of operation", part),
                        "write JOB.yaml 60 % + OTHER.yaml 25 %");

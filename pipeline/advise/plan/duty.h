@@ -8,8 +8,8 @@
 //         - {job: spot_robot_1, repeats_per_hour: 12}
 //         - {job: hard, percent_of_time: 5, deviation_percent: 10}
 //       order:
-//         - {job: spot_robot_1, repeats: 20}   then the next one, and again from the first
-//         - {job: hard}
+//         - {job: spot_robot_1, repeats: 20}   20 times in a row
+//         - {job: hard, repeats: 1}            once; then again the first
 //       history:
 //         - {duty: night, hours: 2000}   what the dresspack has done before
 #pragma once

@@ -86,6 +86,22 @@ std::string caution_words(const DutyResult& duty) {
   return text;
 }
 
+std::string mixture_words(const DutyResult& duty) {
+  constexpr double worth_a_word = 0.01;
+  std::string text;
+  for (std::size_t m = 0; m < duty.modes.size(); ++m) {
+    const double apart = duty.damage.same_place[m] / duty.changes[m];
+    if (apart < 1 - worth_a_word)
+      text += wrapped(fmt::format("The programs wear different places: the damage of '{}' is {:.2f} of the sum of their worst places.",
+                                  duty.modes[m], apart),
+                      118, "  ");
+    if (std::abs(duty.changes[m] - 1) > worth_a_word)
+      text += wrapped(fmt::format("Changes between the programs make the damage of '{}' {:.2f} times as large.", duty.modes[m], duty.changes[m]),
+                      118, "  ");
+  }
+  return text;
+}
+
 std::string duty_words(const std::vector<DutyResult>& results) {
   std::string text;
   for (const DutyResult& duty : results) {
@@ -102,6 +118,7 @@ std::string duty_words(const std::vector<DutyResult>& results) {
                           shown_hours(duty.robot_life_hours, duty.parts[k].without[0]), shown_hours(duty.robot_life_hours, duty.parts[k].as_twice[0]));
     text += fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
     text += caution_words(duty);
+<<<<<<< HEAD
     for (std::size_t m = 0; m < duty.modes.size(); ++m) {
       constexpr double worth_a_word = 0.01;
       const double apart = duty.damage.same_place[m] / duty.changes[m];
@@ -114,6 +131,9 @@ std::string duty_words(const std::vector<DutyResult>& results) {
         text += wrapped(fmt::format("Changes between the programs make the damage of '{}' {:.2f} times as large.", duty.modes[m], duty.changes[m]),
                         118, "  ");
     }
+=======
+    text += mixture_words(duty);
+>>>>>>> d8632193b491fbece6b7bf530c40dd8d349bf1f7
   }
   return text;
 }

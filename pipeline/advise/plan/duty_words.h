@@ -8,6 +8,9 @@
 
 namespace dresslife::pipeline {
 
+/// Places that programs do not share, and what changes between programs do to each mode; empty: nothing worth a word.
+std::string mixture_words(const DutyResult& duty);
+
 /// Of each duty: when to replace, then a line for each program. Ends with a line feed.
 std::string duty_words(const std::vector<DutyResult>& results);
 

@@ -149,6 +149,9 @@ Study study_of_rounds(const DutyFile& file, const Study& study, const std::vecto
     if (name.empty() || !known.insert(name).second) continue;
     const auto first = std::find_if(study.jobs.begin(), study.jobs.end(),
                                     [&](const StudyJob& job) { return job.name == duty.order.front().job; });
+    if (first == study.jobs.end() || !first->job)
+      throw InputError(duty.order.front().where, fmt::format("job '{}' cannot be made", duty.order.front().job),
+                       "mend it: dresslife status STUDY gives the reason");
     Job job = *first->job;
     if (!job.robot.external_axes.empty())
       throw InputError(duty.order.front().where, "an order is not evaluated for a robot with external axes",
