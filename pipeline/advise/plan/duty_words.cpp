@@ -92,8 +92,9 @@ std::string mixture_words(const DutyResult& duty) {
   for (std::size_t m = 0; m < duty.modes.size(); ++m) {
     const double apart = duty.damage.same_place[m] / duty.changes[m];
     if (apart < 1 - worth_a_word)
-      text += wrapped(fmt::format("The programs wear different places: the damage of '{}' is {:.2f} of the sum of their worst places.",
-                                  duty.modes[m], apart),
+      text += wrapped(fmt::format("The programs wear different places: with all at one place the damage of '{}' would be {:.2g} times "
+                                  "as large.",
+                                  duty.modes[m], 1 / apart),
                       118, "  ");
     if (std::abs(duty.changes[m] - 1) > worth_a_word)
       text += wrapped(fmt::format("Changes between the programs make the damage of '{}' {:.2f} times as large.", duty.modes[m], duty.changes[m]),
@@ -118,22 +119,7 @@ std::string duty_words(const std::vector<DutyResult>& results) {
                           shown_hours(duty.robot_life_hours, duty.parts[k].without[0]), shown_hours(duty.robot_life_hours, duty.parts[k].as_twice[0]));
     text += fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
     text += caution_words(duty);
-<<<<<<< HEAD
-    for (std::size_t m = 0; m < duty.modes.size(); ++m) {
-      constexpr double worth_a_word = 0.01;
-      const double apart = duty.damage.same_place[m] / duty.changes[m];
-      if (apart < 1 - worth_a_word)
-        text += wrapped(fmt::format("The programs wear different places: with all at one place the damage of '{}' would be {:.2g} times "
-                                    "as large.",
-                                    duty.modes[m], 1 / apart),
-                        118, "  ");
-      if (std::abs(duty.changes[m] - 1) > worth_a_word)
-        text += wrapped(fmt::format("Changes between the programs make the damage of '{}' {:.2f} times as large.", duty.modes[m], duty.changes[m]),
-                        118, "  ");
-    }
-=======
     text += mixture_words(duty);
->>>>>>> d8632193b491fbece6b7bf530c40dd8d349bf1f7
   }
   return text;
 }
