@@ -19,20 +19,25 @@ void CableRubbing::add(std::size_t segment, std::size_t sector, std::size_t samp
   if (work > largest_[k]) largest_[k] = work, at_[k] = sample;
 }
 
-void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, const CableState& state, double line_load,
-                               double spacing) {
+void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, const CableState& state,
+                               double line_load, double spacing) {
   const std::size_t elements = state.press.size() - 1;
   const auto middle = [](const std::vector<double>& of, std::size_t element, std::size_t d) {
     return (of[2 * element + d] + of[2 * element + 2 + d]) / 2;
   };
-  const auto pressing = [](const std::vector<double>& of, std::size_t element) { return (of[element] + of[element + 1]) / 2; };
+  const auto pressing = [](const std::vector<double>& of, std::size_t element) {
+    return (of[element] + of[element + 1]) / 2;
+  };
   for (std::size_t i = 0; i < segments_; ++i) {
-    const std::size_t first = i * elements / segments_, end = std::max(first + 1, (i + 1) * elements / segments_);
-    const double length = spacing * static_cast<double>(elements) / static_cast<double>(segments_ * (end - first));
+    const std::size_t first = i * elements / segments_,
+                      end = std::max(first + 1, (i + 1) * elements / segments_);
+    const double length =
+        spacing * static_cast<double>(elements) / static_cast<double>(segments_ * (end - first));
     double x = 0, y = 0;
     for (std::size_t e = first; e < end; ++e) {
       const double turn = cable.lay_rate * spacing * (static_cast<double>(e) + 0.5);
-      const double to_x = middle(state.offset, e, 0), to_y = middle(state.offset, e, 1), now = pressing(state.press, e);
+      const double to_x = middle(state.offset, e, 0), to_y = middle(state.offset, e, 1),
+                   now = pressing(state.press, e);
       double at_x = std::cos(turn) * cable.place[0] - std::sin(turn) * cable.place[1] + to_x;
       double at_y = std::sin(turn) * cable.place[0] + std::cos(turn) * cable.place[1] + to_y;
       if (std::hypot(at_x, at_y) < (cable.nearest + cable.farthest) / 2 && cable.farthest < without_limit)

@@ -25,7 +25,11 @@ class CableRubbing {
   static constexpr std::size_t sectors = 36;  ///< around the cable
 
   CableRubbing(std::size_t segments, std::size_t samples)
-      : segments_(segments), side_(segments * samples), work_(segments * sectors), largest_(work_), at_(work_.size()) {}
+      : segments_(segments),
+        side_(segments * samples),
+        work_(segments * sectors),
+        largest_(work_),
+        at_(work_.size()) {}
 
   /// The side on which it touches: the direction (x, y) toward d1 and d2 of the hose.
   void touch(std::size_t segment, std::size_t sample, double x, double y) {
@@ -36,13 +40,14 @@ class CableRubbing {
     add(segment, side_[sample * segments_ + segment], sample, work);
   }
   /// The next sample of a loose cable, whose `line_load` [N/m] comes besides how it presses. spacing: of nodes [m].
-  void move_across(std::size_t sample, const LooseCable& cable, const CableState& state, double line_load, double spacing);
+  void move_across(std::size_t sample, const LooseCable& cable, const CableState& state, double line_load,
+                   double spacing);
 
   /// A place that rubs.
   struct Patch {
     std::size_t segment;
-    double angle;  ///< of its middle, from d1 toward d2 [rad]
-    double work;   ///< of one repeat [J]
+    double angle;        ///< of its middle, from d1 toward d2 [rad]
+    double work;         ///< of one repeat [J]
     std::size_t sample;  ///< of the largest work
   };
   std::vector<Patch> patches() const;
@@ -53,10 +58,10 @@ class CableRubbing {
   void add(std::size_t segment, std::size_t sector, std::size_t sample, double work);
 
   std::size_t segments_;
-  std::vector<std::uint8_t> side_;         ///< (sample, segment) sector
-  std::vector<double> work_, largest_;     ///< (segment, sector) [J]
-  std::vector<std::size_t> at_;            ///< (segment, sector) sample of the largest
-  std::vector<double> pressed_, offset_;   ///< (node), (node, 2) at the sample before
+  std::vector<std::uint8_t> side_;        ///< (sample, segment) sector
+  std::vector<double> work_, largest_;    ///< (segment, sector) [J]
+  std::vector<std::size_t> at_;           ///< (segment, sector) sample of the largest
+  std::vector<double> pressed_, offset_;  ///< (node), (node, 2) at the sample before
 };
 
 }  // namespace dresslife::strain
