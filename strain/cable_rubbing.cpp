@@ -13,12 +13,6 @@ std::size_t CableRubbing::sector_of(double x, double y) {
   return static_cast<std::size_t>((angle < 0 ? angle + 2 * std::numbers::pi : angle) / width()) % sectors;
 }
 
-void CableRubbing::add(std::size_t segment, std::size_t sector, std::size_t sample, double work) {
-  const std::size_t k = segment * sectors + sector;
-  work_[k] += work;
-  if (work > largest_[k]) largest_[k] = work, at_[k] = sample;
-}
-
 void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, const CableState& state,
                                double line_load, double spacing) {
   const std::size_t elements = state.press.size() - 1;
@@ -46,7 +40,7 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
       if (pressed_.empty()) continue;
       const double moved = std::hypot(to_x - middle(offset_, e, 0), to_y - middle(offset_, e, 1));
       const double work = (line_load + std::min(now, pressing(pressed_, e))) * moved * length;
-      if (work > 0) add(i, sector_of(at_x, at_y), sample, work);
+      if (work > 0) across_.add(i, sector_of(at_x, at_y), sample, work);
     }
     touch(i, sample, x, y);
   }
@@ -56,9 +50,10 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
 
 std::vector<CableRubbing::Patch> CableRubbing::patches() const {
   std::vector<Patch> patches;
-  for (std::size_t k = 0; k < work_.size(); ++k)
-    if (work_[k] > 0)
-      patches.push_back({k / sectors, (static_cast<double>(k % sectors) + 0.5) * width(), work_[k], at_[k]});
+  for (std::size_t k = 0; k < across_.work.size(); ++k)
+    if (const double work = across_.work[k] + along_.work[k]; work > 0)
+      patches.push_back({k / sectors, (static_cast<double>(k % sectors) + 0.5) * width(), work,
+                         (across_.largest[k] > along_.largest[k] ? across_ : along_).at[k]});
   return patches;
 }
 
