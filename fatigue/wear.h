@@ -18,11 +18,11 @@
 // (ESTIMATES). Sliding spreads w along the hose by itself. A footprint longer than the segments makes the depth
 // independent of them.
 //
-// The jacket of a cable wears by the same law on the inside of its hose and on its neighbours (W41), with a footprint of
-// ten diameters of the cable: before a place is worn through by t, the cable has to bend into it, and 384 E I t/l^4 is what
-// presses, 20 N/m of a cable of 0.03 N m2 at l = 0.16 m (ESTIMATE). The hose counts as flat, where its bore would widen the worn strip by an eighth, and as smooth:
-// the crests of a corrugated hose touch less than all of the cable, but each wears a strip of 2 sqrt(2 r thickness), 70 % of
-// the pitch of the shipped hose.
+// The jacket of a cable wears by the same law on the inside of its hose and on its neighbours (W41), with a footprint
+// of ten diameters of the cable: before a place is worn through by t, the cable has to bend into it, and 384 E I t/l^4
+// is what presses, 20 N/m of a cable of 0.03 N m2 at l = 0.16 m (ESTIMATE). The hose counts as flat, where its bore
+// would widen the worn strip by an eighth. It counts as smooth: the crests of a corrugated hose touch less than all of
+// the cable, but each wears a strip of 2 sqrt(2 r thickness), 70 % of the pitch of the shipped hose.
 //
 // Not contained: wear of the obstacle, a patch that grows along the hose, heat, dirt, cuts, running-in.
 #pragma once

@@ -551,7 +551,7 @@ void CablePaths::slide(Cable& cable) {
   std::vector<double> lengths = lengths_;
   if (!cable.rubs) lengths = {std::accumulate(lengths_.begin(), lengths_.end(), 0.0)};
   SlidingLine line(lengths, cable.axial_stiffness, cable.base_grip, cable.tool_grip);
-  std::vector<double> unslid(segments), limits(segments), held(segments, 0.0), slid(segments);
+  std::vector<double> unslid(segments), limits(segments), held(segments, 0.0);
   const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
   std::array<double, 2> before{};
   std::vector<double> ended(segments, without_limit);
@@ -564,6 +564,7 @@ void CablePaths::slide(Cable& cable) {
       ended[i] = line.strain(i);
     }
     last = repeat > 2 && (moved < settled || repeat == most_repeats);
+    if (cable.rubbing) cable.rubbing->begin_repeat();
     for (std::size_t t = 0; t < next_; ++t) {
       const double by_twist = pulled_by_twist(cable, hose_twist_[t]);
       if (!cable.rubs) {
@@ -592,7 +593,7 @@ void CablePaths::slide(Cable& cable) {
           if (cable.loose) break;  // its limits do not depend on its tension
         }
         line.keep();
-        if (cable.rubbing && (last || t + 1 == next_)) slide_past(cable, line, unslid, t, last, slid);
+        if (cable.rubbing) record_slide(cable, line, unslid, t);
       }
       if (!last) continue;
       if (!cable.rubs) cable.strain[t] = line.strain(0) - by_twist;
@@ -603,17 +604,15 @@ void CablePaths::slide(Cable& cable) {
   cable.grip_slip = {line.travel_at_base() - before[0], line.travel_at_tool() - before[1]};
 }
 
-/// The work of a sample along the hose (W41). unslid: strains if nothing slid. slid: (segment) from its place until the sample
-/// before [m]; gets that until this one.
-void CablePaths::slide_past(Cable& cable, const SlidingLine& line, std::span<const double> unslid, std::size_t sample,
-                            bool counts, std::vector<double>& slid) const {
+/// A sample's sliding along the hose (W41). unslid: strains if nothing slid.
+void CablePaths::record_slide(Cable& cable, const SlidingLine& line, std::span<const double> unslid,
+                              std::size_t sample) const {
   double begin = line.let_in_at_base();
   for (std::size_t i = 0; i < lengths_.size(); ++i) {
-    const double end = begin + lengths_[i] * (line.strain(i) - unslid[i]), middle = (begin + end) / 2;
+    const double end = begin + lengths_[i] * (line.strain(i) - unslid[i]);
     const double pressing = cable.pressing[along_at(i, sample)];
     const double load = cable.line_load + (cable.loose ? pressing : std::max(0.0, line.force()[i]) * pressing);
-    if (counts) cable.rubbing->slide_along(i, sample, load * lengths_[i] * std::abs(middle - slid[i]));
-    slid[i] = middle;
+    cable.rubbing->slide_along(i, sample, (begin + end) / 2, load * lengths_[i]);
     begin = end;
   }
 }

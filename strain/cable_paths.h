@@ -181,8 +181,7 @@ class CablePaths {
   /// could.
   double pulled_by_twist(const Cable& cable, double twist) const;
   void slide(Cable& cable);
-  void slide_past(Cable& cable, const SlidingLine& line, std::span<const double> unslid, std::size_t sample, bool counts,
-                  std::vector<double>& slid) const;
+  void record_slide(Cable& cable, const SlidingLine& line, std::span<const double> unslid, std::size_t sample) const;
   void ask_for_forces();
 
   const Construction& construction_;

@@ -13,26 +13,25 @@ std::size_t CableRubbing::sector_of(double x, double y) {
   return static_cast<std::size_t>((angle < 0 ? angle + 2 * std::numbers::pi : angle) / width()) % sectors;
 }
 
-void CableRubbing::add(std::size_t segment, std::size_t sector, std::size_t sample, double work) {
-  const std::size_t k = segment * sectors + sector;
-  work_[k] += work;
-  if (work > largest_[k]) largest_[k] = work, at_[k] = sample;
-}
-
-void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, const CableState& state, double line_load,
-                               double spacing) {
+void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, const CableState& state,
+                               double line_load, double spacing) {
   const std::size_t elements = state.press.size() - 1;
   const auto middle = [](const std::vector<double>& of, std::size_t element, std::size_t d) {
     return (of[2 * element + d] + of[2 * element + 2 + d]) / 2;
   };
-  const auto pressing = [](const std::vector<double>& of, std::size_t element) { return (of[element] + of[element + 1]) / 2; };
+  const auto pressing = [](const std::vector<double>& of, std::size_t element) {
+    return (of[element] + of[element + 1]) / 2;
+  };
   for (std::size_t i = 0; i < segments_; ++i) {
-    const std::size_t first = i * elements / segments_, end = std::max(first + 1, (i + 1) * elements / segments_);
-    const double length = spacing * static_cast<double>(elements) / static_cast<double>(segments_ * (end - first));
+    const std::size_t first = i * elements / segments_,
+                      end = std::max(first + 1, (i + 1) * elements / segments_);
+    const double length =
+        spacing * static_cast<double>(elements) / static_cast<double>(segments_ * (end - first));
     double x = 0, y = 0;
     for (std::size_t e = first; e < end; ++e) {
       const double turn = cable.lay_rate * spacing * (static_cast<double>(e) + 0.5);
-      const double to_x = middle(state.offset, e, 0), to_y = middle(state.offset, e, 1), now = pressing(state.press, e);
+      const double to_x = middle(state.offset, e, 0), to_y = middle(state.offset, e, 1),
+                   now = pressing(state.press, e);
       double at_x = std::cos(turn) * cable.place[0] - std::sin(turn) * cable.place[1] + to_x;
       double at_y = std::sin(turn) * cable.place[0] + std::cos(turn) * cable.place[1] + to_y;
       if (std::hypot(at_x, at_y) < (cable.nearest + cable.farthest) / 2 && cable.farthest < without_limit)
@@ -41,7 +40,7 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
       if (pressed_.empty()) continue;
       const double moved = std::hypot(to_x - middle(offset_, e, 0), to_y - middle(offset_, e, 1));
       const double work = (line_load + std::min(now, pressing(pressed_, e))) * moved * length;
-      if (work > 0) add(i, sector_of(at_x, at_y), sample, work);
+      if (work > 0) across_.add(i, sector_of(at_x, at_y), sample, work);
     }
     touch(i, sample, x, y);
   }
@@ -51,9 +50,10 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
 
 std::vector<CableRubbing::Patch> CableRubbing::patches() const {
   std::vector<Patch> patches;
-  for (std::size_t k = 0; k < work_.size(); ++k)
-    if (work_[k] > 0)
-      patches.push_back({k / sectors, (static_cast<double>(k % sectors) + 0.5) * width(), work_[k], at_[k]});
+  for (std::size_t k = 0; k < across_.work.size(); ++k)
+    if (const double work = across_.work[k] + along_.work[k]; work > 0)
+      patches.push_back({k / sectors, (static_cast<double>(k % sectors) + 0.5) * width(), work,
+                         (across_.largest[k] > along_.largest[k] ? across_ : along_).at[k]});
   return patches;
 }
 

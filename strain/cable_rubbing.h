@@ -11,6 +11,7 @@
 // parts that do not rub (strain.slip).
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,24 +26,32 @@ class CableRubbing {
   static constexpr std::size_t sectors = 36;  ///< around the cable
 
   CableRubbing(std::size_t segments, std::size_t samples)
-      : segments_(segments), side_(segments * samples), work_(segments * sectors), largest_(work_), at_(work_.size()) {}
+      : segments_(segments),
+        side_(segments * samples),
+        slid_(segments),
+        across_(segments),
+        along_(segments) {}
 
   /// The side on which it touches: the direction (x, y) toward d1 and d2 of the hose.
   void touch(std::size_t segment, std::size_t sample, double x, double y) {
     side_[sample * segments_ + segment] = static_cast<std::uint8_t>(sector_of(x, y));
   }
-  /// work: within the sample, sliding along the hose [J].
-  void slide_along(std::size_t segment, std::size_t sample, double work) {
-    add(segment, side_[sample * segments_ + segment], sample, work);
+  /// Sliding along the hose: the motion is repeated, and its last repeat counts.
+  void begin_repeat() { along_ = Sums(segments_); }
+  /// slid: from its place until this sample [m]. force: with which the segment presses [N].
+  void slide_along(std::size_t segment, std::size_t sample, double slid, double force) {
+    along_.add(segment, side_[sample * segments_ + segment], sample, force * std::abs(slid - slid_[segment]));
+    slid_[segment] = slid;
   }
   /// The next sample of a loose cable, whose `line_load` [N/m] comes besides how it presses. spacing: of nodes [m].
-  void move_across(std::size_t sample, const LooseCable& cable, const CableState& state, double line_load, double spacing);
+  void move_across(std::size_t sample, const LooseCable& cable, const CableState& state, double line_load,
+                   double spacing);
 
   /// A place that rubs.
   struct Patch {
     std::size_t segment;
-    double angle;  ///< of its middle, from d1 toward d2 [rad]
-    double work;   ///< of one repeat [J]
+    double angle;        ///< of its middle, from d1 toward d2 [rad]
+    double work;         ///< of one repeat [J]
     std::size_t sample;  ///< of the largest work
   };
   std::vector<Patch> patches() const;
@@ -50,13 +59,24 @@ class CableRubbing {
 
  private:
   static std::size_t sector_of(double x, double y);
-  void add(std::size_t segment, std::size_t sector, std::size_t sample, double work);
+
+  /// (segment, sector)
+  struct Sums {
+    std::vector<double> work, largest;  ///< of all samples, of one [J]
+    std::vector<std::size_t> at;        ///< sample of the largest
+    explicit Sums(std::size_t segments) : work(segments * sectors), largest(work), at(work.size()) {}
+    void add(std::size_t segment, std::size_t sector, std::size_t sample, double of_sample) {
+      const std::size_t k = segment * sectors + sector;
+      work[k] += of_sample;
+      if (of_sample > largest[k]) largest[k] = of_sample, at[k] = sample;
+    }
+  };
 
   std::size_t segments_;
-  std::vector<std::uint8_t> side_;         ///< (sample, segment) sector
-  std::vector<double> work_, largest_;     ///< (segment, sector) [J]
-  std::vector<std::size_t> at_;            ///< (segment, sector) sample of the largest
-  std::vector<double> pressed_, offset_;   ///< (node), (node, 2) at the sample before
+  std::vector<std::uint8_t> side_;  ///< (sample, segment) sector
+  std::vector<double> slid_;        ///< (segment) until the sample before [m]
+  Sums across_, along_;
+  std::vector<double> pressed_, offset_;  ///< (node), (node, 2) at the sample before
 };
 
 }  // namespace dresslife::strain

@@ -51,7 +51,8 @@ void describe(Fields& f, DataSheet& sheet);
 /// A sheet's line as keys of a data sheet: "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer
 /// diameter 8.2 mm, jacket PUR 1.1 mm". Of pairs "4 x 2 x 0.25 mm2", "pair lay length 20 mm"; "core
 /// diameter 1.4 mm", "wire lay length 18 mm". The class may stand in for the lengths. A jacket's material (PUR,
-/// TPU, PVC, TPE) gives its wear rates; others give none. Without a class the wire and the jacket or core must be given. Errors: InputError at the line for words that
+/// TPU, PVC, TPE) gives its wear rates; others give none.
+/// Without a class the wire and the jacket or core must be given. Errors: InputError at the line for words that
 /// are none of these.
 Node sheet_from_line(const Node& line);
 
