@@ -712,7 +712,8 @@ pipeline::FirstFailures write_first_failures(const Context& c, const pipeline::F
                                        : "");
   c.life.attribute("measure_next_share", lives.share[cause]);
   for (std::size_t i = 0; i < ends.size(); ++i)
-    if (std::isfinite(lives.error_factor[i])) c.life.attribute(fmt::format("life_error_{}", ends[i]), lives.error_factor[i]);
+    if (std::isfinite(lives.error_factor[i]))
+      c.life.attribute(fmt::format("life_error_{}", ends[i]), lives.error_factor[i]);
   c.life.attribute("best_test", lives.best_test
                                     ? std::string(pipeline::uncertain_parameters()[*lives.best_test].name)
                                     : "");

@@ -105,13 +105,14 @@ void describe(Fields& f, Motion& motion) {
            "The share of each change of speed in a joint move in which the acceleration builds up, and "
            "again in which it ends. At 50 it is never constant. ESTIMATE (config/defaults.md, ramps of controllers).");
   f.maybe_number("jerk_deg_per_s3", motion.jerk, above(0),
-                 "The highest jerk of each axis in a joint move, instead of ramp_percent. KUKA: $AXIS_JERK of $machine.dat.");
+                 "The highest jerk of each axis in a joint move, instead of ramp_percent. KUKA: $AXIS_JERK of "
+                 "$machine.dat.");
   f.number("path_smoothing_ms", motion.path_smoothing, Need::optional, between(1, 200),
            "The smoothing of tool paths. The acceleration builds up within twice this time. ESTIMATE "
            "(config/defaults.md, ramps of controllers).");
   f.maybe_number("path_jerk_m_per_s3", motion.path_jerk, above(0),
-                 "The jerk with which the acceleration of the tool along its path builds up, instead of path_smoothing_ms. KUKA: "
-                 "$JERK_MA.CP of $machine.dat.");
+                 "The jerk with which the acceleration of the tool along its path builds up, instead of "
+                 "path_smoothing_ms. KUKA: $JERK_MA.CP of $machine.dat.");
   f.number("zone_deg", motion.zone, Need::optional, at_least(0),
            "The zone of moves without a zone of their own. 0: the robot stops at each target.");
   f.text("hold_joint", motion.hold_joint, Need::optional,

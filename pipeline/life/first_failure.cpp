@@ -380,12 +380,15 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
   };
   for (const std::size_t p : {of_friction, of_slack})
     for (const double z : inner(nodes_of(modes, p)))
-      add([&](const LifeResponse& mode) { return without_points(mode, [&](const auto& point) { return point[p] == z; }); });
+      add([&](const LifeResponse& mode) {
+        return without_points(mode, [&](const auto& point) { return point[p] == z; });
+      });
   for (const double z : inner(modes.front().strength))
     add([&](const LifeResponse& mode) { return without_strength(mode, z); });
   bool others = false;
   for (std::size_t p = 0; p < strain_parameters; ++p)
-    others |= p != of_friction && p != of_slack && std::ranges::any_of(nodes_of(modes, p), [](double z) { return z != 0; });
+    if (p != of_friction && p != of_slack)
+      others |= std::ranges::any_of(nodes_of(modes, p), [](double z) { return z != 0; });
   if (others)
     add([](const LifeResponse& mode) {
       return without_points(mode, [](const auto& point) { return point[of_friction] != 0 && point[of_slack] != 0; });

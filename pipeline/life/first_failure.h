@@ -47,16 +47,18 @@ struct FirstFailures {
   LifePercentiles error_factor{};
 };
 
-/// Standard errors of percentiles, as factors: of the number of samples, and of what the response puts between and beside the
-/// lives that were computed. Both are sums of squares of differences of log10 of a percentile:
-///     samples     half the way between the lives at the ranks n s -+ sqrt(n s (1 - s)), s the share (order statistics of
-///                 independent samples; a Latin hypercube is better)
-///     nodes       without one node of friction, slack or strength, each in turn. A straight line's error grows with the
-///                 square of the distance of nodes, so this is three times the error there. It counts in full, because other
-///                 intervals are as wide as the one without the node
-///     together()  friction and slack put together by it, instead of their computed combinations; where further parameters
-///                 are put together so
-/// Beyond the outermost nodes nothing is known of the error. percentiles: of the modes' lives over `samples`.
+/// Standard errors of percentiles, as factors: of the number of samples, and of what the response puts between and
+/// beside the lives that were computed. The square of log10 of a factor is the sum of the squares of these changes of
+/// log10 of the percentile:
+///     samples     half the way between the lives at the ranks n s -+ sqrt(n s (1 - s)), s the share (order statistics
+///                 of independent samples; a Latin hypercube is better)
+///     nodes       without one node of friction, slack or strength, each in turn. A straight line's error grows with
+///                 the square of the distance of nodes, so this is three times the error there. It counts in full,
+///                 because other intervals are as wide as the one without the node
+///     together()  friction and slack put together by it, instead of their computed combinations; where further
+///                 parameters are put together so
+/// Not in it: errors beyond the outermost nodes, and wires that only other values of the parameters make the worst
+/// (strain/measurements.md, response and full evaluations). log10_lives: first_failures() of the same arguments.
 LifePercentiles error_factors(const FailureModes& modes, const std::string& job, std::size_t samples,
                               const std::vector<double>& log10_lives);
 

@@ -48,12 +48,14 @@ constexpr std::array units{
     Unit{"deg", "deg", degree, 1e6},          // 2,800 turns of an endless axis
     Unit{"deg_per_s", "deg/s", degree, 1e5},  // a grinding spindle
     Unit{"deg_per_s2", "deg/s2", degree, 1e7},
+    Unit{"deg_per_s3", "deg/s3", degree, 1e9},  // 1e7 deg/s2 within 10 ms
     Unit{"mm_per_s", "mm/s", 1e-3, 1e6},
     Unit{"mm_per_s2", "mm/s2", 1e-3, 1e8},
     Unit{"s", "s", 1, 1e6},  // twelve days of one repeat
     Unit{"ms", "ms", 1e-3, 1e9},
     Unit{"Hz", "Hz", 1, 1e5},
     Unit{"m_per_s2", "m/s2", 1, 1e3},  // a hundred times the earth's
+    Unit{"m_per_s3", "m/s3", 1, 1e6},  // 1e3 m/s2 within a millisecond
     Unit{"1_per_m", "1/m", 1, 1e4},
     Unit{"deg_per_m", "deg/m", degree, 1e6},
     Unit{"kg", "kg", 1, 1e5},

@@ -45,8 +45,10 @@ std::string error_words(const RankingRow& row) {
   std::string words;
   for (const auto& [share, error] : {std::pair{"10", row.planned_errors[0]}, std::pair{"50", row.planned_errors[1]},
                                      std::pair{"90", row.planned_errors[2]}})
-    if (std::isfinite(error)) words += fmt::format("{}{} % by a factor of {:.2f}", words.empty() ? "" : ", ", share, error);
-  return words.empty() ? "" : fmt::format("Standard errors of these hours, by few samples and by lives between computed ones: {}.", words);
+    if (std::isfinite(error))
+      words += fmt::format("{}{} % by a factor of {:.2f}", words.empty() ? "" : ", ", share, error);
+  if (words.empty()) return "";
+  return fmt::format("Standard errors of these hours, by few samples and by lives between computed ones: {}.", words);
 }
 
 std::string joined_words(const std::vector<std::string>& sentences) {

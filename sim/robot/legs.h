@@ -16,10 +16,11 @@
 // (M11) A move with a share p of the jerk has ramps 1/p times as long: r' = r/(r + p (1 - r)) and
 //      A' = A p/(r + p (1 - r)) with the same acceleration. Where r' would exceed 1/2 the acceleration is never
 //      constant: r' = 1/2, and it reaches a sqrt(p (1 - r)/r) only. A tool path is smoothed 1/p times as long.
-// (M13) With a jerk limit J (motion.jerk_deg_per_s3) a change of speed by V has tau = V/a + a/J and r = a/(J tau). Where
-//      V < a^2/J the acceleration is never constant: tau = 2 sqrt(V/J), r = 1/2. In a blend V/a and V/J are the largest of
-//      all axes, so none exceeds its limits. A sliding external axis has the J that builds its acceleration up in the same
-//      time as that of the turning axis with the largest acceleration. A share p of the jerk makes it p J.
+// (M13) With a jerk limit J (motion.jerk_deg_per_s3) a change of speed by V has tau = V/a + a/J and
+//      r = a/(J tau). Where V < a^2/J the acceleration is never constant: tau = 2 sqrt(V/J), r = 1/2. In a blend
+//      V/a and V/J are the largest of all axes, so none exceeds its limits. A sliding external axis has the J that
+//      builds its acceleration up in the same time as that of the turning axis with the largest acceleration. A
+//      share p of the jerk makes it p J. Moves of a chain with a tool path are smoothed by (M10) instead.
 // (M7) A leg's speed is the least that the axes, the tool's speed ds/dt and its turning dtheta/dt allow.
 #pragma once
 
@@ -41,7 +42,7 @@ struct Leg {
   double acceleration = 0;          ///< A along the leg [rad/s2]
   double ramp = 0.25;               ///< r of (M1); nothing changes in a dwell
   double slowing = 1, jerk = 1;     ///< A'/A and p of (M11)
-  double jerk_limit = 0;            ///< p J of (M13) along the leg [rad/s3]; acceleration is a then. 0: (M2) and (M11) hold
+  double jerk_limit = 0;            ///< p J of (M13) along the leg [rad/s3]; acceleration is a then. 0: (M2), (M11)
   double tool_share = 0;            ///< way of the tool over length [m/rad]
   double zone = 0;                  ///< at its end: blending begins at most this far before it [rad]
   double zone_behind = 0;           ///< and ends at most this far behind it [rad]

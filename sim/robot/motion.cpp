@@ -41,8 +41,8 @@ VectorXd mean_accelerations(const pipeline::Motion& motion, const pipeline::Robo
   return accelerations;
 }
 
-/// The highest speed that a leg with a jerk limit reaches over this length between two speeds, and slows down from in time
-/// (M13): by bisection, the way grows with it.
+/// The highest speed that a leg with a jerk limit reaches over this length between two speeds (M13): by bisection,
+/// because the way grows with it.
 double reached_speed(const Leg& leg, double length, double v0, double v1) {
   const auto way = [&](double top) {
     return (v0 + top) / 2 * change_on(leg, top - v0).duration + (top + v1) / 2 * change_on(leg, top - v1).duration;
@@ -123,7 +123,8 @@ class CornerSpeeds {
 
   bool long_enough(size_t k, double v0, double before, double v1, double after) const {
     const Leg& leg = legs_[k];
-    if (jerks_.size() > 0) return (v0 + v1) / 2 * change_on(leg, std::abs(v1 - v0)).duration <= leg.length - before - after;
+    if (jerks_.size() > 0)
+      return (v0 + v1) / 2 * change_on(leg, std::abs(v1 - v0)).duration <= leg.length - before - after;
     return std::abs(v1 * v1 - v0 * v0) <= 2 * leg.acceleration * (leg.length - before - after);
   }
 

@@ -4,7 +4,7 @@
 // its length L_k and speed are those of that axis) and everything that happens is a change of velocity:
 // (M1) q'(t) = V0 + (V1 - V0) sigma(u),   q(t) = q0 + tau (V0 u + (V1 - V0) S(u)),   u = (t - t0)/tau,
 // with sigma rising from 0 to 1 with a trapezoidal acceleration: ramps of the fraction r of tau at both ends
-// (motion.ramp_percent, or (M13) in legs.h), so that acceleration is continuous and jerk bounded. The largest acceleration is
+// (motion.ramp_percent; (M13) in legs.h), so that acceleration is continuous and jerk bounded. The largest is
 // |V1 - V0| / (tau (1 - r)), so
 // (M2) tau = max_i |V1_i - V0_i| / A_i,   A_i = (1 - r) a_i.
 // Since S(1) = 1/2, a change between speeds v0 and v1 along a leg takes (v0 + v1) tau/2: all closed forms of

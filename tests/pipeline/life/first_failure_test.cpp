@@ -147,7 +147,7 @@ TEST_CASE("the error of a percentile is that of few samples where the response i
   const auto errors = [&](const LifeResponse& of) {
     return error_factors({of}, "job", samples, first_failures({of}, "job", samples));
   };
-  // Of a quantile q of s normal numbers with deviation a: a sqrt(q (1 - q) / s) over the density of the standard normal there.
+  // Of a quantile q of s normal numbers with deviation a: a sqrt(q (1 - q) / s) over the standard normal's density.
   const LifePercentiles of_samples = errors(response);
   CHECK(std::log10(of_samples[1]) == Approx(a * std::sqrt(std::acos(-1.0) / 2 / samples)).epsilon(0.05));
   const double density = std::exp(-decile * decile / 2) / std::sqrt(2 * std::acos(-1.0));
