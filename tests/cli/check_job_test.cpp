@@ -1,4 +1,6 @@
 // dresslife check: what a run would warn of or refuse, without the run.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
