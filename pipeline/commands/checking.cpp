@@ -7,7 +7,6 @@
 
 #include "pipeline/base/installation.h"
 #include "pipeline/base/stage_failed.h"
-#include "pipeline/base/warning_words.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
@@ -21,14 +20,14 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Bounds are no best estimates: lives of glued or freely sliding parts lie decades apart.
-void add_slip(const Job& job, std::vector<Warning>& warnings) {
+/// Bounds are no best estimates: lives of glued or freely sliding parts lie decades apart. A run does not warn of what the job asks for.
+void add_slip(const Job& job, std::vector<std::string>& notes) {
   for (const Slip slip : job.strain.slip)
     if (!rubs(slip)) {
-      warnings.push_back(warning_of(
-          WarningKind::strain, "",
-          fmt::format("strain.slip is {} at one level or more: the life is a bound, not a best estimate", word(slip)),
-          "the job overrides the default", "strain.slip: friction, or leave the key out"));
+      notes.push_back(fmt::format(
+          "note: strain.slip is {} at one level or more, so that the life is a bound. strain.slip: friction, or no key, gives "
+          "the best estimate",
+          word(slip)));
       return;
     }
 }
@@ -70,7 +69,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
     if (may_slide && job.motion.needs_robot())
       check.warnings = joined(std::move(check.warnings), tight_warnings(line_key(job, d, "dresspack"), job.dresspacks[d]));
   }
-  add_slip(job, check.warnings);
+  add_slip(job, check.notes);
   if (job.motion.is_prescribed()) {
     check.limits = "Not checked: strains and forces of the cables. A run may also warn of them.";
     check.warnings = joined(std::move(check.warnings), warnings_of_prescribed(file, sets));
@@ -84,7 +83,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
     check.refusal = refusal_of(preview_file);
     const FileReader preview(preview_file, preview_format(), FileReader::Scope::attributes);
     check.warnings = joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings")));
-    check.notes = length_words(preview_file);
+    for (std::string& words : length_words(preview_file)) check.notes.push_back(std::move(words));
     std::istringstream notes(preview.text_attribute("notes"));
     for (std::string note; std::getline(notes, note);) check.notes.push_back("note: " + note);
   } catch (const InputError&) {  // it was written just now: no fault of the job

@@ -1,4 +1,6 @@
 // dresslife check: what a run would warn of or refuse, without the run.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
@@ -51,6 +53,11 @@ TEST_CASE("check: what it warns of in the shipped jobs, a run warns of, too") {
   std::vector<std::pair<std::string, std::string>> jobs;
   for (const auto& entry : fs::directory_iterator(config / "jobs"))
     if (entry.path().extension() == ".yaml") jobs.emplace_back(entry.path().stem().string(), "");
+  for (const char* slip : {"stick", "free"}) {  // bounds are asked for: a note, which no run repeats as a warning
+    const JobCheck bound = check_of(config / "jobs/bending_cable.yaml", {fmt::format("strain.slip={}", slip)});
+    CHECK(std::any_of(bound.notes.begin(), bound.notes.end(), [](const std::string& note) { return note.find("is a bound") != note.npos; }));
+    CHECK(std::none_of(bound.warnings.begin(), bound.warnings.end(), [](const Warning& w) { return w.kind == WarningKind::strain; }));
+  }
   for (const char* motion : {"easy", "hard", "spot_robot_2"}) jobs.emplace_back("irb6640_spot_welding", motion);
   REQUIRE(jobs.size() > 8);
   for (const auto& [job, motion] : jobs) {

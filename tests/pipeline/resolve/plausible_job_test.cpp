@@ -65,10 +65,10 @@ TEST_CASE("plausible steps: a recording without its column of times") {
     }
     return steps;
   };
-  CHECK(doubts(recording(30, 3, false)) == 1);
-  CHECK(doubts(recording(29, 3, false)) == 0);
+  CHECK(doubts(recording(30, 2.9, false)) == 1);
+  CHECK(doubts(recording(29, 2.9, false)) == 0);
   CHECK(doubts(recording(30, 3.1, false)) == 0);
-  CHECK(doubts(recording(30, 3, true)) == 0);
+  CHECK(doubts(recording(30, 2.9, true)) == 0);
 }
 
 TEST_CASE("plausible jobs: angles in radians, obstacles without contact, repeats of a life") {
