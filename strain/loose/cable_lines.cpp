@@ -114,6 +114,18 @@ void CableLines::feed_in(double share) {
   for (CableTension& pulled : tensions_) pulled.feed_in(share);
 }
 
+namespace {
+
+/// `at` after another way like the last one. The distance from the hose's axis changes by as much as before: on a straight way
+/// a cable that slides along a round wall would leave it.
+Vector2d gone_on(const Vector2d& at, const Vector2d& way) {
+  const Vector2d to = at + way;
+  const double distance = to.norm(), wanted = 2 * at.norm() - (at - way).norm();
+  return wanted > 0 && 2 * distance > at.norm() ? Vector2d(wanted / distance * to) : to;
+}
+
+}  // namespace
+
 void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frames, double time,
                        bool goes_on) {
   batch_.curvature = hose.curvature.front().data();
@@ -139,7 +151,7 @@ void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frame
       put(place_at, i, k, place);
       put(before, i, k, turned(at, frame));
       const bool clamped = i == 0 || i == last;
-      put(path, i, k, clamped ? place : turned(Vector2d(at + ahead * vector(velocity, i, k)), frame));
+      put(path, i, k, clamped ? place : turned(gone_on(at, ahead * vector(velocity, i, k)), frame));
     }
 }
 

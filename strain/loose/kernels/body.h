@@ -18,9 +18,14 @@ using namespace simd;
 constexpr double at_rest = 1e-7;  // [m]
 // Farther in one step, contacts would be jumped over: a cable's radius.
 constexpr double longest_step = 4e-3;  // [m]
-constexpr double first_shift = 100;    // of stiffness per length where that is not positive [N/m2]
+// Of stiffness per length where that is not positive [N/m2]. With 100 four times as many shifts were tried (robot 1).
+constexpr double first_shift = 2e4;
 constexpr int most_shifts = 60;        // by factors of four: beyond what any number of a cable holds
 constexpr int most_tries = 12;
+// Steps that are not longer are taken whole, so many at most: then many nodes meet their contacts at once. A search along the
+// step would stop at the first of them. Longer steps could end in another place of rest.
+constexpr double whole_step = 1e-3;  // [m]
+constexpr int most_whole_steps = 20;
 
 inline Pack at(const double* of, std::size_t lane) { return load<Pack>(of + lane); }
 
@@ -347,8 +352,10 @@ void Lines<packs>::judge(int most, Progress* progress) const {
     Progress& at_p = progress[p];
     const Pack there = along_way(p), down = load<Pack>(at_p.down), share = load<Pack>(at_p.share);
     const Pack tries = load<Pack>(at_p.tries);
+    const DoubleMask whole = at_least(Pack(whole_step), load<Pack>(at_p.largest)) &
+                             at_least(Pack(static_cast<double>(most_whole_steps)), load<Pack>(at_p.took));
     const DoubleMask good =
-        at_least(-0.5 * down, there) | at_least(tries, Pack(static_cast<double>(most_tries)));
+        whole | at_least(-0.5 * down, there) | at_least(tries, Pack(static_cast<double>(most_tries)));
     const DoubleMask ends =
         set(at_p.trying) & good & at_least(load<Pack>(at_p.took), Pack(static_cast<double>(most)));
     const Pack shorter = smaller(larger(-down / (there - down), Pack(0.1)), Pack(0.7));
