@@ -165,7 +165,7 @@ bool Ring::advance(const HoseLine& hose, double time, bool goes_on) {
   bool rests = false;
   for (int k = 0; k < most_iterations && !rests; ++k) rests = step(hose) < at_rest;
   for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - before[i]) / time;
-  lines_.end(hose, frames, 0, {});
+  lines_.end(hose, 0, {});
   return rests;
 }
 

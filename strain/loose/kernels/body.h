@@ -540,6 +540,97 @@ void relax(const LineBatch& room, const WaitingCable* cables, std::size_t count,
   }
 }
 
+// ---- from sample to sample ---------------------------------------------------------------------------------
+
+inline Pair turned(const Pair& of, const Pair& by) { return {of.x * by.x - of.y * by.y, of.x * by.y + of.y * by.x}; }
+inline Pair turned_back(const Pair& of, const Pair& by) { return {of.x * by.x + of.y * by.y, of.y * by.x - of.x * by.y}; }
+inline Pack length(const Pair& of) { return square_root(dot(of, of)); }
+
+/// `at` after another way like the last one. The distance from the hose's axis changes by as much as before: on a straight way
+/// a cable that slides along a round wall would leave it.
+inline Pair gone_on(const Pair& at, const Pair& way) {
+  const Pair to = at + way;
+  const Pack distance = length(to), before = length(at), wanted = 2.0 * before - length(at - way);
+  const DoubleMask round = greater(wanted, Pack(0.0)) & greater(2.0 * distance, before);
+  return select(round, (wanted / distance) * to, to);
+}
+
+void begin(const LineBatch& batch, const LineMemory& memory, const HoseFrame& hose, double ahead) {
+  const std::size_t last = batch.nodes - 1;
+  for (std::size_t i = 0; i <= last; ++i)
+    for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
+      const Lines<1> lines{batch, k};
+      const Pair frame = lines.pair(memory.frame, i, 0), at = lines.pair(batch.path, i, 0);
+      const Pair place = turned(lines.pair(memory.laid, i, 0), frame);
+      lines.put(Lines<1>::same(hose.rest, i) + turned(lines.pair(memory.laid_bent, i, 0), Lines<1>::same(hose.turn, i)),
+                batch.rest, i, 0);
+      lines.put(place, batch.place, i, 0);
+      lines.put(turned(at, frame), batch.before, i, 0);
+      const bool clamped = i == 0 || i == last;
+      lines.put(clamped ? place : turned(gone_on(at, Pack(ahead) * lines.pair(memory.velocity, i, 0)), frame), batch.path, i, 0);
+    }
+}
+
+void follow(const LineBatch& batch, const LineAnswer& answer) {
+  const std::size_t last = batch.nodes - 1;
+  const Pack half(0.5), inverse(1 / (batch.spacing * batch.spacing));
+  for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
+    const Lines<1> lines{batch, k};
+    Pair behind = lines.pair(batch.path, 1, 0), here = lines.pair(batch.path, 0, 0);  // beyond a clamp lies the mirror image
+    Pack rate_behind(0.0), sum(0.0);
+    for (std::size_t i = 0; i <= last; ++i) {
+      const Pair K = Lines<1>::same(batch.curvature, i);
+      const Pair ahead = i < last ? lines.pair(batch.path, i + 1, 0) : behind, way = here - behind;
+      const Pack rate = Pack(batch.elongation[i]) - dot(K, here);
+      if (i > 0) {
+        const Pack gain = half * (rate_behind + rate + inverse * dot(way, way));
+        store(gain, answer.gain + (i - 1) * batch.lanes + k);
+        sum += gain;
+      }
+      lines.put(K - lines.pair(batch.rest, i, 0) + inverse * ((behind - here) + (ahead - here)), answer.bends, i, 0);
+      rate_behind = rate;
+      behind = here;
+      here = ahead;
+    }
+    store(sum / Pack(static_cast<double>(last)), answer.mean_gain + k);
+  }
+}
+
+void tell(const LineBatch& batch, const LineMemory& memory, const HoseFrame& hose, const LineAnswer& answer) {
+  const std::size_t last = batch.nodes - 1;
+  for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
+    const Lines<1> lines{batch, k};
+    Pack bent(0.0), missed(0.0);
+    Pair own_behind{bent, bent}, own_here = own_behind;  // curvature of the path in a straight hose
+    for (std::size_t i = 0; i <= last; ++i) {
+      const Pair bends = lines.pair(answer.bends, i, 0), turn = Lines<1>::same(hose.turn, i);
+      const Pair from_rest = bends + Lines<1>::same(hose.rest, i), own = from_rest - Lines<1>::same(batch.curvature, i);
+      if (i > 0 && i < last) bent += dot(from_rest, from_rest);
+      if (i > 1) {
+        const Pair wave = (own_behind - own_here) + (own - own_here);
+        missed += dot(wave, wave);
+      }
+      lines.put(turned_back(bends, turn), answer.hose_bends, i, 0);
+      lines.put(turned_back(lines.pair(batch.path, i, 0), turn) - lines.pair(memory.laid, i, 0), answer.offset, i, 0);
+      own_behind = own_here;
+      own_here = own;
+    }
+    store(at(answer.bent, k) + bent, answer.bent + k);
+    store(at(answer.missed, k) + missed / Pack(144.0), answer.missed + k);
+  }
+}
+
+void end(const LineBatch& batch, const LineMemory& memory, double time) {
+  for (std::size_t i = 0; i < batch.nodes; ++i)
+    for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
+      const Lines<1> lines{batch, k};
+      const Pair frame = lines.pair(memory.frame, i, 0), at = lines.pair(batch.path, i, 0);
+      if (time > 0)
+        lines.put(Pack(1 / time) * turned_back(at - lines.pair(batch.before, i, 0), frame), memory.velocity, i, 0);
+      lines.put(turned_back(at, frame), batch.path, i, 0);
+    }
+}
+
 // ---- rings ------------------------------------------------------------------------------------------------
 
 void place(const LineBatch& batch, const double* laid, const double* frame) {
@@ -547,7 +638,7 @@ void place(const LineBatch& batch, const double* laid, const double* frame) {
     const Lines<1> lines{batch, k};
     for (std::size_t i = 1; i + 1 < batch.nodes; ++i) {
       const Pair by = Lines<1>::same(frame, i), a0 = lines.pair(laid, i, 0);
-      lines.put({a0.x * by.x - a0.y * by.y, a0.x * by.y + a0.y * by.x}, batch.path, i, 0);
+      lines.put(turned(a0, by), batch.path, i, 0);
     }
     lines.answer();
     lines.slopes<false>();
@@ -634,7 +725,7 @@ void products(const double* a, const double* b, std::size_t rows, std::size_t la
 }  // namespace
 
 extern const LooseKernels set;
-const LooseKernels set{relax, place, assemble_turn, slope_of_turn, substitute_turn, products};
+const LooseKernels set{relax, begin, follow, tell, end, place, assemble_turn, slope_of_turn, substitute_turn, products};
 
 }  // namespace DRESSLIFE_MACHINE_KERNELS
 }  // namespace dresslife::strain
