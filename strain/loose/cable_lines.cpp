@@ -145,8 +145,8 @@ void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frame
   loose_kernels().begin(batch_, memory(), frame_of(hose), goes_on ? time : 0);
 }
 
-void CableLines::place(const Frame& frame) {
-  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data());
+void CableLines::place(const Frame& frame, bool with_slope) {
+  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data(), with_slope);
 }
 
 Vector2d bend_at_clamp(const Vector2d& at_clamp, const Vector2d& next, const Vector2d& after_next, double q) {

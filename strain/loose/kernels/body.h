@@ -557,6 +557,7 @@ inline Pair gone_on(const Pair& at, const Pair& way) {
 
 void begin(const LineBatch& batch, const LineMemory& memory, const HoseFrame& hose, double ahead) {
   const std::size_t last = batch.nodes - 1;
+  const bool goes_on = ahead != 0;
   for (std::size_t i = 0; i <= last; ++i)
     for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
       const Lines<1> lines{batch, k};
@@ -565,9 +566,14 @@ void begin(const LineBatch& batch, const LineMemory& memory, const HoseFrame& ho
       lines.put(Lines<1>::same(hose.rest, i) + turned(lines.pair(memory.laid_bent, i, 0), Lines<1>::same(hose.turn, i)),
                 batch.rest, i, 0);
       lines.put(place, batch.place, i, 0);
-      lines.put(turned(at, frame), batch.before, i, 0);
-      const bool clamped = i == 0 || i == last;
-      lines.put(clamped ? place : turned(gone_on(at, Pack(ahead) * lines.pair(memory.velocity, i, 0)), frame), batch.path, i, 0);
+      const Pair before = turned(at, frame);
+      lines.put(before, batch.before, i, 0);
+      Pair path = before;
+      if (i == 0 || i == last)
+        path = place;
+      else if (goes_on)
+        path = turned(gone_on(at, Pack(ahead) * lines.pair(memory.velocity, i, 0)), frame);
+      lines.put(path, batch.path, i, 0);
     }
 }
 
@@ -633,13 +639,14 @@ void end(const LineBatch& batch, const LineMemory& memory, double time) {
 
 // ---- rings ------------------------------------------------------------------------------------------------
 
-void place(const LineBatch& batch, const double* laid, const double* frame) {
+void place(const LineBatch& batch, const double* laid, const double* frame, bool with_slope) {
   for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
     const Lines<1> lines{batch, k};
     for (std::size_t i = 1; i + 1 < batch.nodes; ++i) {
       const Pair by = Lines<1>::same(frame, i), a0 = lines.pair(laid, i, 0);
       lines.put(turned(a0, by), batch.path, i, 0);
     }
+    if (!with_slope) continue;
     lines.answer();
     lines.slopes<false>();
   }

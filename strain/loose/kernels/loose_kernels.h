@@ -99,8 +99,8 @@ struct LooseKernels {
   /// The sample is over: the path back to its frame, and its velocity over so many seconds; 0: it keeps that which it has.
   void (*end)(const LineBatch&, const LineMemory&, double time);
   /// Every cable to its place in the ring's frame (node, 2), cosine and sine; laid: its place in that (node, 2, lane).
-  /// Then tension and slope of all but contact.
-  void (*place)(const LineBatch&, const double* laid, const double* frame);
+  /// with_slope: and then tension and slope of all but contact.
+  void (*place)(const LineBatch&, const double* laid, const double* frame, bool with_slope);
   void (*assemble_turn)(const LineBatch&, const RingSystem&);
   /// Of the slope alone.
   void (*slope_of_turn)(const LineBatch&, double* slope);
