@@ -69,7 +69,7 @@ class CableLines {
   double bent(std::size_t cable) const { return lane_rows_[bent_sum * batch_.lanes + cable]; }      ///< its curvature, the hose's with it [1/m2]
   double missed(std::size_t cable) const { return lane_rows_[missed_sum * batch_.lanes + cable]; }  ///< of h^2 a'' / 12 [1/m2]
 
-  static constexpr int most_iterations = 600;            ///< from one sample to the next; 2 to 60 but for a snap
+  static constexpr int most_iterations = 600;            ///< from one sample to the next; 2 to 30 but for a snap
   static constexpr int most_iterations_at_start = 2000;  ///< from its place to where it rests
 
  private:

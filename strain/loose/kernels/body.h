@@ -2,7 +2,7 @@
 // which names it (pipeline/base/simd.h).
 //
 // The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill
-// that wait. Cables take from 2 to 60 iterations: one that rests leaves its lane to the next.
+// that wait. Cables take from 2 to 30 iterations: one that rests leaves its lane to the next.
 #include "pipeline/base/simd.h"
 // simd.h declares what the templates below are used with
 #include "strain/loose/kernels/loose_kernels.h"
