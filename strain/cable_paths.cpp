@@ -19,6 +19,7 @@ constexpr std::size_t least_elements = 2;
 constexpr double no_force_reaches = 1e7;  // [N]
 
 constexpr double settled = 1e-6;  // change of strain from repeat to repeat: 1 N of a cable of 1 MN
+constexpr double closed = 1e-12;  // the same, by rounding: one more repeat would give the same strains
 // Between a grip and friction a part settles by a share of what is left in each repeat; a few are enough for
 // friction alone.
 constexpr int most_repeats = 30;
@@ -553,17 +554,13 @@ void CablePaths::slide(Cable& cable) {
   SlidingLine line(lengths, cable.axial_stiffness, cable.base_grip, cable.tool_grip);
   std::vector<double> unslid(segments), limits(segments), held(segments, 0.0);
   const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
-  std::array<double, 2> before{};
-  std::vector<double> ended(segments, without_limit);
+  std::vector<double>& strain = cable.rubs ? cable.along : cable.strain;
+  std::vector<double> slid(strain.size()), ended(segments, without_limit);
+  double moved = without_limit;
   bool last = false;
-  for (int repeat = 1; !last; ++repeat) {
-    before = {line.travel_at_base(), line.travel_at_tool()};
-    double moved = 0;
-    for (std::size_t i = 0; i < segments; ++i) {
-      moved = std::max(moved, std::abs(line.strain(i) - ended[i]));
-      ended[i] = line.strain(i);
-    }
-    last = repeat > 2 && (moved < settled || repeat == most_repeats);
+  for (int repeat = 1; !last && !(moved < closed); ++repeat) {
+    last = moved < settled || repeat == most_repeats;
+    const std::array<double, 2> before{line.travel_at_base(), line.travel_at_tool()};
     if (cable.rubbing) cable.rubbing->begin_repeat();
     for (std::size_t t = 0; t < next_; ++t) {
       const double by_twist = pulled_by_twist(cable, hose_twist_[t]);
@@ -595,13 +592,18 @@ void CablePaths::slide(Cable& cable) {
         line.keep();
         if (cable.rubbing) record_slide(cable, line, unslid, t);
       }
-      if (!last) continue;
-      if (!cable.rubs) cable.strain[t] = line.strain(0) - by_twist;
+      if (!cable.rubs) slid[t] = line.strain(0) - by_twist;
       for (std::size_t i = 0; cable.rubs && i < segments; ++i)
-        cable.along[along_at(i, t)] = line.strain(i) - by_twist + held[i];
+        slid[along_at(i, t)] = line.strain(i) - by_twist + held[i];
+    }
+    cable.grip_slip = {line.travel_at_base() - before[0], line.travel_at_tool() - before[1]};
+    moved = 0;
+    for (std::size_t i = 0; i < segments; ++i) {
+      moved = std::max(moved, std::abs(line.strain(i) - ended[i]));
+      ended[i] = line.strain(i);
     }
   }
-  cable.grip_slip = {line.travel_at_base() - before[0], line.travel_at_tool() - before[1]};
+  strain = std::move(slid);
 }
 
 /// A sample's sliding along the hose (W41). unslid: strains if nothing slid.

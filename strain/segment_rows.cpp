@@ -28,11 +28,17 @@ void SegmentRows::end() {
     block.first = before.first + before.samples;
     block.offset = before.offset + before.samples * segments_ * rows_;
   }
+  constexpr std::size_t at_once = 16;  // samples: a cache line of each row
+  const std::size_t rows = segments_ * rows_;
+  block.values.resize(block_.size());
+  for (std::size_t first = 0; first < block_samples_; first += at_once)
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t t = first; t < std::min(first + at_once, block_samples_); ++t)
+        block.values[row * block_samples_ + t] = block_[t * rows + row];
   if (file_) {
-    file_->write_at(block_.data(), block_.size() * sizeof(float), block.offset * sizeof(float));
+    file_->write_at(block.values.data(), block.values.size() * sizeof(float), block.offset * sizeof(float));
     file_->check();
-  } else {
-    block.values = std::move(block_);
+    block.values = {};
   }
   blocks_.push_back(std::move(block));
 }

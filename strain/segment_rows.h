@@ -25,7 +25,7 @@ class SegmentRows {
 
   void begin(std::size_t samples);  ///< the next block
   float& at(std::size_t segment, std::size_t row, std::size_t sample_of_block) {
-    return block_[(segment * rows_ + row) * block_samples_ + sample_of_block];
+    return block_[(sample_of_block * segments_ + segment) * rows_ + row];
   }
   void end();  ///< of the block. Errors: InputError when the disk is full.
 
@@ -41,7 +41,7 @@ class SegmentRows {
   };
 
   std::size_t segments_, rows_, block_samples_ = 0;
-  std::vector<float> block_;  ///< that comes in
+  std::vector<float> block_;  ///< (sample, segment, row) that comes in
   std::vector<Block> blocks_;
   std::unique_ptr<pipeline::WholeFile> file_;  ///< never committed
 };

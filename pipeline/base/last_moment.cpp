@@ -16,8 +16,8 @@ namespace dresslife::pipeline {
 namespace {
 
 // A handler takes no arguments, allocates nothing and waits for no lock. A program writes a file or two at a time and
-// starts one program at a time.
-constexpr std::size_t most_places = 16, longest_name = 4096;
+// starts one program at a time. dresslife-strain has up to 12 files beside these for each span between two clamps.
+constexpr std::size_t most_places = 256, longest_name = 4096;
 struct Place {
   std::atomic<bool> taken{false}, filled{false};
   char path[longest_name] = "";  ///< empty: of a process

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 
 namespace dresslife::strain {
 
@@ -12,12 +11,7 @@ using Eigen::Vector2d;
 CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature,
                        bool presses)
     : cables_(cables),
-      rest_curvature_(rest_curvature),
-      at_(hose.nodes()),
-      bent_(hose.nodes()),
-      gain_(hose.nodes() - 1),
-      bent_sum_(cables.size(), 0.0),
-      missed_sum_(cables.size(), 0.0) {
+      rest_curvature_(rest_curvature) {
   assert(!cables.empty());
   batch_.nodes = hose.nodes();
   batch_.lanes = (cables.size() + most_lanes - 1) / most_lanes * most_lanes;
@@ -25,6 +19,7 @@ CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& ho
   batch_.spacing = hose.spacing;
   lane_rows_.assign(OfLane::lane_rows, batch_.lanes);
   for (LaneRows& rows : node_rows_) rows.assign(2 * batch_.nodes, batch_.lanes);
+  gain_.assign(batch_.nodes - 1, batch_.lanes);
   if (presses) press_.assign(batch_.nodes, batch_.lanes);
   iterations_.assign(count(), 0);
   for (std::size_t k = 0; k < batch_.lanes; ++k) lay(k);
@@ -84,7 +79,7 @@ void CableLines::lay(std::size_t k) {
     const double angle = cable.lay_rate * static_cast<double>(i) * batch_.spacing;
     put(laid, i, k, angle == 0 ? a0 : turned(a0, {std::cos(angle), std::sin(angle)}));
   }
-  for (std::size_t i = 0; i <= last; ++i) {  // beyond a clamp lies the mirror image, as in follow()
+  for (std::size_t i = 0; i <= last; ++i) {  // beyond a clamp lies the mirror image
     const Vector2d one = vector(laid, i > 0 ? i - 1 : 1, k),
                    other = vector(laid, i < last ? i + 1 : last - 1, k);
     put(laid_bent, i, k, inverse * (one - 2 * vector(laid, i, k) + other));
@@ -114,13 +109,26 @@ void CableLines::feed_in(double share) {
   for (CableTension& pulled : tensions_) pulled.feed_in(share);
 }
 
+namespace {
+
+HoseFrame frame_of(const HoseLine& hose) { return {hose.turn.front().data(), hose.rest.front().data()}; }
+
+}  // namespace
+
+LineMemory CableLines::memory() {
+  return {node_rows_[laid].data(), node_rows_[laid_bent].data(), node_rows_[frame_at].data(), node_rows_[velocity].data()};
+}
+
+LineAnswer CableLines::answer() {
+  return {node_rows_[bends].data(), node_rows_[hose_bends].data(), node_rows_[offset].data(), gain_.data(),
+          &of_lane(mean_gain, 0),   &of_lane(bent_sum, 0),         &of_lane(missed_sum, 0)};
+}
+
 void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frames, double time,
                        bool goes_on) {
   batch_.curvature = hose.curvature.front().data();
   batch_.pull = hose.pull.front().data();
   batch_.elongation = hose.elongation.data();
-  const double ahead = goes_on ? time : 0;
-  const std::size_t last = batch_.nodes - 1;
   for (std::size_t k = 0; k < batch_.lanes; ++k) {
     const std::size_t cable = k < count() ? k : 0;
     const CableTension& pulled = tensions_[cable];
@@ -130,51 +138,15 @@ void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frame
     of_lane(most_strain, k) = pulled.most_strain();
     of_lane(least_strain, k) = -pulled.most_strain();
   }
-  for (std::size_t i = 0; i <= last; ++i)
-    for (std::size_t k = 0; k < count(); ++k) {
-      const Vector2d& frame = (*frames[k])[i];
-      put(rest, i, k, hose.rest[i] + turned(vector(laid_bent, i, k), hose.turn[i]));
-      const Vector2d place = turned(vector(laid, i, k), frame),
-                     at = vector(path, i, k);  // the path waits in the frame
-      put(place_at, i, k, place);
-      put(before, i, k, turned(at, frame));
-      const bool clamped = i == 0 || i == last;
-      put(path, i, k, clamped ? place : turned(Vector2d(at + ahead * vector(velocity, i, k)), frame));
-    }
-}
-
-void CableLines::place(const Frame& frame) {
-  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data());
-}
-
-/// at_, bent_ and gain_ of cable k. Returns the mean gain.
-double CableLines::follow(const HoseLine& hose, std::size_t k) {
-  const double h = hose.spacing, inverse = 1 / (h * h);
-  const std::size_t last = hose.nodes() - 1;
-  for (std::size_t i = 0; i <= last; ++i) at_[i] = vector(path, i, k);
-  double behind = 0;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const double rate = hose.elongation[i] - hose.curvature[i].dot(at_[i]);
-    if (i > 0) gain_[i - 1] = (behind + rate) / 2 + (at_[i] - at_[i - 1]).squaredNorm() * inverse / 2;
-    behind = rate;
-    const Vector2d& one = at_[i > 0 ? i - 1 : 1];  // beyond a clamp lies the mirror image
-    const Vector2d& other = at_[i < last ? i + 1 : last - 1];
-    bent_[i] = hose.curvature[i] - vector(rest, i, k) + inverse * (one - 2 * at_[i] + other);
+  for (std::size_t k = 0; k < batch_.lanes; ++k) {
+    const Frame& own = *frames[k < count() ? k : 0];
+    for (std::size_t i = 0; i < batch_.nodes; ++i) put(frame_at, i, k, own[i]);
   }
-  return std::accumulate(gain_.begin(), gain_.end(), 0.0) / static_cast<double>(gain_.size());
+  loose_kernels().begin(batch_, memory(), frame_of(hose), goes_on ? time : 0);
 }
 
-/// The sample counts in bent() and missed().
-void CableLines::judge_mesh(const HoseLine& hose, std::size_t k) {
-  const auto own = [&](std::size_t i) { return Vector2d(bent_[i] - hose.curvature[i] + hose.rest[i]); };
-  Vector2d behind = own(0), here = own(1);
-  for (std::size_t i = 1; i + 1 < hose.nodes(); ++i) {
-    const Vector2d ahead = own(i + 1);
-    bent_sum_[k] += (bent_[i] + hose.rest[i]).squaredNorm();
-    missed_sum_[k] += (behind - 2 * here + ahead).squaredNorm() / 144;
-    behind = here;
-    here = ahead;
-  }
+void CableLines::place(const Frame& frame, bool with_slope) {
+  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data(), with_slope);
 }
 
 Vector2d bend_at_clamp(const Vector2d& at_clamp, const Vector2d& next, const Vector2d& after_next, double q) {
@@ -185,46 +157,41 @@ Vector2d bend_at_clamp(const Vector2d& at_clamp, const Vector2d& next, const Vec
 
 void CableLines::tell(const HoseLine& hose, std::size_t k, CableState& state) const {
   const std::size_t nodes = hose.nodes();
-  state.gain = gain_;
+  state.gain.resize(nodes - 1);
+  for (std::size_t i = 0; i + 1 < nodes; ++i) state.gain[i] = gain_[i * batch_.lanes + k];
   state.tension.assign(nodes - 1, cables_[k].axial_stiffness * state.strain);
   state.press.resize(batch_.press ? nodes : 0);
   state.offset.resize(2 * nodes);
   state.curvature.resize(2 * nodes);
   for (std::size_t i = 0; i < nodes; ++i) {
-    const Vector2d bends = turned_back(bent_[i], hose.turn[i]), at = turned_back(at_[i], hose.turn[i]);
     if (batch_.press) state.press[i] = press_[i * batch_.lanes + k];
-    state.curvature[2 * i] = -bends.y();
-    state.curvature[2 * i + 1] = bends.x() + rest_curvature_;
-    const Vector2d offset = at - vector(laid, i, k);
-    state.offset[2 * i] = offset.x();
-    state.offset[2 * i + 1] = offset.y();
+    const Vector2d of_hose = vector(hose_bends, i, k), from_place = vector(offset, i, k);
+    state.curvature[2 * i] = -of_hose.y();
+    state.curvature[2 * i + 1] = of_hose.x() + rest_curvature_;
+    state.offset[2 * i] = from_place.x();
+    state.offset[2 * i + 1] = from_place.y();
   }
   const double q =
       std::max(0.0, cables_[k].axial_stiffness * state.strain) * std::pow(hose.spacing, 2) / cables_[k].bending_stiffness;
   for (const std::size_t clamp : {0, 1}) {
     const std::size_t at = clamp == 0 ? 0 : nodes - 1, next = clamp == 0 ? 1 : nodes - 2, after = clamp == 0 ? 2 : nodes - 3;
-    const Vector2d bends = turned_back(bend_at_clamp(bent_[at], bent_[next], bent_[after], q), hose.turn[at]);
-    state.clamped[2 * clamp] = -bends.y();
-    state.clamped[2 * clamp + 1] = bends.x() + rest_curvature_;
+    const Vector2d of_hose =
+        turned_back(bend_at_clamp(vector(bends, at, k), vector(bends, next, k), vector(bends, after, k), q), hose.turn[at]);
+    state.clamped[2 * clamp] = -of_hose.y();
+    state.clamped[2 * clamp + 1] = of_hose.x() + rest_curvature_;
   }
 }
 
-void CableLines::end(const HoseLine& hose, std::span<const Frame* const> frames, double time,
-                     std::span<CableState> states) {
+void CableLines::end(const HoseLine& hose, double time, std::span<CableState> states) {
+  loose_kernels().follow(batch_, answer());
+  if (!states.empty()) loose_kernels().tell(batch_, memory(), frame_of(hose), answer());
   for (std::size_t k = 0; k < count(); ++k) {
-    const double settled = tensions_[k].settle(follow(hose, k));
-    if (!states.empty()) {
-      judge_mesh(hose, k);
-      states[k].strain = settled;
-      tell(hose, k, states[k]);
-    }
-    const Frame& frame = *frames[k];
-    for (std::size_t i = 0; i < batch_.nodes; ++i) {
-      if (time > 0)
-        put(velocity, i, k, turned_back(Vector2d(at_[i] - vector(before, i, k)), frame[i]) / time);
-      put(path, i, k, turned_back(at_[i], frame[i]));
-    }
+    const double settled = tensions_[k].settle(of_lane(mean_gain, k));
+    if (states.empty()) continue;
+    states[k].strain = settled;
+    tell(hose, k, states[k]);
   }
+  loose_kernels().end(batch_, memory(), time);
 }
 
 }  // namespace dresslife::strain

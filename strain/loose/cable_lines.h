@@ -51,11 +51,10 @@ class CableLines {
   void begin(const HoseLine& hose, std::span<const Frame* const> frames, double step, bool goes_on);
   /// (cable) that they took to rest, of LineBench.
   std::span<std::int32_t> iterations() { return iterations_; }
-  /// Cables of a ring (strain/loose/ring.h) to their places in a frame.
-  void place(const Frame& frame);
-  /// The sample is over. frames, step: as in begin(); step 0: there was none before. states: (cable), or empty: nobody
-  /// asks.
-  void end(const HoseLine& hose, std::span<const Frame* const> frames, double step, std::span<CableState> states);
+  /// Cables of a ring (strain/loose/ring.h) to their places in a frame. with_slope: and then tension and slope.
+  void place(const Frame& frame, bool with_slope);
+  /// The sample is over. step: as in begin(); step 0: there was none before. states: (cable), or empty: nobody asks.
+  void end(const HoseLine& hose, double step, std::span<CableState> states);
 
   /// What its path has more than the hose's axis where it was laid in, over that.
   double laid_in(std::size_t k) const { return tensions_[k].laid_in(); }
@@ -67,42 +66,40 @@ class CableLines {
 
   /// What the distance h of the nodes leaves out of a path's waves: second differences have their curvature a by
   /// h^2 a'' / 12 wrong. Both squared and summed over nodes and samples so far, of which a state was asked.
-  double bent(std::size_t cable) const { return bent_sum_[cable]; }      ///< its curvature, the hose's with it [1/m2]
-  double missed(std::size_t cable) const { return missed_sum_[cable]; }  ///< of h^2 a'' / 12 [1/m2]
+  double bent(std::size_t cable) const { return lane_rows_[bent_sum * batch_.lanes + cable]; }      ///< its curvature, the hose's with it [1/m2]
+  double missed(std::size_t cable) const { return lane_rows_[missed_sum * batch_.lanes + cable]; }  ///< of h^2 a'' / 12 [1/m2]
 
-  static constexpr int most_iterations = 600;            ///< from one sample to the next; 2 to 60 but for a snap
+  static constexpr int most_iterations = 600;            ///< from one sample to the next; 2 to 30 but for a snap
   static constexpr int most_iterations_at_start = 2000;  ///< from its place to where it rests
 
  private:
   /// Of what is kept by lane.
   enum OfLane {
     bending_stiffness, axial_stiffness, mass_per_length, wall_stiffness, play, farthest, nearest, gap, per_radius, drag,
-    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, lane_rows
+    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, mean_gain, bent_sum, missed_sum,
+    lane_rows
   };
-  /// Of what is kept by node, each (node, 2, lane). laid: the place, and laid_bent: its second derivative, in the frame
-  /// in which it stays.
-  enum OfNode { laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, node_rows };
+  /// Of what is kept by node, each (node, 2, lane): of LineBatch, LineMemory and LineAnswer.
+  enum OfNode {
+    laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, frame_at, bends, hose_bends, offset, node_rows
+  };
 
   void lay(std::size_t k);
   double laid_gain(std::size_t k) const;
-  void judge_mesh(const HoseLine& hose, std::size_t k);
   void tell(const HoseLine& hose, std::size_t k, CableState& state) const;
+  LineMemory memory();
+  LineAnswer answer();
   double& of_lane(OfLane row, std::size_t k) { return lane_rows_[static_cast<std::size_t>(row) * batch_.lanes + k]; }
   Eigen::Vector2d vector(OfNode row, std::size_t node, std::size_t k) const;
   void put(OfNode row, std::size_t node, std::size_t k, const Eigen::Vector2d& value);
-  double follow(const HoseLine& hose, std::size_t k);
   void point_at_rows();
 
   std::vector<LooseCable> cables_;
   std::vector<CableTension> tensions_;
   double rest_curvature_;
   LineBatch batch_;
-  LaneRows lane_rows_, node_rows_[OfNode::node_rows], press_;
-  // Of one cable where it rests: its path (node) [m], its curvature less that at rest (node) [1/m], gain (element).
-  std::vector<Eigen::Vector2d> at_, bent_;
-  std::vector<double> gain_;
+  LaneRows lane_rows_, node_rows_[OfNode::node_rows], press_, gain_;
   std::vector<std::int32_t> iterations_;
-  std::vector<double> bent_sum_, missed_sum_;
 };
 
 }  // namespace dresslife::strain

@@ -165,7 +165,7 @@ void LooseCables::end(double step, int most) {
     iterations_ += static_cast<std::size_t>(took);
     rests_ &= took < most;
   }
-  lines_.end(hose_, frames_, started_ ? step : 0, states_);
+  lines_.end(hose_, started_ ? step : 0, states_);
   started_ = true;
 }
 

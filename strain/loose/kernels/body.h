@@ -2,7 +2,7 @@
 // which names it (pipeline/base/simd.h).
 //
 // The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill
-// that wait. Cables take from 2 to 60 iterations: one that rests leaves its lane to the next.
+// that wait. Cables take from 2 to 30 iterations: one that rests leaves its lane to the next.
 #include "pipeline/base/simd.h"
 // simd.h declares what the templates below are used with
 #include "strain/loose/kernels/loose_kernels.h"
@@ -18,9 +18,14 @@ using namespace simd;
 constexpr double at_rest = 1e-7;  // [m]
 // Farther in one step, contacts would be jumped over: a cable's radius.
 constexpr double longest_step = 4e-3;  // [m]
-constexpr double first_shift = 100;    // of stiffness per length where that is not positive [N/m2]
+// Of stiffness per length where that is not positive [N/m2]. With 100 four times as many shifts were tried (robot 1).
+constexpr double first_shift = 2e4;
 constexpr int most_shifts = 60;        // by factors of four: beyond what any number of a cable holds
 constexpr int most_tries = 12;
+// Steps that are not longer are taken whole, so many at most: then many nodes meet their contacts at once. A search along the
+// step would stop at the first of them. Longer steps could end in another place of rest.
+constexpr double whole_step = 1e-3;  // [m]
+constexpr int most_whole_steps = 20;
 
 inline Pack at(const double* of, std::size_t lane) { return load<Pack>(of + lane); }
 
@@ -347,8 +352,10 @@ void Lines<packs>::judge(int most, Progress* progress) const {
     Progress& at_p = progress[p];
     const Pack there = along_way(p), down = load<Pack>(at_p.down), share = load<Pack>(at_p.share);
     const Pack tries = load<Pack>(at_p.tries);
+    const DoubleMask whole = at_least(Pack(whole_step), load<Pack>(at_p.largest)) &
+                             at_least(Pack(static_cast<double>(most_whole_steps)), load<Pack>(at_p.took));
     const DoubleMask good =
-        at_least(-0.5 * down, there) | at_least(tries, Pack(static_cast<double>(most_tries)));
+        whole | at_least(-0.5 * down, there) | at_least(tries, Pack(static_cast<double>(most_tries)));
     const DoubleMask ends =
         set(at_p.trying) & good & at_least(load<Pack>(at_p.took), Pack(static_cast<double>(most)));
     const Pack shorter = smaller(larger(-down / (there - down), Pack(0.1)), Pack(0.7));
@@ -533,15 +540,113 @@ void relax(const LineBatch& room, const WaitingCable* cables, std::size_t count,
   }
 }
 
+// ---- from sample to sample ---------------------------------------------------------------------------------
+
+inline Pair turned(const Pair& of, const Pair& by) { return {of.x * by.x - of.y * by.y, of.x * by.y + of.y * by.x}; }
+inline Pair turned_back(const Pair& of, const Pair& by) { return {of.x * by.x + of.y * by.y, of.y * by.x - of.x * by.y}; }
+inline Pack length(const Pair& of) { return square_root(dot(of, of)); }
+
+/// `at` after another way like the last one. The distance from the hose's axis changes by as much as before: on a straight way
+/// a cable that slides along a round wall would leave it.
+inline Pair gone_on(const Pair& at, const Pair& way) {
+  const Pair to = at + way;
+  const Pack distance = length(to), before = length(at), wanted = 2.0 * before - length(at - way);
+  const DoubleMask round = greater(wanted, Pack(0.0)) & greater(2.0 * distance, before);
+  return select(round, (wanted / distance) * to, to);
+}
+
+void begin(const LineBatch& batch, const LineMemory& memory, const HoseFrame& hose, double ahead) {
+  const std::size_t last = batch.nodes - 1;
+  const bool goes_on = ahead != 0;
+  for (std::size_t i = 0; i <= last; ++i)
+    for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
+      const Lines<1> lines{batch, k};
+      const Pair frame = lines.pair(memory.frame, i, 0), at = lines.pair(batch.path, i, 0);
+      const Pair place = turned(lines.pair(memory.laid, i, 0), frame);
+      lines.put(Lines<1>::same(hose.rest, i) + turned(lines.pair(memory.laid_bent, i, 0), Lines<1>::same(hose.turn, i)),
+                batch.rest, i, 0);
+      lines.put(place, batch.place, i, 0);
+      const Pair before = turned(at, frame);
+      lines.put(before, batch.before, i, 0);
+      Pair path = before;
+      if (i == 0 || i == last)
+        path = place;
+      else if (goes_on)
+        path = turned(gone_on(at, Pack(ahead) * lines.pair(memory.velocity, i, 0)), frame);
+      lines.put(path, batch.path, i, 0);
+    }
+}
+
+void follow(const LineBatch& batch, const LineAnswer& answer) {
+  const std::size_t last = batch.nodes - 1;
+  const Pack half(0.5), inverse(1 / (batch.spacing * batch.spacing));
+  for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
+    const Lines<1> lines{batch, k};
+    Pair behind = lines.pair(batch.path, 1, 0), here = lines.pair(batch.path, 0, 0);  // beyond a clamp lies the mirror image
+    Pack rate_behind(0.0), sum(0.0);
+    for (std::size_t i = 0; i <= last; ++i) {
+      const Pair K = Lines<1>::same(batch.curvature, i);
+      const Pair ahead = i < last ? lines.pair(batch.path, i + 1, 0) : behind, way = here - behind;
+      const Pack rate = Pack(batch.elongation[i]) - dot(K, here);
+      if (i > 0) {
+        const Pack gain = half * (rate_behind + rate + inverse * dot(way, way));
+        store(gain, answer.gain + (i - 1) * batch.lanes + k);
+        sum += gain;
+      }
+      lines.put(K - lines.pair(batch.rest, i, 0) + inverse * ((behind - here) + (ahead - here)), answer.bends, i, 0);
+      rate_behind = rate;
+      behind = here;
+      here = ahead;
+    }
+    store(sum / Pack(static_cast<double>(last)), answer.mean_gain + k);
+  }
+}
+
+void tell(const LineBatch& batch, const LineMemory& memory, const HoseFrame& hose, const LineAnswer& answer) {
+  const std::size_t last = batch.nodes - 1;
+  for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
+    const Lines<1> lines{batch, k};
+    Pack bent(0.0), missed(0.0);
+    Pair own_behind{bent, bent}, own_here = own_behind;  // curvature of the path in a straight hose
+    for (std::size_t i = 0; i <= last; ++i) {
+      const Pair bends = lines.pair(answer.bends, i, 0), turn = Lines<1>::same(hose.turn, i);
+      const Pair from_rest = bends + Lines<1>::same(hose.rest, i), own = from_rest - Lines<1>::same(batch.curvature, i);
+      if (i > 0 && i < last) bent += dot(from_rest, from_rest);
+      if (i > 1) {
+        const Pair wave = (own_behind - own_here) + (own - own_here);
+        missed += dot(wave, wave);
+      }
+      lines.put(turned_back(bends, turn), answer.hose_bends, i, 0);
+      lines.put(turned_back(lines.pair(batch.path, i, 0), turn) - lines.pair(memory.laid, i, 0), answer.offset, i, 0);
+      own_behind = own_here;
+      own_here = own;
+    }
+    store(at(answer.bent, k) + bent, answer.bent + k);
+    store(at(answer.missed, k) + missed / Pack(144.0), answer.missed + k);
+  }
+}
+
+void end(const LineBatch& batch, const LineMemory& memory, double time) {
+  for (std::size_t i = 0; i < batch.nodes; ++i)
+    for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
+      const Lines<1> lines{batch, k};
+      const Pair frame = lines.pair(memory.frame, i, 0), at = lines.pair(batch.path, i, 0);
+      if (time > 0)
+        lines.put(Pack(1 / time) * turned_back(at - lines.pair(batch.before, i, 0), frame), memory.velocity, i, 0);
+      lines.put(turned_back(at, frame), batch.path, i, 0);
+    }
+}
+
 // ---- rings ------------------------------------------------------------------------------------------------
 
-void place(const LineBatch& batch, const double* laid, const double* frame) {
+void place(const LineBatch& batch, const double* laid, const double* frame, bool with_slope) {
   for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
     const Lines<1> lines{batch, k};
     for (std::size_t i = 1; i + 1 < batch.nodes; ++i) {
       const Pair by = Lines<1>::same(frame, i), a0 = lines.pair(laid, i, 0);
-      lines.put({a0.x * by.x - a0.y * by.y, a0.x * by.y + a0.y * by.x}, batch.path, i, 0);
+      lines.put(turned(a0, by), batch.path, i, 0);
     }
+    if (!with_slope) continue;
     lines.answer();
     lines.slopes<false>();
   }
@@ -627,7 +732,7 @@ void products(const double* a, const double* b, std::size_t rows, std::size_t la
 }  // namespace
 
 extern const LooseKernels set;
-const LooseKernels set{relax, place, assemble_turn, slope_of_turn, substitute_turn, products};
+const LooseKernels set{relax, begin, follow, tell, end, place, assemble_turn, slope_of_turn, substitute_turn, products};
 
 }  // namespace DRESSLIFE_MACHINE_KERNELS
 }  // namespace dresslife::strain

@@ -41,6 +41,27 @@ struct LineBatch {
   double *blocks = nullptr, *factors = nullptr;  ///< (node, 3, lane), (node, 7, lane)
 };
 
+/// What cables keep from sample to sample beside their batch, each (node, 2, lane).
+struct LineMemory {
+  const double *laid = nullptr, *laid_bent = nullptr;  ///< the place, and its second derivative, in the frame in which it stays
+  const double* frame = nullptr;                       ///< cosine and sine of that frame against the untwisted one
+  double* velocity = nullptr;                          ///< in that frame [m/s]
+};
+
+/// The hose at one sample, (node, 2): see HoseLine.
+struct HoseFrame {
+  const double *turn = nullptr, *rest = nullptr;
+};
+
+/// Cables where they rest.
+struct LineAnswer {
+  double* bends = nullptr;                          ///< (node, 2, lane) curvature less that at rest, untwisted frame [1/m]
+  double *hose_bends = nullptr, *offset = nullptr;  ///< (node, 2, lane) the same in the hose's frame; b [m]
+  double* gain = nullptr;                           ///< (element, lane)
+  double* mean_gain = nullptr;                      ///< (lane)
+  double *bent = nullptr, *missed = nullptr;        ///< (lane) sums that grow, see CableLines::bent()
+};
+
 // What a cable takes along to where it comes to rest: what it is (lane), and where (node, 2, lane).
 constexpr double* LineBatch::*what_cables_are[] = {
     &LineBatch::bending_stiffness, &LineBatch::axial_stiffness, &LineBatch::mass_per_length, &LineBatch::wall_stiffness,
@@ -69,9 +90,17 @@ struct LooseKernels {
   /// sample; the first ones take the lanes of the bench, and as one rests the next takes its place. Their paths are told, and how
   /// they press where their batch asks.
   void (*relax)(const LineBatch& bench, const WaitingCable* cables, std::size_t count, int most);
+  /// The next sample: K0 and A0, and the path from its frame to the untwisted one, `ahead` seconds on.
+  void (*begin)(const LineBatch&, const LineMemory&, const HoseFrame&, double ahead);
+  /// Curvature and gain of the paths, from the batch's path and its rest.
+  void (*follow)(const LineBatch&, const LineAnswer&);
+  /// After follow(): how cables lie in the hose's frame, and what its nodes miss.
+  void (*tell)(const LineBatch&, const LineMemory&, const HoseFrame&, const LineAnswer&);
+  /// The sample is over: the path back to its frame, and its velocity over so many seconds; 0: it keeps that which it has.
+  void (*end)(const LineBatch&, const LineMemory&, double time);
   /// Every cable to its place in the ring's frame (node, 2), cosine and sine; laid: its place in that (node, 2, lane).
-  /// Then tension and slope of all but contact.
-  void (*place)(const LineBatch&, const double* laid, const double* frame);
+  /// with_slope: and then tension and slope of all but contact.
+  void (*place)(const LineBatch&, const double* laid, const double* frame, bool with_slope);
   void (*assemble_turn)(const LineBatch&, const RingSystem&);
   /// Of the slope alone.
   void (*slope_of_turn)(const LineBatch&, double* slope);
