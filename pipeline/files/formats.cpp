@@ -18,7 +18,7 @@ enum Traits : unsigned {
   deflated = 4,    ///< repetitive
   decimals_7 = 8,  ///< of strains: a five-thousandth of the default gate
   lists = 16,      ///< rising lists
-  decimals_11 = 32,  ///< of places and orientations: a bend by them is kept to 1e-9 1/m, a strain to 1e-9
+  decimals_12 = 32,  ///< of places and orientations: an elongation of links of 20 mm is kept to 1e-10
   decimals_4 = 64,   ///< of forces in N
 };
 constexpr Traits operator|(Traits a, Traits b) { return Traits(unsigned(a) | unsigned(b)); }
@@ -55,7 +55,7 @@ void add(Format& format, std::initializer_list<Row> rows, const std::string& gro
     dataset.lists = row.traits & lists;
     if (row.traits & decimals_4) dataset.decimals = 4;
     if (row.traits & decimals_7) dataset.decimals = 7;
-    if (row.traits & decimals_11) dataset.decimals = 11;
+    if (row.traits & decimals_12) dataset.decimals = 12;
   }
 }
 
@@ -117,10 +117,10 @@ Format make_motion_format() {
   Format format{"dresslife-motion", 1, "dresslife-sim", "how the dresspack moves", {}, {}};
   add(format, {
     {"/time",                  f64,  "sample",             "s",    always, "time of each sample"},
-    {"/segment/position",      f64,  "sample, segment, 3", "m",    decimals_11,
-     "segment centres in the world, kept to 5e-12 m"},
-    {"/segment/orientation",   f64,  "sample, segment, 4", "1",    decimals_11,
-     "unit quaternion w x y z, body to world, kept to 5e-12; body z is the tangent toward the tool"},
+    {"/segment/position",      f64,  "sample, segment, 3", "m",    decimals_12,
+     "segment centres in the world, kept to 5e-13 m"},
+    {"/segment/orientation",   f64,  "sample, segment, 4", "1",    decimals_12,
+     "unit quaternion w x y z, body to world, kept to 5e-13; body z is the tangent toward the tool"},
     {"/segment/length",        f64,  "segment",            "m",    always, "rest length"},
     {"/clamp/position",        f64,  "sample, clamp, 3",   "m",    always,
      "clamps in the world, dresspack by dresspack: base side first, tool side last"},
@@ -131,8 +131,8 @@ Format make_motion_format() {
     {"/clamp/travel",          f64,  "sample, dresspack",  "m",    maybe,
      "travel of each dresspack's base clamp in its retraction unit; absent without one"},
     {"/robot/joint_position",  f64,  "sample, joint",      "rad",  maybe, "joint angles"},
-    {"/robot/link_pose",       f64,  "sample, link, 7",    "m, 1", maybe | decimals_11,
-     "position and quaternion w x y z of each link, kept to 5e-12; attribute `links` names them, comma-separated"},
+    {"/robot/link_pose",       f64,  "sample, link, 7",    "m, 1", maybe | decimals_12,
+     "position and quaternion w x y z of each link, kept to 5e-13; attribute `links` names them, comma-separated"},
     {"/program/step",          i32,  "sample",             "1",    always,
      "index of the program line being executed"},
     {"/program/text",          text, "line",               "1",    always, "the lines of the program"},
@@ -215,8 +215,7 @@ Format make_strain_format() {
      "arc from the base clamp of its dresspack at which its wires are evaluated: its centre, or the clamp beside it"},
     {"/deformation/curvature",  f32,  "sample, segment, 2", "1/m",  always, "about d1 and d2 of the segment"},
     {"/deformation/twist",      f32,  "sample, segment",    "rad/m", always, "about the tangent"},
-    {"/deformation/elongation", f32,  "sample, segment",    "1",    decimals_7,
-     "relative change of length, kept to 5e-8"},
+    {"/deformation/elongation", f32,  "sample, segment",    "1",    always, "relative change of length"},
   });
   add_dresspacks(format);
   add_rubbing(format);
@@ -232,7 +231,7 @@ Format make_strain_format() {
      "index of its dresspack in the job, 0 first"},
     {"/cable/component",         i32,  "cable",              "1",    maybe,
      "index of its component in that dresspack, 0 first"},
-    {"/cable/strain",            f64,  "sample, cable, 3",   "1",    maybe | decimals_11,
+    {"/cable/strain",            f64,  "sample, cable, 3",   "1",    maybe | decimals_12,
      "strain that belongs to its force: the largest along the cable by size, at its base clamp, at its tool clamp"},
     {"/cable/clamp_place",       f64,  "cable, 2, 2",        "m",    maybe,
      "its axis at its base and its tool clamp, toward d1 and d2 of the dresspack"},
