@@ -33,6 +33,9 @@ bool has_up_to(const JobState& state, const fs::path& folder, std::size_t stage)
   return true;
 }
 
+/// Stages that a study takes from another one. The last one takes seconds, and is made again.
+constexpr std::size_t taken_count = stage_count - 1;
+
 /// The folder of a study's rigs, in the study's own (commands/making).
 constexpr const char* rigs = ".rigs";
 
@@ -60,7 +63,7 @@ std::vector<std::string> noted_recipes(const fs::path& folder) {
   std::vector<std::string> keys;
   std::string recipes, input = "-";
   try {
-    for (std::size_t stage = 0; stage < shared_count; ++stage) {
+    for (std::size_t stage = 0; stage < taken_count; ++stage) {
       const std::optional<Receipt> receipt = read_receipt(folder / files_of_stage(stage).receipt);
       if (!receipt || receipt->input != input) break;
       keys.push_back(recipes += receipt->recipe + ' ');
@@ -101,13 +104,13 @@ bool take_up_to(const fs::path& from, const fs::path& to, const JobState& state,
 
 /// Whether a job may take stages from another study.
 bool may_take(const StudyJob& job, const JobState& state) {
-  return job.failure.empty() && state.next < shared_count && !state.recipes[0].empty() && !state.foreign;
+  return job.failure.empty() && state.next < taken_count && !state.recipes[0].empty() && !state.foreign;
 }
 
 void share_with_other_studies(const Study& study, const StudyPlaces& places, std::vector<JobState>& states) {
   std::unordered_map<std::string, std::vector<fs::path>> havers;  // by the recipes that this study looks for
   for (std::size_t k = 0; k < states.size(); ++k)
-    for (std::size_t stage = states[k].next; may_take(study.jobs[k], states[k]) && stage < shared_count; ++stage)
+    for (std::size_t stage = states[k].next; may_take(study.jobs[k], states[k]) && stage < taken_count; ++stage)
       havers[recipes_up_to(states[k], stage)];
   if (havers.empty()) return;
   const fs::path here = fs::absolute(places.folder);
@@ -118,7 +121,7 @@ void share_with_other_studies(const Study& study, const StudyPlaces& places, std
     if (!may_take(study.jobs[k], states[k])) continue;
     const fs::path folder = here / study.jobs[k].name;
     bool taken = false;
-    for (std::size_t stage = shared_count; !taken && stage-- > states[k].next;)
+    for (std::size_t stage = taken_count; !taken && stage-- > states[k].next;)
       for (const fs::path& from : havers[recipes_up_to(states[k], stage)])
         if (!taken && from != folder) taken = take_up_to(from, folder, states[k], stage);
     if (taken) look_at(states[k], folder);
