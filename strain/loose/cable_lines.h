@@ -66,8 +66,9 @@ class CableLines {
 
   /// What the distance h of the nodes leaves out of a path's waves: second differences have their curvature a by
   /// h^2 a'' / 12 wrong. Both squared and summed over nodes and samples so far, of which a state was asked.
-  double bent(std::size_t cable) const { return lane_rows_[bent_sum * batch_.lanes + cable]; }      ///< its curvature, the hose's with it [1/m2]
-  double missed(std::size_t cable) const { return lane_rows_[missed_sum * batch_.lanes + cable]; }  ///< of h^2 a'' / 12 [1/m2]
+  /// bent: its curvature, the hose's with it. missed: h^2 a'' / 12 [1/m2].
+  double bent(std::size_t cable) const { return lane_rows_[bent_sum * batch_.lanes + cable]; }
+  double missed(std::size_t cable) const { return lane_rows_[missed_sum * batch_.lanes + cable]; }
 
   static constexpr int most_iterations = 600;            ///< from one sample to the next; 2 to 30 but for a snap
   static constexpr int most_iterations_at_start = 2000;  ///< from its place to where it rests
@@ -76,12 +77,13 @@ class CableLines {
   /// Of what is kept by lane.
   enum OfLane {
     bending_stiffness, axial_stiffness, mass_per_length, wall_stiffness, play, farthest, nearest, gap, per_radius, drag,
-    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, mean_gain, bent_sum, missed_sum,
-    lane_rows
+    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, mean_gain, bent_sum,
+    missed_sum, lane_rows
   };
   /// Of what is kept by node, each (node, 2, lane): of LineBatch, LineMemory and LineAnswer.
   enum OfNode {
-    laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, frame_at, bends, hose_bends, offset, node_rows
+    laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, frame_at, bends, hose_bends, offset,
+    node_rows
   };
 
   void lay(std::size_t k);

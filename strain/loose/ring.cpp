@@ -47,13 +47,6 @@ void substitute(const std::vector<double>& bands, std::size_t rows, Eigen::Vecto
   }
 }
 
-/// Cosine and sine of an angle up to longest_turn, whose next terms are below 1e-17: Taylor.
-Vector2d small_turn(double angle) {
-  const double x = angle * angle;
-  return {1 - x / 2 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56 * (1 - x / 90)))),
-          angle * (1 - x / 6 * (1 - x / 20 * (1 - x / 42 * (1 - x / 72 * (1 - x / 110)))))};
-}
-
 }  // namespace
 
 std::vector<double> random_winding(std::size_t nodes, double length, double radius, double slack,
@@ -92,6 +85,13 @@ Ring::Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double r
 void Ring::go_on_from(const Ring& other) {
   psi_ = other.psi_, velocity_ = other.velocity_, frame_ = other.frame_;
   lines_.go_on_from(other.lines_);
+}
+
+/// Every cable to where the turn has it.
+void Ring::place(const HoseLine& hose, bool with_slope) {
+  for (std::size_t i = 1; i + 1 < hose.nodes(); ++i)
+    frame_[i] = turned(hose.turn[i], {std::cos(psi_[i]), std::sin(psi_[i])});
+  lines_.place(frame_, with_slope);
 }
 
 /// Newton's way to the minimum of the quadratic at hand, shifted by as much as makes that positive.
@@ -137,21 +137,17 @@ Eigen::VectorXd Ring::newton_turn() {
 }
 
 /// A step of Newton's. Returns its largest turn [rad].
-double Ring::step() {
+double Ring::step(const HoseLine& hose) {
   const Eigen::VectorXd turn = newton_turn();  // finds the slope
   const auto rows = static_cast<Eigen::Index>(slope_.size());
   const Eigen::Map<const Eigen::VectorXd> slope(slope_.data(), rows);
   const double most = turn.cwiseAbs().maxCoeff(), down = slope.dot(turn);
   double share = std::min(1.0, longest_turn / most);
   const std::vector<double> from = psi_;
-  const CableLines::Frame frame_from = frame_;
-  const bool rests = most < at_rest;
   for (int tries = 0; tries < most_tries; ++tries) {
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      psi_[i + 1] = from[i + 1] + share * turn[i];
-      frame_[i + 1] = turned(frame_from[i + 1], small_turn(share * turn[i]));
-    }
-    lines_.place(frame_, !rests);
+    for (Eigen::Index i = 0; i < rows; ++i) psi_[i + 1] = from[i + 1] + share * turn[i];
+    const bool rests = most < at_rest;
+    place(hose, !rests);
     if (rests) break;
     loose_kernels().slope_of_turn(lines_.batch(), slope_.data());
     const double there = slope.dot(turn);
@@ -167,11 +163,9 @@ bool Ring::advance(const HoseLine& hose, double time, bool goes_on) {
   lines_.begin(hose, frames, time, false);
   for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) psi_[i] += time * velocity_[i];
   frame_ = hose.turn;
-  for (std::size_t i = 1; i + 1 < hose.nodes(); ++i)
-    frame_[i] = turned(hose.turn[i], {std::cos(psi_[i]), std::sin(psi_[i])});
-  lines_.place(frame_, true);
+  place(hose, true);
   bool rests = false;
-  for (int k = 0; k < most_iterations && !rests; ++k) rests = step() < at_rest;
+  for (int k = 0; k < most_iterations && !rests; ++k) rests = step(hose) < at_rest;
   for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - before[i]) / time;
   lines_.end(hose, 0, {});
   return rests;

@@ -39,8 +39,9 @@ class Ring {
   const std::vector<Eigen::Vector2d>& frame() const { return frame_; }
 
  private:
+  void place(const HoseLine& hose, bool with_slope);
   Eigen::VectorXd newton_turn();
-  double step();
+  double step(const HoseLine& hose);
 
   CableLines lines_;                    ///< as they lie when each keeps to its place
   std::vector<double> psi_, velocity_;  ///< (node) against the hose [rad], [rad/s]

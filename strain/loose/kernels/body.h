@@ -22,8 +22,9 @@ constexpr double longest_step = 4e-3;  // [m]
 constexpr double first_shift = 2e4;
 constexpr int most_shifts = 60;        // by factors of four: beyond what any number of a cable holds
 constexpr int most_tries = 12;
-// Steps that are not longer are taken whole, so many at most: then many nodes meet their contacts at once. A search along the
-// step would stop at the first of them. Longer steps could end in another place of rest.
+// Steps that are not longer are taken whole, so many at most: then many nodes meet their contacts at once. A search
+// along the step would stop at the first of them. Longer steps could end in another place of rest. A cable that has not
+// come to rest after so many steps may go to and fro between two sets of contacts: then the search goes on.
 constexpr double whole_step = 1e-3;  // [m]
 constexpr int most_whole_steps = 20;
 
@@ -542,12 +543,16 @@ void relax(const LineBatch& room, const WaitingCable* cables, std::size_t count,
 
 // ---- from sample to sample ---------------------------------------------------------------------------------
 
-inline Pair turned(const Pair& of, const Pair& by) { return {of.x * by.x - of.y * by.y, of.x * by.y + of.y * by.x}; }
-inline Pair turned_back(const Pair& of, const Pair& by) { return {of.x * by.x + of.y * by.y, of.y * by.x - of.x * by.y}; }
+inline Pair turned(const Pair& of, const Pair& by) {
+  return {of.x * by.x - of.y * by.y, of.x * by.y + of.y * by.x};
+}
+inline Pair turned_back(const Pair& of, const Pair& by) {
+  return {of.x * by.x + of.y * by.y, of.y * by.x - of.x * by.y};
+}
 inline Pack length(const Pair& of) { return square_root(dot(of, of)); }
 
-/// `at` after another way like the last one. The distance from the hose's axis changes by as much as before: on a straight way
-/// a cable that slides along a round wall would leave it.
+/// `at` after another way like the last one. The distance from the hose's axis changes by as much as before: on a
+/// straight way a cable that slides along a round wall would leave it.
 inline Pair gone_on(const Pair& at, const Pair& way) {
   const Pair to = at + way;
   const Pack distance = length(to), before = length(at), wanted = 2.0 * before - length(at - way);
@@ -582,7 +587,8 @@ void follow(const LineBatch& batch, const LineAnswer& answer) {
   const Pack half(0.5), inverse(1 / (batch.spacing * batch.spacing));
   for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
     const Lines<1> lines{batch, k};
-    Pair behind = lines.pair(batch.path, 1, 0), here = lines.pair(batch.path, 0, 0);  // beyond a clamp lies the mirror image
+    // beyond a clamp lies the mirror image
+    Pair behind = lines.pair(batch.path, 1, 0), here = lines.pair(batch.path, 0, 0);
     Pack rate_behind(0.0), sum(0.0);
     for (std::size_t i = 0; i <= last; ++i) {
       const Pair K = Lines<1>::same(batch.curvature, i);
