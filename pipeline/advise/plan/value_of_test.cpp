@@ -125,7 +125,12 @@ class Values {
     found->second.best = rates.rate.colwise().minCoeff().transpose();
     for (const MatrixXd& result : results) {
       MatrixXd& after = found->second.after.emplace_back(result.rows(), bins);
-      for (Index j = 0; j < bins; ++j) after.col(j) = rates.least(weights.cwiseProduct(result.col(j)));
+      const MatrixXd mean = rates.rate * (weights.asDiagonal() * result);  // (age, bin), as in least()
+      for (Index j = 0; j < bins; ++j) {
+        Index best = 0;
+        mean.col(j).minCoeff(&best);
+        after.col(j) = rates.rate.row(best).transpose();
+      }
     }
     return found->second;
   }
