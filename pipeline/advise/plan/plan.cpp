@@ -241,12 +241,17 @@ AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned
   const double shortest = *std::min_element(table.hours.begin(), table.hours.end()), last = std::min(table.robot_life_hours, longest);
   const double first = std::max(shortest_life, std::min(last, shortest)) / 10;
   AgeRates rates{Eigen::MatrixXd(Eigen::Index(ages), Eigen::Index(table.worlds))};
+  std::vector<double> at;
+  for (std::size_t k = 0; k < ages; ++k) at.push_back(first * std::pow(last / first, double(k) / double(ages - 1)));
+  const auto all = double(table.draws);
   for (std::size_t w = 0; w < table.worlds; ++w) {
-    double running = 0, before = 0;
+    // Ages and lives rise: one pass through both.
+    const float *life = table.hours.data() + w * table.draws, *const end = life + table.draws;
+    double ended = 0;  // [h] sum of the lives until this age
     for (std::size_t k = 0; k < ages; ++k) {
-      const double age = first * std::pow(last / first, double(k) / double(ages - 1)), lives = table.alive(w, age);
-      running += table.running(w, before, age);
-      before = age;
+      for (; life != end && *life <= static_cast<float>(at[k]); ++life) ended += *life;
+      const auto alive = double(end - life);
+      const double lives = alive / all, running = (ended + alive * at[k]) / all;
       rates.rate(Eigen::Index(k), Eigen::Index(w)) = (planned_cost * lives + unplanned_cost * (1 - lives)) / std::max(running, first);
     }
   }

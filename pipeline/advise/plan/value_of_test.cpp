@@ -60,12 +60,15 @@ Costs costs_of(const Installed& row, const LifeTable& table, double age, double 
     const double lives = table.alive(world, age);
     if (!(lives > 0)) continue;
     costs.weights[w] = world_weights[world];
-    double before = age, left = end, beyond = 0;
+    const double begun = table.running(world, 0, age), ended = table.running(world, 0, age + end);
+    // Times and lives rise: one pass through both.
+    const float *life = table.hours.data() + world * table.draws, *const last_life = life + table.draws;
+    double lived = 0;  // [h] sum of the lives until this time
     for (Index t = 0; t < count; ++t) {
       const double at = age + until[std::size_t(t)];
-      left -= table.running(world, std::min(before, age + end), std::min(at, age + end)) / lives;
-      beyond += table.running(world, std::max(before, age + end), std::max(at, age + end)) / lives;
-      before = at;
+      for (; life != last_life && *life <= at; ++life) lived += *life;
+      const double running = (lived + double(last_life - life) * at) / double(table.draws);  // from 0 to then
+      const double left = end - (std::min(running, ended) - begun) / lives, beyond = std::max(0.0, running - ended) / lives;
       costs.fixed(t, w) = row.planned_cost +
                           (row.unplanned_cost - row.planned_cost) * (1 - table.alive(world, at) / lives) -
                           best[w] * beyond;
@@ -123,9 +126,17 @@ class Values {
     const VectorXd weights = VectorXd::Map(plan_.weights.data(), static_cast<Index>(plan_.weights.size()));
     found->second.now = rates.least(weights);
     found->second.best = rates.rate.colwise().minCoeff().transpose();
-    for (const MatrixXd& result : results) {
-      MatrixXd& after = found->second.after.emplace_back(result.rows(), bins);
-      for (Index j = 0; j < bins; ++j) after.col(j) = rates.least(weights.cwiseProduct(result.col(j)));
+    MatrixXd all(weights.size(), static_cast<Index>(results.size()) * bins);
+    for (std::size_t k = 0; k < results.size(); ++k)
+      all.middleCols(static_cast<Index>(k) * bins, bins) = weights.asDiagonal() * results[k];
+    const MatrixXd mean = rates.rate * all;  // (age, result and bin), as in least()
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      MatrixXd& after = found->second.after.emplace_back(weights.size(), bins);
+      for (Index j = 0; j < bins; ++j) {
+        Index best = 0;
+        mean.col(static_cast<Index>(k) * bins + j).minCoeff(&best);
+        after.col(j) = rates.rate.row(best).transpose();
+      }
     }
     return found->second;
   }
