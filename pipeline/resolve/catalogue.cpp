@@ -201,9 +201,9 @@ const char* shelf_of(std::string_view path) {
 void collect_materials(const Node& components, std::vector<const Node*>& names) {
   for (const Node& component : components.items) {
     if (const Node* name = component.find("material")) names.push_back(name);
+    if (const Node* inner = component.find("components")) collect_materials(*inner, names);
     if (const Node* jacket = component.find("jacket"))
       if (const Node* name = jacket->find("material")) names.push_back(name);
-    if (const Node* inner = component.find("components")) collect_materials(*inner, names);
   }
 }
 

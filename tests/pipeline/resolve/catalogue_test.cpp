@@ -91,7 +91,7 @@ TEST_CASE("catalogue: the shipped entries are always there") {
                {"strain.slip=free"});
   CHECK(job.dresspacks[0].dresspack.diameter == 0.06);
   CHECK(job.dresspacks[0].dresspack.components[0].components[0].components.size() == 5);
-  REQUIRE(job.dresspacks[0].dresspack.materials.size() == 2);  // the wires' and the hose's
+  REQUIRE(job.dresspacks[0].dresspack.materials.size() == 3);  // the wires', the jackets' and the hose's
   CHECK(job.dresspacks[0].dresspack.materials[0].name == "copper_halved");
 }
 
