@@ -110,7 +110,8 @@ bool may_take(const StudyJob& job, const JobState& state) {
 void share_with_other_studies(const Study& study, const StudyPlaces& places, std::vector<JobState>& states) {
   std::unordered_map<std::string, std::vector<fs::path>> havers;  // by the recipes that this study looks for
   for (std::size_t k = 0; k < states.size(); ++k)
-    for (std::size_t stage = states[k].next; may_take(study.jobs[k], states[k]) && stage < shared_count; ++stage)
+    for (std::size_t stage = states[k].next; may_take(study.jobs[k], states[k]) && stage < shared_count;
+         ++stage)
       havers[recipes_up_to(states[k], stage)];
   if (havers.empty()) return;
   const fs::path here = fs::absolute(places.folder);
