@@ -19,7 +19,7 @@ struct FileReader::Impl {
     std::size_t row_values = 1;
     /// Of a chunk that scale_offset.h or list_deflate.h unpacks; 0: left to the library.
     std::size_t packed_rows = 0;
-    mutable std::vector<char> unpacked;  ///< the last of these chunks: who reads row after row unpacks it once
+    mutable std::vector<char> unpacked;  ///< the last of these chunks, for reads of single rows
     mutable hsize_t unpacked_at = 0;     ///< its first row
     std::vector<hsize_t> chunk;                 ///< along each axis; empty: not in chunks
     mutable bool chunks_to_be_checked = false;  ///< before the library reads them

@@ -175,14 +175,16 @@ void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::siz
     if (unpacked.empty() || from.unpacked_at != chunk[0]) {
       read_chunk(from, chunk.data(), packed);
       unpacked.resize(from.packed_rows * row_values * sizeof(T));
-      if (!unpack(std::span<const char>(packed), {reinterpret_cast<T*>(unpacked.data()), from.packed_rows * row_values})) {
+      if (!unpack(std::span<const char>(packed),
+                  {reinterpret_cast<T*>(unpacked.data()), from.packed_rows * row_values})) {
         unpacked.clear();
         fail_at_chunk(from);
       }
       from.unpacked_at = chunk[0];
     }
     const std::size_t here = std::min<std::size_t>(end, chunk[0] + from.packed_rows) - row;
-    std::copy_n(reinterpret_cast<const T*>(unpacked.data()) + (row - chunk[0]) * row_values, here * row_values, out);
+    std::copy_n(reinterpret_cast<const T*>(unpacked.data()) + (row - chunk[0]) * row_values,
+                here * row_values, out);
     row += here;
     out += here * row_values;
   }
@@ -194,7 +196,8 @@ void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::siz
   });
 }
 
-void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count, double* out) const {
+void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count,
+                                   double* out) const {
   unpack_rows(from, first, count, out, [&](std::span<const char> chunk, std::span<double> numbers) {
     return unpack_chunk(chunk, *from.description->decimals, numbers);
   });

@@ -132,7 +132,8 @@ struct FileWriter::Impl {
       made.file_type = Handle(H5Tcopy(file_type(made.description->type)), H5Tclose);
       made.memory_type = Handle(H5Tcopy(memory_type(made.description->type)), H5Tclose);
     }
-    const std::size_t most = made.description->packed() ? packed_chunk_numbers * made.value_bytes : chunk_bytes;
+    const std::size_t most =
+        made.description->packed() ? packed_chunk_numbers * made.value_bytes : chunk_bytes;
     made.chunk_rows = std::max<std::size_t>(1, most / std::max<std::size_t>(1, made.row_bytes()));
     made.attributes["unit"] = made.description->unit;
     return made;

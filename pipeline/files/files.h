@@ -32,7 +32,7 @@ struct Dataset {
   /// Of f32 and f64: kept to this many decimals in as few bits as each chunk needs (HDF5's scale-offset filter,
   /// scale_offset.h); nothing: as they are.
   std::optional<int> decimals{};
-  bool lists = false;  ///< of u32 with one axis: rising lists, each much like that before (deflated by list_deflate.h)
+  bool lists = false;  ///< of u32, one axis: rising lists, each much like that before (list_deflate.h)
   bool packed() const { return decimals || lists; }
 };
 

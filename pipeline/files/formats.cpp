@@ -13,11 +13,11 @@ using enum Type;
 /// What a dataset or an attribute may be, and how a dataset is kept (Dataset in files.h).
 enum Traits : unsigned {
   always = 0,
-  maybe = 1,       ///< it may be absent: where it does not apply, and in older files
-  endless = 2,     ///< its values may be infinite
-  deflated = 4,    ///< repetitive
-  decimals_7 = 8,  ///< of strains: a five-thousandth of the default gate
-  lists = 16,      ///< rising lists
+  maybe = 1,         ///< it may be absent: where it does not apply, and in older files
+  endless = 2,       ///< its values may be infinite
+  deflated = 4,      ///< repetitive
+  decimals_7 = 8,    ///< of strains: a five-thousandth of the default gate
+  lists = 16,        ///< rising lists
   decimals_12 = 32,  ///< of places and orientations: an elongation of links of 20 mm is kept to 1e-10
   decimals_4 = 64,   ///< of forces in N
 };

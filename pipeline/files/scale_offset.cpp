@@ -100,7 +100,8 @@ std::uint64_t word_at(const char* at) {
 
 int bits_for(double largest, double smallest, double scale) {
   const double span = (largest - smallest) * scale + 0.5;
-  return span < std::exp2(most_bits_of_double) ? std::bit_width(static_cast<std::uint64_t>(span)) : whole_double;
+  return span < std::exp2(most_bits_of_double) ? std::bit_width(static_cast<std::uint64_t>(span))
+                                               : whole_double;
 }
 
 }  // namespace
@@ -210,9 +211,11 @@ bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<double> n
   // Words of the last numbers may end beyond the chunk.
   const std::size_t stream = chunk.size() - header_bytes, width = static_cast<std::size_t>(bits);
   std::array<char, 2 * sizeof(std::uint64_t)> rest{};
-  const std::size_t inside = stream < rest.size() ? 0 : stream - sizeof(std::uint64_t);  // words begin up to here
+  const std::size_t inside =
+      stream < rest.size() ? 0 : stream - sizeof(std::uint64_t);  // words begin up to here
   std::size_t k = 0;
-  for (; k < numbers.size() && k * width / 8 < inside; ++k) numbers[k] = number_at(in + k * width / 8, k * width);
+  for (; k < numbers.size() && k * width / 8 < inside; ++k)
+    numbers[k] = number_at(in + k * width / 8, k * width);
   for (; k < numbers.size(); ++k) {
     const std::size_t at = k * width / 8;
     rest.fill(0);

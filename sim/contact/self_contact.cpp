@@ -114,7 +114,8 @@ NearestPoints nearest_points(const Vector3& a0, const Vector3& a1, const Vector3
   return nearest;
 }
 
-double find_self_contacts(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts) {
+double find_self_contacts(const Rod& rod, const RodState& state, double reach,
+                          std::vector<Contact>& contacts) {
   return Search(rod, state, reach, contacts).run();
 }
 

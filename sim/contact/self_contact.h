@@ -22,6 +22,7 @@ NearestPoints nearest_points(const Vector3& a0, const Vector3& a1, const Vector3
 /// to touching. Costs O(n) for a hose that is spread out: from a distance D of two segments the next (D -
 /// reach)/l along the span cannot be near. Returns a distance that no pair's surfaces are nearer to than [m]; infinite
 /// without a pair: until they have moved so far there is no contact within `reach`.
-double find_self_contacts(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts);
+double find_self_contacts(const Rod& rod, const RodState& state, double reach,
+                          std::vector<Contact>& contacts);
 
 }  // namespace dresslife::sim

@@ -19,7 +19,7 @@ namespace {
 
 // Contacts are sought this many steps of the fastest relative motion ahead, and at least least_margin.
 constexpr double margin_steps = 1.5, least_margin = 1e-3;  // [1], [m]
-constexpr double bounds_slack = 1e-9;              // roundings of bounds, which only sort out [m]
+constexpr double bounds_slack = 1e-9;                      // roundings of bounds, which only sort out [m]
 constexpr int most_points = 4;                             // of one pair of shapes
 constexpr double contact_work =
     0.2;  // of a contact and a segment or another contact, over a segment's: ESTIMATE
@@ -349,7 +349,8 @@ void World::Parts::collide_with(Shape& shape) {
   if (shape.clear > margin) return;
   const size_t n = capsules.size();
   const double more = shape.bounds.radius + bounds_slack;
-  const double *x = middles[0].data(), *y = middles[1].data(), *z = middles[2].data(), *reach = reaches.data();
+  const double *x = middles[0].data(), *y = middles[1].data(), *z = middles[2].data(),
+               *reach = reaches.data();
   double* beyond = beyonds.data();
   if (shape.link == floor_obstacle) {
     for (size_t i = 0; i < n; ++i) beyond[i] = z[i] - (reach[i] + more);

@@ -155,7 +155,8 @@ Vector3 Rod::turn(const RodState& state, int link) const {
   const int k = link - span.first_link, before = span.first_segment + k - 1;
   const int first_end = 2 * span_of_link_[link];
   const Quaternion& a = k > 0 ? state.orientation[before] : state.clamps.end(first_end).orientation;
-  const Quaternion& b = k < span.segments() ? state.orientation[before + 1] : state.clamps.end(first_end + 1).orientation;
+  const Quaternion& b =
+      k < span.segments() ? state.orientation[before + 1] : state.clamps.end(first_end + 1).orientation;
   return half_turn(a, b).phi();
 }
 

@@ -214,7 +214,8 @@ TEST_CASE("two dresspacks in one file have the strains and lives of two files") 
         for (std::size_t i = 0; i < 6; ++i)
           CHECK(helix[6 * k + i] == (i < 3 ? own[3 * (k - of_first) + i] : 0));
     }
-    CHECK(furthest(all.read<float>("/probe/strain"), one_after_the_other<float>(first, second, "/probe/strain")) < packing);
+    CHECK(furthest(all.read<float>("/probe/strain"),
+                   one_after_the_other<float>(first, second, "/probe/strain")) < packing);
     const auto probe = all.read<std::uint32_t>("/probe/site"),
                own = second.read<std::uint32_t>("/probe/site");
     const std::size_t probes = first.rows("/probe/site");

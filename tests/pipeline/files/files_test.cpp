@@ -242,10 +242,12 @@ TEST_CASE("files: packed numbers are the same through this program's reader and 
   }
 }
 
-TEST_CASE("files: packed rows of doubles are the same through this program's reader and through the HDF5 library's") {
+TEST_CASE(
+    "files: packed rows of doubles are the same through this program's reader and through the HDF5 library's") {
   const Scratch scratch;
   Format format{"dresslife-sample", 1, "dresslife-maker", "tests", {}, {}};
-  format.datasets = {{"/a", Type::f64, {"sample", "segment", "3"}, "m", ""}, {"/b", Type::f32, {"sample", "segment"}, "m", ""}};
+  format.datasets = {{"/a", Type::f64, {"sample", "segment", "3"}, "m", ""},
+                     {"/b", Type::f32, {"sample", "segment"}, "m", ""}};
   format.datasets[0].decimals = 11;
   format.datasets[1].decimals = 7;
   constexpr std::size_t segments = 60;
@@ -276,7 +278,8 @@ TEST_CASE("files: packed rows of doubles are the same through this program's rea
     std::vector<double> row;
     for (std::size_t sample = 0; sample < samples; sample += 7) {
       own.read_rows("/a", sample, 1, row);
-      REQUIRE(std::equal(row.begin(), row.end(), whole.begin() + static_cast<std::ptrdiff_t>(sample * segments * 3)));
+      REQUIRE(std::equal(row.begin(), row.end(),
+                         whole.begin() + static_cast<std::ptrdiff_t>(sample * segments * 3)));
       REQUIRE(row.size() == segments * 3);
     }
     std::vector<float> narrower;

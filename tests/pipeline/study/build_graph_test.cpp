@@ -316,7 +316,8 @@ TEST_CASE("build graph: a job with other settings of strains takes the simulatio
   CHECK(bench.run_sharing(bench.study({{"three", "simulation.segments=21"}})).executed == 3);
 }
 
-TEST_CASE("build graph: of another study nothing is taken that its receipt does not name, and nothing is written there") {
+TEST_CASE(
+    "build graph: of another study nothing is taken that its receipt does not name, and nothing is written there") {
   Bench bench;
   const Study study = bench.study({{"one", "simulation.segments=20"}});
   bench.run(study);

@@ -51,7 +51,8 @@ TEST_CASE("nearest points of two segments are those of a search over both") {
   }
 }
 
-TEST_CASE("no pair of segments is nearer than the search says, which is no less than the nearest pair or a segment") {
+TEST_CASE(
+    "no pair of segments is nearer than the search says, which is no less than the nearest pair or a segment") {
   const Rod rod(soft_hose(64));
   const double l = rod.segment_length(), d = rod.properties().diameter, own = pi / 2 * d;
   std::mt19937 random(3);
@@ -59,10 +60,12 @@ TEST_CASE("no pair of segments is nearer than the search says, which is no less 
   int far = 0, near = 0;
   for (int k = 0; k < 300; ++k) {
     RodState state = rod.straight(planar_frame(0, 0, 0));
-    const Vector3 rate(12 * number(random), 12 * number(random), 6 * number(random));  // [1/m]: part of a helix
+    const Vector3 rate(12 * number(random), 12 * number(random),
+                       6 * number(random));  // [1/m]: part of a helix
     for (int i = 1; i < rod.segments(); ++i) {
       state.orientation[i] = state.orientation[i - 1] * rotation(l * rate);
-      state.position[i] = state.position[i - 1] + l / 2 * (tangent(state.orientation[i - 1]) + tangent(state.orientation[i]));
+      state.position[i] =
+          state.position[i - 1] + l / 2 * (tangent(state.orientation[i - 1]) + tangent(state.orientation[i]));
     }
     std::vector<Contact> contacts;
     const double reach = 0.01, clear = find_self_contacts(rod, state, reach, contacts);

@@ -132,7 +132,8 @@ TEST_CASE("a world that remembers how far obstacles are moves as one that looks 
   }
   CHECK(touching > 20);
   CHECK(free > 20);
-  CHECK(difference < 1e-6);  // [m] ODE normalises quaternions that are set; a contact that is missed is worth millimetres
+  CHECK(difference <
+        1e-6);  // [m] ODE normalises quaternions that are set; a contact that is missed is worth millimetres
 }
 
 TEST_CASE("a state that is not finite is reported") {

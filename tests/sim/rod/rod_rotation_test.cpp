@@ -32,7 +32,8 @@ TEST_CASE("a link's turn alone is that of its whole state") {
   hanging.tool_end = End::free;
   const Rod rod(std::vector<RodProperties>{p, hanging});
   RodState state = rod.straight(Frame{});
-  for (int i = 0; i < rod.segments(); ++i) state.orientation[i] = rotation(Vector3(0.2 * i, -0.3, 0.1 * i * i));
+  for (int i = 0; i < rod.segments(); ++i)
+    state.orientation[i] = rotation(Vector3(0.2 * i, -0.3, 0.1 * i * i));
   state.clamps.end(1).orientation = rotation({0.3, 0, 0});
   state.clamps.end(2).orientation = rotation({0, 0.4, 0});
   for (int j = 0; j < rod.links(); ++j) CHECK(rod.turn(state, j) == rod.link_state(state, j).turn);

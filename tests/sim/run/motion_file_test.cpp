@@ -44,7 +44,8 @@ TEST_CASE("motion file: what the run hands over can be read back") {
   CHECK(file.read<double>("/time") == times);
   const auto kept = file.read<double>("/segment/position");
   REQUIRE(kept.size() == positions.size());
-  constexpr double half_decimal = 0.5e-12 + 1e-15;  // of the twelve that the file keeps, and a double's roundings of 1 m
+  constexpr double half_decimal =
+      0.5e-12 + 1e-15;  // of the twelve that the file keeps, and a double's roundings of 1 m
   for (std::size_t k = 0; k < kept.size(); ++k) REQUIRE(std::abs(kept[k] - positions[k]) <= half_decimal);
   CHECK(file.read<double>("/segment/length") == std::vector<double>(20, 0.05));
   CHECK(file.read<double>("/clamp/orientation") == clamps);
