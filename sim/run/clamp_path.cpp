@@ -9,7 +9,6 @@
 #include "pipeline/resolve/plausible_job.h"
 #include "sim/program/import.h"
 #include "sim/program/tokens.h"
-#include "sim/run/cell_overlap.h"
 
 namespace dresslife::sim {
 
@@ -175,7 +174,6 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
     mounting_pose_.head(axes) =  // external axes: as at the start
         Eigen::Map<const Eigen::VectorXd>(routing.mounting_pose.data(), axes);
   }
-  doubts_ = pipeline::joined(std::move(doubts_), overlaps_with_cell(setup, *this));
 }
 
 void RobotPath::hold_joint(const pipeline::Setup& setup) {

@@ -173,26 +173,6 @@ TEST_CASE("clamp path: the pose of mounting is the first waypoint or what the ro
       "-1145.92 .. 1145.92 deg); turn it 573 deg less, inside the limits of turntable");
 }
 
-TEST_CASE("clamp path: a box of the cell that the robot enters is named, with or without contact") {
-  pipeline::Job job = turning_job();
-  job.robot.links[1].capsules = {{{1, 0, 0}, {1, 0, 0.4}, 0.06}};  // goes round with radius 1
-  const auto named = [&](const Vector3& position) {
-    job.cell.boxes = {{position, Vector3::Zero(), {0.2, 0.2, 0.2}}};
-    return RobotPath(job).doubts();
-  };
-  const auto inside = named({1, 0, 0.2});
-  REQUIRE(inside.size() == 1);
-  CHECK_THAT(inside[0].line(), Catch::Contains("enters cell.boxes[1] by 160 mm") &&
-                                   Catch::Contains("position_m: [1.1, 0.1, 0.3]"));
-  job.simulation.contact = false;
-  CHECK(named({1, 0, 0.2}).size() == 1);
-  CHECK(named({0, 0, 0.2}).empty());
-  // 50 mm are the limit: the side of the box is 0.1 m from its centre, the capsule's 0.06 m from its axis.
-  job.motion.steps.resize(1);
-  CHECK(named({1 + 0.1 + 0.06 - 0.049, 0, 0.2}).empty());
-  CHECK(named({1 + 0.1 + 0.06 - 0.051, 0, 0.2}).size() == 1);
-}
-
 TEST_CASE("clamp path: external axes that the motion moves and the robot does not have are named") {
   pipeline::Job job = turning_job();
   CHECK(RobotPath(job).doubts().empty());
