@@ -116,8 +116,7 @@ HoseFrame frame_of(const HoseLine& hose) { return {hose.turn.front().data(), hos
 }  // namespace
 
 LineMemory CableLines::memory() {
-  return {node_rows_[laid].data(), node_rows_[laid_bent].data(), node_rows_[frame_at].data(),
-          node_rows_[velocity].data()};
+  return {node_rows_[laid].data(), node_rows_[laid_bent].data(), node_rows_[frame_at].data(), node_rows_[velocity].data()};
 }
 
 LineAnswer CableLines::answer() {
@@ -146,8 +145,8 @@ void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frame
   loose_kernels().begin(batch_, memory(), frame_of(hose), goes_on ? time : 0);
 }
 
-void CableLines::place(const Frame& frame, bool with_slope) {
-  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data(), with_slope);
+void CableLines::place(const Frame& frame) {
+  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data());
 }
 
 Vector2d bend_at_clamp(const Vector2d& at_clamp, const Vector2d& next, const Vector2d& after_next, double q) {
@@ -176,8 +175,8 @@ void CableLines::tell(const HoseLine& hose, std::size_t k, CableState& state) co
       std::max(0.0, cables_[k].axial_stiffness * state.strain) * std::pow(hose.spacing, 2) / cables_[k].bending_stiffness;
   for (const std::size_t clamp : {0, 1}) {
     const std::size_t at = clamp == 0 ? 0 : nodes - 1, next = clamp == 0 ? 1 : nodes - 2, after = clamp == 0 ? 2 : nodes - 3;
-    const Vector2d bent = bend_at_clamp(vector(bends, at, k), vector(bends, next, k), vector(bends, after, k), q);
-    const Vector2d of_hose = turned_back(bent, hose.turn[at]);
+    const Vector2d of_hose =
+        turned_back(bend_at_clamp(vector(bends, at, k), vector(bends, next, k), vector(bends, after, k), q), hose.turn[at]);
     state.clamped[2 * clamp] = -of_hose.y();
     state.clamped[2 * clamp + 1] = of_hose.x() + rest_curvature_;
   }

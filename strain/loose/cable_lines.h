@@ -51,8 +51,8 @@ class CableLines {
   void begin(const HoseLine& hose, std::span<const Frame* const> frames, double step, bool goes_on);
   /// (cable) that they took to rest, of LineBench.
   std::span<std::int32_t> iterations() { return iterations_; }
-  /// Cables of a ring (strain/loose/ring.h) to their places in a frame. with_slope: and then tension and slope.
-  void place(const Frame& frame, bool with_slope);
+  /// Cables of a ring (strain/loose/ring.h) to their places in a frame.
+  void place(const Frame& frame);
   /// The sample is over. step: as in begin(); step 0: there was none before. states: (cable), or empty: nobody asks.
   void end(const HoseLine& hose, double step, std::span<CableState> states);
 
@@ -66,24 +66,22 @@ class CableLines {
 
   /// What the distance h of the nodes leaves out of a path's waves: second differences have their curvature a by
   /// h^2 a'' / 12 wrong. Both squared and summed over nodes and samples so far, of which a state was asked.
-  /// bent: its curvature, the hose's with it. missed: h^2 a'' / 12 [1/m2].
-  double bent(std::size_t cable) const { return lane_rows_[bent_sum * batch_.lanes + cable]; }
-  double missed(std::size_t cable) const { return lane_rows_[missed_sum * batch_.lanes + cable]; }
+  double bent(std::size_t cable) const { return lane_rows_[bent_sum * batch_.lanes + cable]; }      ///< its curvature, the hose's with it [1/m2]
+  double missed(std::size_t cable) const { return lane_rows_[missed_sum * batch_.lanes + cable]; }  ///< of h^2 a'' / 12 [1/m2]
 
-  static constexpr int most_iterations = 600;            ///< from one sample to the next; 2 to 30 but for a snap
+  static constexpr int most_iterations = 600;            ///< from one sample to the next; 2 to 60 but for a snap
   static constexpr int most_iterations_at_start = 2000;  ///< from its place to where it rests
 
  private:
   /// Of what is kept by lane.
   enum OfLane {
     bending_stiffness, axial_stiffness, mass_per_length, wall_stiffness, play, farthest, nearest, gap, per_radius, drag,
-    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, mean_gain, bent_sum,
-    missed_sum, lane_rows
+    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, mean_gain, bent_sum, missed_sum,
+    lane_rows
   };
   /// Of what is kept by node, each (node, 2, lane): of LineBatch, LineMemory and LineAnswer.
   enum OfNode {
-    laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, frame_at, bends, hose_bends, offset,
-    node_rows
+    laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, frame_at, bends, hose_bends, offset, node_rows
   };
 
   void lay(std::size_t k);

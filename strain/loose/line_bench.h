@@ -1,5 +1,5 @@
 // Where cables come to rest: so many side by side, and as one rests the next one takes its lane. How long
-// each takes is as it comes, from 2 to 30 of Newton's iterations; those that took longest before go first.
+// each takes is as it comes, from 2 to 60 of Newton's iterations; those that took longest before go first.
 #pragma once
 
 #include <span>

@@ -88,10 +88,10 @@ void Ring::go_on_from(const Ring& other) {
 }
 
 /// Every cable to where the turn has it.
-void Ring::place(const HoseLine& hose, bool with_slope) {
+void Ring::place(const HoseLine& hose) {
   for (std::size_t i = 1; i + 1 < hose.nodes(); ++i)
     frame_[i] = turned(hose.turn[i], {std::cos(psi_[i]), std::sin(psi_[i])});
-  lines_.place(frame_, with_slope);
+  lines_.place(frame_);
 }
 
 /// Newton's way to the minimum of the quadratic at hand, shifted by as much as makes that positive.
@@ -146,12 +146,10 @@ double Ring::step(const HoseLine& hose) {
   const std::vector<double> from = psi_;
   for (int tries = 0; tries < most_tries; ++tries) {
     for (Eigen::Index i = 0; i < rows; ++i) psi_[i + 1] = from[i + 1] + share * turn[i];
-    const bool rests = most < at_rest;
-    place(hose, !rests);
-    if (rests) break;
+    place(hose);
     loose_kernels().slope_of_turn(lines_.batch(), slope_.data());
     const double there = slope.dot(turn);
-    if (there <= -0.5 * down) break;
+    if (most < at_rest || there <= -0.5 * down) break;
     share *= std::clamp(-down / (there - down), 0.1, 0.7);
   }
   return most;
@@ -163,7 +161,7 @@ bool Ring::advance(const HoseLine& hose, double time, bool goes_on) {
   lines_.begin(hose, frames, time, false);
   for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) psi_[i] += time * velocity_[i];
   frame_ = hose.turn;
-  place(hose, true);
+  place(hose);
   bool rests = false;
   for (int k = 0; k < most_iterations && !rests; ++k) rests = step(hose) < at_rest;
   for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - before[i]) / time;

@@ -39,7 +39,7 @@ class Ring {
   const std::vector<Eigen::Vector2d>& frame() const { return frame_; }
 
  private:
-  void place(const HoseLine& hose, bool with_slope);
+  void place(const HoseLine& hose);
   Eigen::VectorXd newton_turn();
   double step(const HoseLine& hose);
 

@@ -2,7 +2,7 @@
 // which names it (pipeline/base/simd.h).
 //
 // The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill
-// that wait. Cables take from 2 to 30 iterations: one that rests leaves its lane to the next.
+// that wait. Cables take from 2 to 60 iterations: one that rests leaves its lane to the next.
 #include "pipeline/base/simd.h"
 // simd.h declares what the templates below are used with
 #include "strain/loose/kernels/loose_kernels.h"
@@ -22,9 +22,8 @@ constexpr double longest_step = 4e-3;  // [m]
 constexpr double first_shift = 2e4;
 constexpr int most_shifts = 60;        // by factors of four: beyond what any number of a cable holds
 constexpr int most_tries = 12;
-// Steps that are not longer are taken whole, so many at most: then many nodes meet their contacts at once. A search
-// along the step would stop at the first of them. Longer steps could end in another place of rest. A cable that has not
-// come to rest after so many steps may go to and fro between two sets of contacts: then the search goes on.
+// Steps that are not longer are taken whole, so many at most: then many nodes meet their contacts at once. A search along the
+// step would stop at the first of them. Longer steps could end in another place of rest.
 constexpr double whole_step = 1e-3;  // [m]
 constexpr int most_whole_steps = 20;
 
@@ -543,16 +542,12 @@ void relax(const LineBatch& room, const WaitingCable* cables, std::size_t count,
 
 // ---- from sample to sample ---------------------------------------------------------------------------------
 
-inline Pair turned(const Pair& of, const Pair& by) {
-  return {of.x * by.x - of.y * by.y, of.x * by.y + of.y * by.x};
-}
-inline Pair turned_back(const Pair& of, const Pair& by) {
-  return {of.x * by.x + of.y * by.y, of.y * by.x - of.x * by.y};
-}
+inline Pair turned(const Pair& of, const Pair& by) { return {of.x * by.x - of.y * by.y, of.x * by.y + of.y * by.x}; }
+inline Pair turned_back(const Pair& of, const Pair& by) { return {of.x * by.x + of.y * by.y, of.y * by.x - of.x * by.y}; }
 inline Pack length(const Pair& of) { return square_root(dot(of, of)); }
 
-/// `at` after another way like the last one. The distance from the hose's axis changes by as much as before: on a
-/// straight way a cable that slides along a round wall would leave it.
+/// `at` after another way like the last one. The distance from the hose's axis changes by as much as before: on a straight way
+/// a cable that slides along a round wall would leave it.
 inline Pair gone_on(const Pair& at, const Pair& way) {
   const Pair to = at + way;
   const Pack distance = length(to), before = length(at), wanted = 2.0 * before - length(at - way);
@@ -562,7 +557,6 @@ inline Pair gone_on(const Pair& at, const Pair& way) {
 
 void begin(const LineBatch& batch, const LineMemory& memory, const HoseFrame& hose, double ahead) {
   const std::size_t last = batch.nodes - 1;
-  const bool goes_on = ahead != 0;
   for (std::size_t i = 0; i <= last; ++i)
     for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
       const Lines<1> lines{batch, k};
@@ -571,14 +565,9 @@ void begin(const LineBatch& batch, const LineMemory& memory, const HoseFrame& ho
       lines.put(Lines<1>::same(hose.rest, i) + turned(lines.pair(memory.laid_bent, i, 0), Lines<1>::same(hose.turn, i)),
                 batch.rest, i, 0);
       lines.put(place, batch.place, i, 0);
-      const Pair before = turned(at, frame);
-      lines.put(before, batch.before, i, 0);
-      Pair path = before;
-      if (i == 0 || i == last)
-        path = place;
-      else if (goes_on)
-        path = turned(gone_on(at, Pack(ahead) * lines.pair(memory.velocity, i, 0)), frame);
-      lines.put(path, batch.path, i, 0);
+      lines.put(turned(at, frame), batch.before, i, 0);
+      const bool clamped = i == 0 || i == last;
+      lines.put(clamped ? place : turned(gone_on(at, Pack(ahead) * lines.pair(memory.velocity, i, 0)), frame), batch.path, i, 0);
     }
 }
 
@@ -587,8 +576,7 @@ void follow(const LineBatch& batch, const LineAnswer& answer) {
   const Pack half(0.5), inverse(1 / (batch.spacing * batch.spacing));
   for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
     const Lines<1> lines{batch, k};
-    // beyond a clamp lies the mirror image
-    Pair behind = lines.pair(batch.path, 1, 0), here = lines.pair(batch.path, 0, 0);
+    Pair behind = lines.pair(batch.path, 1, 0), here = lines.pair(batch.path, 0, 0);  // beyond a clamp lies the mirror image
     Pack rate_behind(0.0), sum(0.0);
     for (std::size_t i = 0; i <= last; ++i) {
       const Pair K = Lines<1>::same(batch.curvature, i);
@@ -645,14 +633,13 @@ void end(const LineBatch& batch, const LineMemory& memory, double time) {
 
 // ---- rings ------------------------------------------------------------------------------------------------
 
-void place(const LineBatch& batch, const double* laid, const double* frame, bool with_slope) {
+void place(const LineBatch& batch, const double* laid, const double* frame) {
   for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
     const Lines<1> lines{batch, k};
     for (std::size_t i = 1; i + 1 < batch.nodes; ++i) {
       const Pair by = Lines<1>::same(frame, i), a0 = lines.pair(laid, i, 0);
       lines.put(turned(a0, by), batch.path, i, 0);
     }
-    if (!with_slope) continue;
     lines.answer();
     lines.slopes<false>();
   }

@@ -43,7 +43,7 @@ struct LineBatch {
 
 /// What cables keep from sample to sample beside their batch, each (node, 2, lane).
 struct LineMemory {
-  const double *laid = nullptr, *laid_bent = nullptr;  ///< the place and its second derivative, in its own frame
+  const double *laid = nullptr, *laid_bent = nullptr;  ///< the place, and its second derivative, in the frame in which it stays
   const double* frame = nullptr;                       ///< cosine and sine of that frame against the untwisted one
   double* velocity = nullptr;                          ///< in that frame [m/s]
 };
@@ -55,11 +55,11 @@ struct HoseFrame {
 
 /// Cables where they rest.
 struct LineAnswer {
-  // (node, 2, lane) curvature less that at rest, in the untwisted frame and in the hose's [1/m]; b [m]
-  double *bends = nullptr, *hose_bends = nullptr, *offset = nullptr;
-  double* gain = nullptr;                     ///< (element, lane)
-  double* mean_gain = nullptr;                ///< (lane)
-  double *bent = nullptr, *missed = nullptr;  ///< (lane) sums that grow, see CableLines::bent()
+  double* bends = nullptr;                          ///< (node, 2, lane) curvature less that at rest, untwisted frame [1/m]
+  double *hose_bends = nullptr, *offset = nullptr;  ///< (node, 2, lane) the same in the hose's frame; b [m]
+  double* gain = nullptr;                           ///< (element, lane)
+  double* mean_gain = nullptr;                      ///< (lane)
+  double *bent = nullptr, *missed = nullptr;        ///< (lane) sums that grow, see CableLines::bent()
 };
 
 // What a cable takes along to where it comes to rest: what it is (lane), and where (node, 2, lane).
@@ -96,11 +96,11 @@ struct LooseKernels {
   void (*follow)(const LineBatch&, const LineAnswer&);
   /// After follow(): how cables lie in the hose's frame, and what its nodes miss.
   void (*tell)(const LineBatch&, const LineMemory&, const HoseFrame&, const LineAnswer&);
-  /// The sample is over: the path back to its frame, and its velocity over so many seconds; 0: velocity stays.
+  /// The sample is over: the path back to its frame, and its velocity over so many seconds; 0: it keeps that which it has.
   void (*end)(const LineBatch&, const LineMemory&, double time);
   /// Every cable to its place in the ring's frame (node, 2), cosine and sine; laid: its place in that (node, 2, lane).
-  /// with_slope: and then tension and slope of all but contact.
-  void (*place)(const LineBatch&, const double* laid, const double* frame, bool with_slope);
+  /// Then tension and slope of all but contact.
+  void (*place)(const LineBatch&, const double* laid, const double* frame);
   void (*assemble_turn)(const LineBatch&, const RingSystem&);
   /// Of the slope alone.
   void (*slope_of_turn)(const LineBatch&, double* slope);
