@@ -19,8 +19,8 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double share_of_speed = 0.5, share_of_acceleration = 0.25;  // of moves between programs
-constexpr double same_pose = 1e-3 * std::numbers::pi / 180;           // [rad]: a hundredth of an encoder's step
-constexpr std::size_t longest_name = 150;                             // of a folder
+constexpr double same_pose = 1e-3 * std::numbers::pi / 180;  // [rad]: a hundred times the rounding of a row
+constexpr std::size_t longest_name = 150;                    // of a folder
 
 class Recording {
  public:
@@ -44,14 +44,16 @@ class Recording {
   /// From where the robot stands; nothing before the first row, or where it stands there already.
   void move_to(const std::vector<double>& target) {
     if (pose_.empty()) return;
-    constexpr double top_speed = 15.0 / 8, top_acceleration = 5.7735;  // of 10 u^3 - 15 u^4 + 6 u^5; 10/sqrt(3)
+    constexpr double top_speed = 15.0 / 8,
+                     top_acceleration = 5.7735;  // of 10 u^3 - 15 u^4 + 6 u^5; 10/sqrt(3)
     const std::vector<double> from = pose_;
     double seconds = 0, way = 0;
     for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
       const double turn = std::abs(target[axis] - from[axis]);
       way = std::max(way, turn);
-      seconds = std::max({seconds, top_speed * turn / (share_of_speed * axes_[axis].speed),
-                          std::sqrt(top_acceleration * turn / (share_of_acceleration * axes_[axis].acceleration))});
+      seconds =
+          std::max({seconds, top_speed * turn / (share_of_speed * axes_[axis].speed),
+                    std::sqrt(top_acceleration * turn / (share_of_acceleration * axes_[axis].acceleration))});
     }
     if (way < same_pose) return;
     const int steps = static_cast<int>(std::ceil(seconds / interval_));
@@ -59,7 +61,8 @@ class Recording {
     for (int i = 0; i <= steps; ++i) {
       const double u = double(i) / steps, share = u * u * u * (10 + u * (6 * u - 15));
       std::vector<double> pose = from;
-      for (std::size_t axis = 0; axis < pose.size(); ++axis) pose[axis] += share * (target[axis] - from[axis]);
+      for (std::size_t axis = 0; axis < pose.size(); ++axis)
+        pose[axis] += share * (target[axis] - from[axis]);
       put(begin + i * interval_, std::move(pose));
     }
   }
@@ -90,21 +93,29 @@ std::vector<Joint> driven(const Robot& robot) {
 
 /// From the strains of a program, which stay longer than its motion.
 JointCourse course_of(const OrderedProgram& program, const std::vector<RankingRow>& rows, std::size_t axes) {
-  const auto row = std::find_if(rows.begin(), rows.end(), [&](const RankingRow& one) { return one.job == program.job; });
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const RankingRow& one) { return one.job == program.job; });
   if (row == rows.end() || !row->done())
-    throw InputError(program.where, fmt::format("job '{}' has no result{}", program.job, row == rows.end() ? "" : ": " + row->failure),
-                     "mend the job and run again");
+    throw InputError(
+        program.where,
+        fmt::format("job '{}' has no result{}", program.job, row == rows.end() ? "" : ": " + row->failure),
+        "mend the job and run again");
   const std::filesystem::path strain = row->life_file.parent_path() / "strain.h5";
   if (kind_of(strain) != FileKind::file)
-    throw InputError(program.where, fmt::format("'{}' has no strain.h5, from which an order takes its joint angles", program.job),
-                     "keep: histories, or all, in the study");
+    throw InputError(
+        program.where,
+        fmt::format("'{}' has no strain.h5, from which an order takes its joint angles", program.job),
+        "keep: histories, or all, in the study");
   const FileReader file(strain, strain_format());
   if (!file.has("/robot/joint_position"))
-    throw InputError(program.where, fmt::format("no robot moves in '{}', so what it does between programs is not known", program.job),
-                     "leave out the order, or give one motion of all programs");
+    throw InputError(
+        program.where,
+        fmt::format("no robot moves in '{}', so what it does between programs is not known", program.job),
+        "leave out the order, or give one motion of all programs");
   JointCourse course{file.read<double>("/time"), file.read<double>("/robot/joint_position")};
   if (course.times.size() < 2 || course.angles.size() != course.times.size() * axes)
-    throw InputError(program.where, fmt::format("'{}' does not move", program.job), "leave it out of the order");
+    throw InputError(program.where, fmt::format("'{}' does not move", program.job),
+                     "leave it out of the order");
   return course;
 }
 
@@ -150,7 +161,8 @@ Study study_of_rounds(const DutyFile& file, const Study& study, const std::vecto
     const auto first = std::find_if(study.jobs.begin(), study.jobs.end(),
                                     [&](const StudyJob& job) { return job.name == duty.order.front().job; });
     if (first == study.jobs.end() || !first->job)
-      throw InputError(duty.order.front().where, fmt::format("job '{}' cannot be made", duty.order.front().job),
+      throw InputError(duty.order.front().where,
+                       fmt::format("job '{}' cannot be made", duty.order.front().job),
                        "mend it: dresslife status STUDY gives the reason");
     Job job = *first->job;
     if (!job.robot.external_axes.empty())
