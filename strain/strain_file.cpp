@@ -674,6 +674,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     if (per_pass < segments)
       reader.run(false, [&](const MotionBlock& block) { keep(0, block.first, block.at_wires); });
   }
+  for (std::size_t k = 0; k < evaluations.size(); ++k)
+    for (Evaluation* const placed : variations.placed(k)) placed->find_bent();
   variations.add(starts);
   const std::vector<Warning> warnings =
       pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),

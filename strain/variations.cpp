@@ -112,7 +112,6 @@ void Variations::add(const Starts& starts) {
         rests_[variation] = static_cast<std::int32_t>(starts.rest_of_variations());
   for (std::size_t rest = 1; rest < starts.rests(); ++rest) {
     add(starts.spans(rest), {}, {{}});
-    placements_.back().rest = true;
     rests_.back() = static_cast<std::int32_t>(rest);
   }
 }
@@ -150,7 +149,7 @@ void Variations::evaluate(std::size_t span, std::size_t segment, const Deformati
   for (const Placement& placement : placements_) {
     Evaluation& placed = *(*placement.spans)[span];
     std::vector<Evaluation::Site> wires = likely;
-    if (placement.rest) {
+    if (placement.spans != &as_told_) {  // where cables rest elsewhere, other wires may be the worst
       const std::vector<Evaluation::Site>& own = placed.likely_of_bent(segment, history, row);
       wires.insert(wires.end(), own.begin(), own.end());
       std::ranges::sort(wires);

@@ -4,8 +4,8 @@
 // Friction inside is crossed with slack, friction along the hose and grips are moved one by one. Friction
 // inside is also taken away, and made so large that nothing slips at any pressure: the bounds of a cable. Play is left
 // out: in the shipped programs it moves lives by a tenth of a decade, and would cost as much as a slack.
-// Where cables lie and pull is worked out again for each but friction inside; the wires are those that see
-// most in each segment and layer of the job as it is.
+// Where cables lie and pull is worked out again for each but friction inside. The wires are those that see most in
+// each segment and layer of the job as it is, and where cables lie otherwise those of the cables that bend most there, too.
 #pragma once
 
 #include <array>
@@ -59,7 +59,6 @@ class Variations {
     const Spans* spans;
     std::vector<double> factors;
     std::vector<std::size_t> variation;
-    bool rest = false;  ///< another rest of the starts: other wires may be the worst
   };
   /// Friction inside: at z, or as a bound has it.
   struct Friction {
