@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "pipeline/base/readable.h"
@@ -42,13 +43,13 @@ std::string test_words(const RankingRow& row) {
 }
 
 std::string error_words(const RankingRow& row) {
+  constexpr std::array shares{10, 50, 90};
   std::string words;
-  for (const auto& [share, error] : {std::pair{"10", row.planned_errors[0]}, std::pair{"50", row.planned_errors[1]},
-                                     std::pair{"90", row.planned_errors[2]}})
-    if (std::isfinite(error))
-      words += fmt::format("{}{} % by a factor of {:.2f}", words.empty() ? "" : ", ", share, error);
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    if (std::isfinite(row.planned_errors[i]))
+      words += fmt::format("{}the {} % value by a factor of {:.2g}", words.empty() ? "" : ", ", shares[i], row.planned_errors[i]);
   if (words.empty()) return "";
-  return fmt::format("Standard errors of these hours, by few samples and by lives between computed ones: {}.", words);
+  return fmt::format("Few samples and lives between computed ones make these hours uncertain, too: {}.", words);
 }
 
 std::string joined_words(const std::vector<std::string>& sentences) {
