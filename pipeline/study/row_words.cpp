@@ -165,6 +165,19 @@ std::string uncapped_words(const RankingRow& row) {
   return text + ".";
 }
 
+/// Of a life that equals one of its bounds, as strain.slip free or stick makes it. Empty: it lies between them.
+std::string bound_words(const RankingRow& row) {
+  constexpr double bounds_apart = 1.1;  // closer ones leave nothing to choose
+  constexpr double same = 0.01;         // a job with everything free differs from the bound by at most 0.8 % (strain/measurements.md)
+  const double life = row.life_repeats, glued = row.life_repeats_all_stick, free = row.life_repeats_all_free;
+  if (!(glued > 0) || !(free > bounds_apart * glued) || !std::isfinite(life)) return "";
+  const bool is_free = life > free * (1 - same);
+  if (!is_free && life > glued * (1 + same)) return "";
+  return fmt::format("The job's life equals its {} bound, at which nothing {} inside the cables. If the job sets strain.slip, leave "
+                     "it out for the best estimate.",
+                     is_free ? "upper" : "lower", is_free ? "rubs" : "slips");
+}
+
 std::string action_words(const RankingRow& row) {
   if (!row.has_result()) return "";
   const double hours = row.headline_hours();
@@ -172,12 +185,13 @@ std::string action_words(const RankingRow& row) {
     return fmt::format("Do not plan with {}: {} (see the warnings).", std::isinf(hours) ? "this result" : hours_text(hours),
                        warning_kinds(row));
   if (row.worst_segment_from_tool == 0) return "No wire was evaluated.";
-  const std::string inspection = inspection_words(row);
+  const std::string inspection = joined_words({inspection_words(row), bound_words(row)});
+  const bool may_fail_before = earlier_unvalidated(row);
   if (std::isinf(hours))
-    return joined_words({inspection.empty() ? "No replacement is foreseen:" : "For the wires no replacement is foreseen:",
+    return joined_words({!may_fail_before ? "No replacement is foreseen:" : "For the wires no replacement is foreseen:",
                          row.planned() ? "in more than 90 % of the samples no mode fails." : "no wire is damaged.", inspection});
   if (outlives_robot(row, hours))
-    return joined_words({fmt::format("The {} last longer than the robot ({} h).", inspection.empty() ? "evaluated parts" : "wires",
+    return joined_words({fmt::format("The {} last longer than the robot ({} h).", may_fail_before ? "wires" : "evaluated parts",
                                      readable(row.robot_life_hours)),
                          inspection, row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
   return joined_words({fmt::format("Plan a replacement after {} ({}).", hours_text(hours), calendar_text(row.headline_months())),
