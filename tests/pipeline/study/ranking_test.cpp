@@ -679,6 +679,29 @@ TEST_CASE("ranking: of one job the first words say what to do, forces that canno
   CHECK(ranking_table(rows).starts_with("Do not plan with 1,300 h: forces (see the warnings).\n"));
 }
 
+TEST_CASE("ranking: a life that equals one of its bounds is named, another one is not") {
+  const Scratch scratch;
+  RankingRow row = read_ranking({job_with(scratch, "one", living(12000))}).front();
+  CHECK_THAT(action_words(row), !Catch::Contains("bound"));
+  row.life_repeats = row.life_repeats_all_free;
+  CHECK_THAT(action_words(row), Catch::Contains("equals its upper bound, at which nothing rubs") &&
+                                    Catch::Contains("If the job sets strain.slip, leave it out"));
+  row.life_repeats = row.life_repeats_all_stick;
+  CHECK_THAT(action_words(row), Catch::Contains("equals its lower bound, at which nothing slips"));
+  row.life_repeats_all_free = 1.05 * row.life_repeats_all_stick;  // nothing to choose
+  CHECK_THAT(action_words(row), !Catch::Contains("bound"));
+}
+
+TEST_CASE("ranking: what the calculation leaves uncertain stands beside the causes, where it is known") {
+  const Scratch scratch;
+  RankingRow row = read_ranking({job_with(scratch, "one", living(12000))}).front();
+  row.planned_errors = {5.754, std::nan(""), 58.0};
+  CHECK_THAT(uncertainty_words(row),
+             Catch::Contains("the 10 % value by a factor of 5.8, the 90 % value by a factor of 58.") && !Catch::Contains("50 % value"));
+  row.planned_errors.fill(std::nan(""));
+  CHECK_THAT(uncertainty_words(row), !Catch::Contains("by a factor of"));
+}
+
 TEST_CASE("ranking: a life beyond the robot's own is shown as such, with its hours below the table and in ranking.csv") {
   const Scratch scratch;
   SampleLife life = living(500);
