@@ -184,7 +184,7 @@ TEST_CASE(
       }
 }
 
-TEST_CASE("log: a jump stays and is named; stops, noise and coarse clocks are no faults") {
+TEST_CASE("log: a jump stays and is named, and stops, noise and coarse clocks are no faults") {
   std::string text = "time,j1_deg,j2_deg\n";
   for (int k = 0; k < 40; ++k) text += fmt::format("{:.1f},{},0\n", 0.1 * k, k < 20 ? 0 : 60);
   const Recording log = read(text);
