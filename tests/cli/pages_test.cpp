@@ -62,7 +62,7 @@ const std::map<std::string, std::string> instead{
      "dresslife improve side_panel --trials 2 --rehearsals 0 --off 0" + quick},
     {"dresslife duty FILE", "dresslife duty two_robots" + quick},
     {"dresslife duty DUTIES.yaml", "dresslife duty two_robots" + quick},
-    {"dresslife plan FLEET.csv --duties DUTIES.yaml", "not run"},  // as below
+    {"dresslife plan FLEET.csv --duties DUTIES.yaml --windows 2027-07-12..2027-08-01", "not run"},  // as below
     {"dresslife plan FLEET.csv --duties DUTIES.yaml --windows 2027-07-12..2027-08-01,2027-12-20..2028-01-02",
      "dresslife plan CONFIG/duties/fleet.csv --duties two_robots --today 2026-11-23 --windows "
      "2027-07-12..2027-08-01,2027-12-20..2028-01-02" +

@@ -141,7 +141,7 @@ TEST_CASE("the pages of a plan and of duties can be sorted, printed and read on 
     return seen.join(' ');)");
   if (!sorted.empty()) CHECK(result_of(sorted) == "119 0");  // by age
   DutyResult duty;
-  duty.name = "day", duty.robot_life_hours = 40000, duty.modes = {"wires"}, duty.damage.same_place = {1};
+  duty.name = "day", duty.robot_life_hours = 40000, duty.modes = {"wires"}, duty.damage.same_place = {1}, duty.changes = {1};
   duty.lives.percentiles = {900, 20000, 3e6}, duty.lives.share = {0.9, 0.1};
   for (const char* job : {"a_program_with_a_name_that_is_long", "idle"})
     duty.parts.push_back({job, 5, 0.3, {1e3, 1e4, HUGE_VAL}, {500, 1e4, 2e6}, {{0, {1e3, 1e4, HUGE_VAL}}, {0.3, {900, 20000, 3e6}}, {0.6, {450, 1e4, 1e6}}}});

@@ -52,6 +52,8 @@ void write_inputs(const Scratch& scratch) {
   // The same results are those of a study that keeps less.
   scratch.write("lives.yaml", "base: job.yaml\njobs: {a: {}}\nkeep: lives\n");
   must_run(scratch, "dresslife", "run lives.yaml --quiet");
+  // It has linked files of the first study, which compares their bytes once.
+  must_run(scratch, "dresslife", "run study.yaml --quiet");
   scratch.write("runs/study/a/notes.txt", "mine\n");
   scratch.write("runs/lives/a/notes.txt", "mine\n");
   scratch.write("notes.txt", "mine\n");
