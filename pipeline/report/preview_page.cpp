@@ -92,28 +92,24 @@ std::string bend_words(const SpanPreview& span, bool bends) {
   const double allowed = 1e3 * span.least_bend_radius;
   if (!first)
     return fmt::format(
-        "; at rest and without the robot none of them keeps the bend radius of {:.0f} mm that is allowed: {:.2f} m comes nearest "
-        "with {:.0f} mm "
-        "(turn the clamps toward each other, or move them apart)",
+        " At rest and without the robot, none of the lengths that were tried keeps the bend radius of {:.0f} mm. {:.2f} m comes nearest, with "
+        "{:.0f} mm: turn the clamps toward each other, or move them apart.",
         allowed, best->length, 1e3 * best->bend_radius);
-  const bool outside = span.length < first->length || span.length > last->length;
+  const bool keeps_with_robot = !bends && span.works() && (span.length < first->length || span.length > last->length);
   return fmt::format(
-      "; of the lengths that were tried at rest and without the robot, {} the bend radius of {:.0f} mm that is allowed (motion and "
-      "contact bend it more){}",
+      " At rest and without the robot, {} the bend radius of {:.0f} mm.{} Motion and contact bend the hose more.",
       first == last ? fmt::format("{:.2f} m keeps", first->length) : fmt::format("{:.2f} .. {:.2f} m keep", first->length, last->length),
-      allowed, outside && !bends ? fmt::format("; {:.3f} m keeps it with the robot", span.length) : "");
+      allowed, keeps_with_robot ? fmt::format(" With the robot, {:.3f} m keeps it, too.", span.length) : "");
 }
 
 std::string words(const SpanPreview& span, bool bends) {
   if (span.hangs())
-    return fmt::format("{} hangs {:.3f} m long from its last clamp", span.subject, span.length);
+    return fmt::format("{} hangs {:.3f} m long from its last clamp.", span.subject, span.length);
   return fmt::format(
-      "{} is {:.3f} m long between clamps that are {:.3f} .. {:.3f} m apart: {}. {:.2f} .. {:.2f} m work at "
-      "the first pose, "
-      "{:.2f} .. {:.2f} m over this program (with a slack of 2 % to a third where the clamps are farthest "
-      "apart){}",
+      "{} is {:.3f} m long. Its clamps are {:.3f} .. {:.3f} m apart: {}. {:.2f} .. {:.2f} m fit the first pose, {:.2f} .. {:.2f} m the whole "
+      "program (2 % to a third longer than the largest distance of the clamps).{}",
       span.subject, span.length, span.least_way, span.most_way,
-      span.works()                    ? "neither too short nor too long for this distance"
+      span.works()                    ? "this length fits"
       : span.length < span.most_way   ? "too short"
       : span.length < span.program[0] ? "hardly any slack"
                                       : "long",
@@ -243,7 +239,7 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
   const bool bends = warns_of_bends(file);
   std::string well, ill;
   for (const SpanPreview& span : spans)
-    (span.works() ? well : ill) += fmt::format("<p>{}.</p>\n", escaped(words(span, bends)));
+    (span.works() ? well : ill) += fmt::format("<p>{}</p>\n", escaped(words(span, bends)));
   body += ill;
   for (const std::string& note : notes) body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(note));
   body +=
