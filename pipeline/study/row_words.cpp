@@ -174,7 +174,7 @@ std::string bound_words(const RankingRow& row) {
   const bool is_free = life > free * (1 - same);
   if (!is_free && life > glued * (1 + same)) return "";
   return fmt::format("The job's life equals its {} bound, at which nothing {} inside the cables. If the job sets strain.slip, leave "
-                     "it out for the best estimate.",
+                     "it out for the best estimate, which includes the ratings of cable makers.",
                      is_free ? "upper" : "lower", is_free ? "rubs" : "slips");
 }
 
