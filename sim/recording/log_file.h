@@ -3,7 +3,7 @@
 // Separator: the first of ; tab , | blank that the line of names has. Decimal commas are read unless the separator is
 // a comma. Rows with a missing number, and names that stand again between the rows, are left out and counted. Rows of
 // one stamp: equal ones count once, others are spread evenly until the next stamp (a clock of whole seconds). Stamps
-// that go back begin anew.
+// that go back start again.
 //
 // Rows that no axis can reach are left out (log_steps.h).
 //

@@ -48,7 +48,7 @@ struct CableState {
   double strain = 0;              ///< of its free length, clamp to clamp: mean over it
   std::vector<double> gain;       ///< of the path over its length in the straight hose (element)
   std::vector<double> tension;    ///< T [N] (element); above 0: pulled
-  std::vector<double> press;      ///< on what it lies against [N/m] (node); empty: nobody asks
+  std::vector<double> press;      ///< on what it lies against [N/m] (node); empty: not needed
   std::vector<double> offset;     ///< b [m] (node, 2)
   std::vector<double> curvature;  ///< of its own path about the hose's d1 and d2 [1/m] (node, 2)
   /// The same at the base and the tool clamp (clamp, 2), with what the distance of nodes leaves out there, see bend_at_clamp().

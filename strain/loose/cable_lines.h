@@ -53,7 +53,7 @@ class CableLines {
   std::span<std::int32_t> iterations() { return iterations_; }
   /// Cables of a ring (strain/loose/ring.h) to their places in a frame.
   void place(const Frame& frame);
-  /// The sample is over. step: as in begin(); step 0: there was none before. states: (cable), or empty: nobody asks.
+  /// The sample is over. step: as in begin(); step 0: there was none before. states: (cable), or empty: not needed.
   void end(const HoseLine& hose, double step, std::span<CableState> states);
 
   /// What its path has more than the hose's axis where it was laid in, over that.

@@ -33,7 +33,7 @@ struct LineBatch {
   double* path = nullptr;                      ///< (node, 2, lane) A [m]
 
   double *strain = nullptr, *tension = nullptr, *stiffness = nullptr;  ///< (lane) [1], [N], [N]
-  double* press = nullptr;                                             ///< (node, lane) [N/m]; null: nobody asks
+  double* press = nullptr;                                             ///< (node, lane) [N/m]; null: not needed
   double *slope = nullptr, *gained = nullptr;                          ///< (node, 2, lane)
 
   // Scratch, of where they come to rest alone.
