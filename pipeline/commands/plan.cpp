@@ -106,12 +106,11 @@ int plan(const Options& options) {
                        "no plan helps; see dresslife improve");
   const std::vector<DutyResult> duties = outlines(file, made.study, made.rows, needed);
   const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent, knows_survivors(made.study)};
-  Plan found = plan_of(fleet, tables, windows, day, rule);
-  if (found.effective_worlds < enough_worlds) {  // many survivors leave few worlds
-    constexpr std::size_t times = 8;             // some seconds for 500 dresspacks
+  if (effective_worlds(fleet, tables, day, rule) < enough_worlds) {  // many survivors leave few worlds
+    constexpr std::size_t times = 8;                                 // some seconds for 500 dresspacks
     tables = life_tables(file, made.study, made.rows, needed, times * usual_worlds);
-    found = plan_of(fleet, tables, windows, day, rule);
   }
+  const Plan found = plan_of(fleet, tables, windows, day, rule);
   if (found.effective_worlds < fewest_worlds)
     throw InputError({options.fleet},
                      fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",

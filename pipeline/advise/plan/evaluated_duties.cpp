@@ -179,35 +179,56 @@ class Programs {
       lives_;  ///< by inode and time of change
 };
 
-/// Damage of one repeat for each dresspack of a plant. Programs with one result share it while duties need it.
+/// Damage of one repeat for each dresspack of a plant. Programs with one result share it while duties need it, and so do
+/// duties with one program.
 class PlantDamage {
  public:
   static constexpr std::size_t draws = 64;  // dresspacks in each world: a probability of 10 % is known to 3.8 % in one world
-  static std::string dresspack(std::size_t draw) { return fmt::format("dresspack {}", draw); }
 
   PlantDamage(const std::vector<std::vector<EvaluatedProgram>>& duties, std::size_t worlds) : worlds_(worlds) {
     for (const std::vector<EvaluatedProgram>& duty : duties)
-      for (const EvaluatedProgram& program : duty) ++known_[program.modes.get()].duties;
+      for (const EvaluatedProgram& program : duty) ++damage_[program.modes.get()].duties, ++factors_[program.job].duties;
   }
-  const RepeatDamage& of(const EvaluatedProgram& program, std::size_t draw) {
-    std::vector<RepeatDamage>& of_draw = known_[program.modes.get()].of_draw;
-    if (of_draw.empty())
-      for (std::size_t d = 0; d < draws; ++d) of_draw.push_back(damage_of_repeat(*program.modes, dresspack(d), worlds_));
-    return of_draw[draw];
+  DutyDamage under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates, const std::vector<double>& share,
+                   std::size_t draw) {
+    const std::string dresspack = fmt::format("dresspack {}", draw);
+    return damage_under(
+        programs, rates, share,
+        [&](const EvaluatedProgram& program) -> const RepeatDamage& {
+          RepeatDamage& damage = damage_[program.modes.get()].at(draw);
+          if (damage.empty()) damage = damage_of_repeat(*program.modes, dresspack, worlds_);
+          return damage;
+        },
+        [&](const EvaluatedProgram& program, double deviation_percent) -> const std::vector<double>& {
+          auto& [deviation, factors] = factors_[program.job].at(draw);
+          if (factors.empty() || deviation != deviation_percent)
+            deviation = deviation_percent, factors = repeat_factors(program.job, deviation_percent, dresspack, worlds_);
+          return factors;
+        });
   }
   /// A duty was evaluated.
   void release(const std::vector<EvaluatedProgram>& duty) {
-    for (const EvaluatedProgram& program : duty)
-      if (--known_[program.modes.get()].duties == 0) known_[program.modes.get()].of_draw = {};
+    for (const EvaluatedProgram& program : duty) damage_[program.modes.get()].release(), factors_[program.job].release();
   }
 
  private:
-  struct Known {
+  /// (draw)
+  template <class Value>
+  struct Shared {
     std::size_t duties = 0;  ///< that still need it
-    std::vector<RepeatDamage> of_draw;
+    std::vector<Value> of_draw;
+
+    Value& at(std::size_t draw) {
+      of_draw.resize(draws);
+      return of_draw[draw];
+    }
+    void release() {
+      if (--duties == 0) of_draw = {};
+    }
   };
   std::size_t worlds_;
-  std::unordered_map<const FailureModes*, Known> known_;
+  std::unordered_map<const FailureModes*, Shared<RepeatDamage>> damage_;
+  std::unordered_map<std::string, Shared<std::pair<double, std::vector<double>>>> factors_;  ///< by job
 };
 
 /// (program) per hour.
@@ -449,10 +470,7 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
     table.shared = shared_values(evaluated, worlds);
     table.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
     for (std::size_t d = 0; d < draws; ++d) {
-      const std::vector<double> damage =
-          damage_under(evaluated, rates, share, PlantDamage::dresspack(d), worlds, [&](const EvaluatedProgram& program) -> const RepeatDamage& {
-            return plant.of(program, d);
-          }).of_first_mode();
+      const std::vector<double> damage = plant.under(evaluated, rates, share, d).of_first_mode();
       for (std::size_t w = 0; w < worlds; ++w)
         table.hours[w * draws + d] = damage[w] > 0 ? static_cast<float>(1 / damage[w]) : std::numeric_limits<float>::infinity();
     }

@@ -162,28 +162,41 @@ RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dres
   return damage;
 }
 
-DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-                        const std::vector<double>& share, const std::string& dresspack, std::size_t samples) {
-  RepeatDamage damage;
-  return damage_under(programs, rates, share, dresspack, samples, [&](const EvaluatedProgram& program) -> const RepeatDamage& {
-    return damage = damage_of_repeat(*program.modes, dresspack, samples);
-  });
+std::vector<double> repeat_factors(const std::string& job, double deviation_percent, const std::string& dresspack, std::size_t samples) {
+  const double deviation = log_deviation(deviation_percent);
+  if (!(deviation > 0)) return std::vector<double>(samples, 1.0);
+  std::vector<double> factors = standard_normals("repeats of " + job + "/job " + dresspack, samples);
+  for (double& z : factors) z = std::exp(deviation * z);
+  return factors;
 }
 
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-                        const std::vector<double>& share, const std::string& dresspack, std::size_t samples,
-                        const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat) {
+                        const std::vector<double>& share, const std::string& dresspack, std::size_t samples) {
+  RepeatDamage damage;
+  std::vector<double> factors;
+  return damage_under(
+      programs, rates, share,
+      [&](const EvaluatedProgram& program) -> const RepeatDamage& {
+        return damage = damage_of_repeat(*program.modes, dresspack, samples);
+      },
+      [&](const EvaluatedProgram& program, double deviation_percent) -> const std::vector<double>& {
+        return factors = repeat_factors(program.job, deviation_percent, dresspack, samples);
+      });
+}
+
+DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                        const std::vector<double>& share,
+                        const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
+                        const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of) {
   DutyDamage duty;
   duty.same_place = share;
   for (std::size_t k = 0; k < programs.size(); ++k) {
+    const std::vector<double>& factors = factors_of(programs[k], rates[k].deviation_percent);
     RepeatDamage damage = of_repeat(programs[k]);
-    std::vector<double> factor(samples, 1.0);
-    if (const double deviation = log_deviation(rates[k].deviation_percent); deviation > 0) {
-      factor = standard_normals("repeats of " + programs[k].job + "/job " + dresspack, samples);
-      for (double& z : factor) z = std::exp(deviation * z);
+    for (std::size_t m = 0; m < damage.size(); ++m) {
+      const double repeats = duty.same_place[m] * rates[k].repeats_per_hour;
+      for (std::size_t s = 0; s < factors.size(); ++s) damage[m][s] *= repeats * factors[s];
     }
-    for (std::size_t m = 0; m < damage.size(); ++m)
-      for (std::size_t s = 0; s < samples; ++s) damage[m][s] *= duty.same_place[m] * rates[k].repeats_per_hour * factor[s];
     duty.of_program.push_back(std::move(damage));
   }
   return duty;

@@ -87,11 +87,16 @@ class SamePlace {
 using RepeatDamage = std::vector<std::vector<double>>;
 RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dresspack, std::size_t samples);
 
-/// Of one duty. share: of SamePlace. dresspack: names what only this dresspack has (first_failures()). of_repeat:
-/// damage_of_repeat() of each program for it, where they are known.
+/// (sample) r_k(s) over its median, of one dresspack.
+std::vector<double> repeat_factors(const std::string& job, double deviation_percent, const std::string& dresspack, std::size_t samples);
+
+/// Of one duty and one dresspack. share: of SamePlace. of_repeat: damage_of_repeat() of a program. factors_of:
+/// repeat_factors() of a program with this deviation.
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-                        const std::vector<double>& share, const std::string& dresspack, std::size_t samples,
-                        const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat);
+                        const std::vector<double>& share,
+                        const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
+                        const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of);
+/// dresspack: names what only this dresspack has (first_failures()).
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                         const std::vector<double>& share, const std::string& dresspack, std::size_t samples = life_samples);
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,

@@ -16,9 +16,8 @@ constexpr std::size_t plants = 1000;  // simulated: a mean of counts is known to
 constexpr double shortest_life = 1;  // [h] of a new dresspack in a simulated plant, so that each plant ends
 constexpr double days_per_year = 365.2425;
 constexpr std::size_t ages = 400;  // of (D6), between a tenth of the shortest life and the robot's: 2 % steps
-constexpr double longest = 1e5;       // [h] of (D6): twice a robot's life
 
-/// Weights of worlds, and what follows for one dresspack that lives at some age.
+/// Weights of worlds, and failures of one dresspack that lives at some age.
 class Worlds {
  public:
   Worlds(std::size_t count, const std::vector<double>& known) : Worlds(count) {
@@ -44,20 +43,13 @@ class Worlds {
   }
   const std::vector<double>& weights() const { return weight_; }
 
-  /// Mean over the worlds in which a dresspack of this age can live, of what `share` (world) gives per dresspack that does.
-  template <class Share>
-  double mean(const LifeTable& table, double now, const Share& share) const {
-    double sum = 0, all = 0;
-    for (std::size_t w = 0; w < weight_.size(); ++w)
-      if (const double lives = table.alive(w, now); lives > 0) sum += weight_[w] * share(w) / lives, all += weight_[w];
-    return all > 0 ? sum / all : 0;
-  }
   /// P(failure at an age in (from, to] | it lives at `now`). Its survival is part of what is known of the worlds.
   double fails(const LifeTable& table, double now, double from, double to) const {
-    return mean(table, now, [&](std::size_t w) { return table.alive(w, from) - table.alive(w, to); });
-  }
-  double lives(const LifeTable& table, double now, double at) const {
-    return mean(table, now, [&](std::size_t w) { return table.alive(w, at); });
+    double sum = 0, all = 0;
+    for (std::size_t w = 0; w < weight_.size(); ++w)
+      if (const double lives = table.alive(w, now); lives > 0)
+        sum += weight_[w] * (table.alive(w, from) - table.alive(w, to)) / lives, all += weight_[w];
+    return all > 0 ? sum / all : 0;
   }
   /// (interval) P(failure in it | it lives at `now`), of intervals of so many hours.
   std::vector<double> fails_in(const LifeTable& table, double now, double hours, std::size_t intervals) const {
@@ -79,56 +71,123 @@ class Worlds {
   std::vector<double> log_weight_, weight_;
 };
 
+double hours_in_day(const Installed& row, const LifeTable& table) { return row.hours_per_week.value_or(table.hours_per_week) / 7; }
+
+double age_of(const Installed& row, const LifeTable& table, Day today) {
+  return row.age_hours.value_or(days_between(row.since, today) * hours_in_day(row, table));
+}
+
+Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, Day today, const PlanRule& rule) {
+  Worlds worlds(tables.begin()->second.worlds, rule.weights);
+  if (!rule.knows_survivors)
+    for (const Installed& row : fleet.rows) worlds.survived(tables.at(row.duty), age_of(row, tables.at(row.duty), today));
+  if (rule.weights.empty()) worlds.weigh();
+  return worlds;
+}
+
+/// What follows for a dresspack that lives at an age: means over the worlds in which it can, by its later age in steps of
+/// a few hours.
+class LaterLife {
+ public:
+  /// rate: (world) [1/h]
+  LaterLife(const LifeTable& table, const std::vector<double>& weights, const Eigen::VectorXd& rate, double age, double last_age)
+      : age_(age), step_((last_age - age) / double(steps)), alive_(steps + 1, 0.0), running_(steps + 1, 0.0) {
+    // Until the sums below, an element has what ends in the step before its age.
+    std::vector<double> rate_ended(steps + 1, 0.0);
+    double alive = 0, rate_alive = 0, run = 0;
+    for (std::size_t w = 0; w < table.worlds; ++w) {
+      const float* const end = table.hours.data() + (w + 1) * table.draws;
+      const float* life = table.first_after(w, age);
+      if (life == end) continue;
+      const double weight = weights[w] / double(end - life), rated = weight * rate[static_cast<Eigen::Index>(w)];
+      alive += weights[w], rate_alive += weights[w] * rate[static_cast<Eigen::Index>(w)];
+      for (; life != end && *life <= last_age; ++life) {
+        const auto k = std::min(steps, static_cast<std::size_t>(std::ceil((*life - age) / step_)));
+        alive_[k] += weight, rate_ended[k] += rated, running_[k] += rated * (*life - age);
+      }
+    }
+    const double all = alive > 0 ? alive : 1;
+    for (std::size_t k = 0; k <= steps; ++k) {
+      alive_[k] = (alive -= alive_[k]) / all;
+      rate_alive -= rate_ended[k];
+      running_[k] = ((run += running_[k]) + rate_alive * step_ * double(k)) / all;
+    }
+  }
+  /// Of S_w(later) / S_w(age).
+  double alive(double later) const { return at(alive_, later); }
+  /// Of rate_w times the integral of S_w from the age until later / S_w(age).
+  double running(double later) const { return at(running_, later); }
+
+ private:
+  static constexpr std::size_t steps = 8192;  // of 8 h where a robot lives 40,000 h: a tenth of a week
+
+  double at(const std::vector<double>& values, double later) const {
+    const double place = std::min((later - age_) / step_, double(steps));
+    const auto below = std::min(static_cast<std::size_t>(place), steps - 1);
+    return values[below] + (place - double(below)) * (values[below + 1] - values[below]);
+  }
+
+  double age_, step_;                    ///< [h]
+  std::vector<double> alive_, running_;  ///< (step)
+};
+
 /// Decides by (D4) or (D5).
 class Decision {
  public:
-  Decision(const Worlds& worlds, const PlanRule& rule) : worlds_(worlds), rule_(rule) {}
+  /// hours: of operation within the plan, at most.
+  Decision(const Worlds& worlds, const PlanRule& rule, double hours) : worlds_(worlds), rule_(rule), hours_(hours) {}
 
-  /// A dresspack that lives at the age `now`, when it has the age `from`. interval: to the next window [h].
-  bool replace(const Installed& row, const LifeTable& table, double now, double from, double interval) {
+  /// What follows for a dresspack that lives at this age, until the ages at which replace() asks.
+  LaterLife later_life(const Installed& row, const LifeTable& table, double age) {
+    return later_life(table, policy(row, table).rate, age);
+  }
+  /// Whether a dresspack is replaced at the age `from`, of which `life` is known. interval: to the next window [h]. Both
+  /// ages of a window lie within the plan.
+  bool replace(const Installed& row, const LifeTable& table, const LaterLife& life, double from, double interval) {
     if (!rule_.by_cost) {
-      const double lives = worlds_.lives(table, now, from);
-      const double fails = lives > 0 ? worlds_.fails(table, now, from, from + interval) / lives : 1;
-      return fails > rule_.risk && worlds_.fails(table, 0, 0, interval) < fails;
+      const double left = life.alive(from);
+      const double fails = left > 0 ? 1 - life.alive(from + interval) / left : 1;
+      return fails > rule_.risk && 1 - policy(row, table).life.alive(interval) < fails;
     }
-    const Eigen::VectorXd& rate = least_rates(row, table);
     const double saves = row.unplanned_cost - row.planned_cost;
-    constexpr double growth = 1.5;  // of the times T: a curve of costs without corners
-    for (double hours = interval; hours < growth * std::max(interval, table.robot_life_hours); hours *= growth) {
-      const double to = from + hours;
-      const double gain = worlds_.mean(table, now, [&](std::size_t w) {
-        return saves * (table.alive(w, from) - table.alive(w, to)) - rate[static_cast<Eigen::Index>(w)] * table.running(w, from, to);
-      });
-      if (gain <= 0) return false;
-    }
+    const auto saved = [&](double age) { return saves * life.alive(age) + life.running(age); };
+    for (double hours = interval; hours < growth * std::max(interval, table.horizon()); hours *= growth)
+      if (saved(from) <= saved(from + hours)) return false;
     return true;
   }
-  /// The same for a dresspack that is put in later, at this age.
-  bool replace_new(const Installed& row, const LifeTable& table, double age, double interval) {
-    age = age_step * std::round(age / age_step);
-    const auto [found, is_new] = known_.try_emplace({&table, age, interval, row.planned_cost, row.unplanned_cost});
-    if (is_new) found->second = replace(row, table, 0, age, interval);
-    return found->second;
+  /// The same for a dresspack that is put in later.
+  bool replace_new(const Installed& row, const LifeTable& table, double from, double interval) {
+    return replace(row, table, policy(row, table).life, from, interval);
   }
 
  private:
-  static constexpr double age_step = 10;  // [h]: an eighth of a week
+  static constexpr double growth = 1.5;  // of the times T: a curve of costs without corners
 
-  /// (world) (D6)
-  const Eigen::VectorXd& least_rates(const Installed& row, const LifeTable& table) {
-    const auto [found, is_new] = rates_.try_emplace({&table, row.planned_cost, row.unplanned_cost});
-    if (is_new) {
-      const std::vector<double>& weights = worlds_.weights();
-      found->second = age_rates(table, row.planned_cost, row.unplanned_cost)
-                          .least(Eigen::VectorXd::Map(weights.data(), static_cast<Eigen::Index>(weights.size())));
-    }
-    return found->second;
+  struct Policy {
+    Eigen::VectorXd rate;  ///< (world) (D6); 0 without costs
+    LaterLife life;        ///< of a new dresspack
+  };
+
+  LaterLife later_life(const LifeTable& table, const Eigen::VectorXd& rate, double age) const {
+    return {table, worlds_.weights(), rate, age, age + hours_ + (rule_.by_cost ? growth * std::max(hours_, table.horizon()) : hours_)};
+  }
+
+  const Policy& policy(const Installed& row, const LifeTable& table) {
+    const std::tuple key(&table, row.planned_cost, row.unplanned_cost);
+    const auto known = policies_.find(key);
+    if (known != policies_.end()) return known->second;
+    const auto count = static_cast<Eigen::Index>(table.worlds);
+    Eigen::VectorXd rate = Eigen::VectorXd::Zero(count);
+    if (rule_.by_cost)
+      rate = age_rates(table, row.planned_cost, row.unplanned_cost).least(Eigen::VectorXd::Map(worlds_.weights().data(), count));
+    LaterLife life = later_life(table, rate, 0);
+    return policies_.emplace(key, Policy{std::move(rate), std::move(life)}).first->second;
   }
 
   const Worlds& worlds_;
   const PlanRule rule_;
-  std::map<std::tuple<const LifeTable*, double, double, double, double>, bool> known_;
-  std::map<std::tuple<const LifeTable*, double, double>, Eigen::VectorXd> rates_;
+  const double hours_;
+  std::map<std::tuple<const LifeTable*, double, double>, Policy> policies_;
 };
 
 std::size_t weeks_until(double days) { return static_cast<std::size_t>(std::ceil(days / 7)); }
@@ -212,6 +271,11 @@ double LifeTable::alive(std::size_t world, double age) const {
   return double(hours.data() + (world + 1) * draws - first_after(world, age)) / double(draws);
 }
 
+double LifeTable::horizon() const {
+  constexpr double longest = 1e5;  // [h]: twice a robot's life; a rig has no life of its own
+  return std::min(robot_life_hours, longest);
+}
+
 const float* LifeTable::first_after(std::size_t world, double age) const {
   const float* const first = hours.data() + world * draws;
   return std::upper_bound(first, first + draws, static_cast<float>(age));
@@ -238,7 +302,7 @@ Eigen::VectorXd AgeRates::least(const Eigen::VectorXd& weights) const {
 }
 
 AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned_cost) {
-  const double shortest = *std::min_element(table.hours.begin(), table.hours.end()), last = std::min(table.robot_life_hours, longest);
+  const double shortest = *std::min_element(table.hours.begin(), table.hours.end()), last = table.horizon();
   const double first = std::max(shortest_life, std::min(last, shortest)) / 10;
   AgeRates rates{Eigen::MatrixXd(Eigen::Index(ages), Eigen::Index(table.worlds))};
   std::vector<double> at;
@@ -277,6 +341,10 @@ void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, Lif
   }
 }
 
+double effective_worlds(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, Day today, const PlanRule& rule) {
+  return worlds_of(fleet, tables, today, rule).effective();
+}
+
 Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,
              const PlanRule& rule, std::uint64_t seed) {
   Plan plan;
@@ -284,19 +352,17 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   plan.risk = rule.risk, plan.by_cost = rule.by_cost;
   const std::vector<double> times = times_of(windows, today);
   plan.end = today + std::chrono::days(std::llround(times.back()));
-  std::vector<const LifeTable*> of_row;
-  std::vector<double> hours_per_day;
-  Worlds worlds(tables.begin()->second.worlds, rule.weights);
-  for (const Installed& row : fleet.rows) {
-    of_row.push_back(&tables.at(row.duty));
-    hours_per_day.push_back(row.hours_per_week.value_or(of_row.back()->hours_per_week) / 7);
-    plan.rows.emplace_back().age_hours = row.age_hours.value_or(days_between(row.since, today) * hours_per_day.back());
-    if (!rule.knows_survivors) worlds.survived(*of_row.back(), plan.rows.back().age_hours);
-  }
-  if (rule.weights.empty()) worlds.weigh();
+  const Worlds worlds = worlds_of(fleet, tables, today, rule);
   plan.weights = worlds.weights();
   plan.effective_worlds = worlds.effective();
-  Decision decision(worlds, rule);
+  std::vector<const LifeTable*> of_row;
+  std::vector<double> hours_per_day;
+  for (const Installed& row : fleet.rows) {
+    of_row.push_back(&tables.at(row.duty));
+    hours_per_day.push_back(hours_in_day(row, *of_row.back()));
+    plan.rows.emplace_back().age_hours = age_of(row, *of_row.back(), today);
+  }
+  Decision decision(worlds, rule, times.back() * *std::max_element(hours_per_day.begin(), hours_per_day.end()));
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
     RowPlan& row = plan.rows[i];
     const LifeTable& table = *of_row[i];
@@ -304,11 +370,12 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     row.fails_in_week = worlds.fails_in(table, row.age_hours, 7 * hours_per_day[i], weeks_until(times.back()));
     row.fails_before_first = worlds.fails(table, row.age_hours, row.age_hours, age_at(times.front()));
     double failed = row.fails_before_first;
+    const LaterLife life = decision.later_life(fleet.rows[i], table, row.age_hours);
     for (std::size_t n = 0; n < windows.size(); ++n) {
       const double lives = 1 - failed, from = age_at(times[n]), to = age_at(times[n + 1]);
       const double fails = worlds.fails(table, row.age_hours, from, to);
       row.fails_until_next.push_back(lives > 0 ? fails / lives : 1);
-      if (!row.window && decision.replace(fleet.rows[i], table, row.age_hours, from, to - from))
+      if (!row.window && decision.replace(fleet.rows[i], table, life, from, to - from))
         row.window = n, row.fails_before = failed;
       failed += fails;
     }

@@ -43,6 +43,8 @@ struct LifeTable {
   double hours_per_week = 0;
   std::vector<SharedValue> shared{};  ///< what its lives depend on
 
+  /// Ages [h] beyond it decide nothing.
+  double horizon() const;
   /// The first life of a world that is longer than an age; the end of the world's lives if none is.
   const float* first_after(std::size_t world, double age) const;
   /// S_w(age)
@@ -107,6 +109,9 @@ std::vector<double> times_of(const std::vector<Window>& windows, Day today);
 /// The dresspacks of a plant under other duties: one that is in `now`, too, under another duty or for other hours, keeps its damage. Its age
 /// are the hours under the new duty that wear it as much, by the median lives of both. A date of its own makes it a new dresspack.
 void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today);
+
+/// Plan::effective_worlds of plan_of().
+double effective_worlds(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, Day today, const PlanRule& rule);
 
 /// tables: by the names of duties. Precondition: windows are not empty, every duty has a table, all of as many worlds.
 Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,
