@@ -66,7 +66,7 @@ double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires
   return log10_life(worst);
 }
 
-constexpr std::size_t of_rest = index_of(pipeline::Uncertain::rest);
+constexpr std::size_t of_rest = index_of(pipeline::Uncertain::rest), of_slack = index_of(pipeline::Uncertain::slack);
 
 /// Whether a variation is another rest of the starts and nothing else.
 bool is_rest(const VariedStrains& at) {
@@ -157,11 +157,13 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
   std::vector<std::size_t> point(starts.size(), 0), order;  // (rest)
   for (std::size_t v = 0; v < varied.size(); ++v)
     if (is_rest(varied[v])) point[varied[v].rest] = v + 1;
-  const auto life = [&](std::size_t at) { return response.worst_life[at * nodes + middle]; };
+  const auto life = [&](std::size_t at, std::size_t node) -> double& {
+    return response.worst_life[at * nodes + node];
+  };
   for (std::size_t rest = 0; rest < starts.size(); ++rest)
     if (rest == 0 || point[rest] > 0) order.push_back(rest);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return life(point[a]) < life(point[b]);
+    return life(point[a], middle) < life(point[b], middle);
   });
   double all = 0, before = 0;
   for (const std::size_t rest : order) all += static_cast<double>(starts[rest]);
@@ -173,6 +175,14 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
   }
   for (const std::size_t rest : order) response.points[point[rest]][of_rest] = score[rest] - score[0];
   response.knowledge.mean(static_cast<Eigen::Index>(of_rest)) -= score[0];
+  for (std::size_t v = 0; v < varied.size(); ++v) {
+    if (varied[v].rest == 0 || varied[v].z[of_slack] != 0 || is_rest(varied[v])) continue;
+    for (std::size_t node = 0; node < nodes; ++node) {
+      double& of = life(v + 1, node);
+      const double there = life(point[varied[v].rest], node), here = life(0, node);
+      of = std::min(LifeResponse::undamaged, pipeline::together(there, std::array{of, here}));
+    }
+  }
 }
 
 void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,

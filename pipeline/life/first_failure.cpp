@@ -427,7 +427,8 @@ LifePercentiles error_factors(const FailureModes& modes, const std::string& job,
   const std::vector<Samples> samples = samples_of(modes, job, count);
   for (const FailureModes& changed : coarser(modes)) {
     const LifePercentiles other = percentiles_of(lives_of(surfaces_of(changed), samples, Inside::as_is));
-    for (std::size_t i = 0; i < shares.size(); ++i) squares[i] += std::pow(std::log10(other[i] / percentiles[i]), 2);
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      squares[i] += std::pow(std::min(std::log10(other[i]), LifeResponse::endless) - std::log10(percentiles[i]), 2);
   }
   LifePercentiles factors{};
   for (std::size_t i = 0; i < shares.size(); ++i)
