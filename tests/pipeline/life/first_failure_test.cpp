@@ -169,8 +169,8 @@ TEST_CASE("the error of a percentile is that of few samples where the response i
 }
 
 TEST_CASE("the error of a percentile contains what one node of the friction along the hose decides") {
-  // Lives fall by 0.3 decades at z = 1.5 and do not change at -1.5. Without one of these nodes they would fall by 0.2 z
-  // below 0, too, or not at all: the samples at 10 % then change by the same amount.
+  // Lives fall by 0.2 z above 0 and do not change below. Without the node at 1.5 they do not fall above 0. Without the node at
+  // -1.5 they rise by 0.2 |z| below 0.
   LifeResponse response = straight(0, 0, 0);
   response.planned = {{5, 5, 5}};
   for (const double z : {-1.5, 1.5}) {
@@ -185,7 +185,7 @@ TEST_CASE("the error of a percentile contains what one node of the friction alon
   constexpr std::size_t samples = 10000;
   const std::vector<double> lives = first_failures({response}, "job", samples);
   const LifePercentiles error = error_factors({response}, "job", samples, lives);
-  // p10 lies at z = 1.28, in (1.5 0.3 decades) of which the node at 1.5 decides all. p90 lies below 0.
+  // 10 % of lives are shorter than that at z = 1.28, and 90 % than that at z = -1.28.
   CHECK(std::log10(error[0]) == Approx(0.2 * decile).epsilon(0.05));
   CHECK(std::log10(error[2]) == Approx(0.2 * decile).epsilon(0.05));
 }
