@@ -66,7 +66,7 @@ double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires
   return log10_life(worst);
 }
 
-constexpr std::size_t of_rest = index_of(pipeline::Uncertain::rest);
+constexpr std::size_t of_rest = index_of(pipeline::Uncertain::rest), of_slack = index_of(pipeline::Uncertain::slack);
 
 /// Whether a variation is another rest of the starts and nothing else.
 bool is_rest(const VariedStrains& at) {
@@ -176,7 +176,7 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
   for (const std::size_t rest : order) response.points[point[rest]][of_rest] = score[rest] - score[0];
   response.knowledge.mean(static_cast<Eigen::Index>(of_rest)) -= score[0];
   for (std::size_t v = 0; v < varied.size(); ++v) {
-    if (varied[v].rest == 0 || is_rest(varied[v])) continue;
+    if (varied[v].rest == 0 || varied[v].z[of_slack] != 0 || is_rest(varied[v])) continue;
     for (std::size_t node = 0; node < nodes; ++node) {
       double& of = life(v + 1, node);
       const double there = life(point[varied[v].rest], node), here = life(0, node);

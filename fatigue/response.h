@@ -40,7 +40,8 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
 
 /// (W40) Lives at the rests of loose cables become a parameter of the response: the z of a rest is the normal score of its
 /// life among those of all starts less that of the job's own rest, and the mean of what is known is less by that of the
-/// job's own. What a variation changes from another rest it changes from the job's own, too (pipeline::together()).
+/// job's own. What a variation changes from another rest it changes from the job's own, too (pipeline::together()). At
+/// another slack lives stay as computed: cables leave their rest there (strain/measurements.md).
 /// response: at 0 and at the points of varied. starts: (rest), of which varied has all but the first.
 void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> varied,
                const std::vector<std::size_t>& starts);

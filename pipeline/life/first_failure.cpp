@@ -323,7 +323,8 @@ void find_best_test(const FailureModes& modes, const std::vector<LifeSurface>& s
 
 // ---- errors of percentiles --------------------------------------------------------------------------------
 
-constexpr std::size_t of_friction = index_of(Uncertain::friction_inside), of_slack = index_of(Uncertain::slack);
+constexpr std::size_t of_friction = index_of(Uncertain::friction_inside), of_slack = index_of(Uncertain::slack),
+                      of_rest = index_of(Uncertain::rest);
 
 /// The response without the points that `drops`.
 template <class Drops>
@@ -353,10 +354,16 @@ LifeResponse without_strength(const LifeResponse& response, double z) {
   return left;
 }
 
-/// Nodes between the outermost ones but 0.
-std::vector<double> inner(std::vector<double> nodes) {
+/// Each once, rising.
+std::vector<double> once(std::vector<double> nodes) {
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+/// Nodes between the outermost ones but 0.
+std::vector<double> inner(std::vector<double> nodes) {
+  nodes = once(std::move(nodes));
   if (nodes.size() < 3) return {};
   nodes.pop_back(), nodes.erase(nodes.begin());
   std::erase(nodes, 0.0);
@@ -386,9 +393,17 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
   for (const double z : inner(modes.front().strength))
     add([&](const LifeResponse& mode) { return without_strength(mode, z); });
   bool others = false;
-  for (std::size_t p = 0; p < strain_parameters; ++p)
-    if (p != of_friction && p != of_slack)
-      others |= std::ranges::any_of(nodes_of(modes, p), [](double z) { return z != 0; });
+  for (std::size_t p = 0; p < strain_parameters; ++p) {
+    if (p == of_friction || p == of_slack) continue;
+    std::vector<double> nodes = once(nodes_of(modes, p));
+    std::erase(nodes, 0.0);
+    others |= !nodes.empty();
+    if (p == of_rest || nodes.size() < 2) continue;
+    for (const double z : nodes)
+      add([&](const LifeResponse& mode) {
+        return without_points(mode, [&](const auto& point) { return point[p] == z; });
+      });
+  }
   if (others)
     add([](const LifeResponse& mode) {
       return without_points(mode, [](const auto& point) { return point[of_friction] != 0 && point[of_slack] != 0; });
@@ -412,7 +427,8 @@ LifePercentiles error_factors(const FailureModes& modes, const std::string& job,
   const std::vector<Samples> samples = samples_of(modes, job, count);
   for (const FailureModes& changed : coarser(modes)) {
     const LifePercentiles other = percentiles_of(lives_of(surfaces_of(changed), samples, Inside::as_is));
-    for (std::size_t i = 0; i < shares.size(); ++i) squares[i] += std::pow(std::log10(other[i] / percentiles[i]), 2);
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      squares[i] += std::pow(std::min(std::log10(other[i]), LifeResponse::endless) - std::log10(percentiles[i]), 2);
   }
   LifePercentiles factors{};
   for (std::size_t i = 0; i < shares.size(); ++i)

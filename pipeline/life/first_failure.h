@@ -55,10 +55,12 @@ struct FirstFailures {
 ///     nodes       without one node of friction, slack or strength, each in turn. A straight line's error grows with
 ///                 the square of the distance of nodes, so this is three times the error there. It counts in full,
 ///                 because other intervals are as wide as the one without the node
+///     other rests without one node of friction along the hose, play or grips, each in turn: the line through 0 and the
+///                 node on the other side goes on. These parameters change lives less than another rest of the cables does
 ///     together()  friction and slack put together by it, instead of their computed combinations; where further
 ///                 parameters are put together so
-/// Not in it: errors beyond the outermost nodes, and wires that only other values of the parameters make the worst
-/// (strain/measurements.md, response and full evaluations). log10_lives: first_failures() of the same arguments.
+/// Not in it: errors beyond the outermost nodes of friction and slack (strain/measurements.md, response and full
+/// evaluations). log10_lives: first_failures() of the same arguments.
 LifePercentiles error_factors(const FailureModes& modes, const std::string& job, std::size_t samples,
                               const std::vector<double>& log10_lives);
 

@@ -15,21 +15,23 @@ using pipeline::Uncertain;
 
 namespace {
 
-constexpr std::size_t rest = index_of(Uncertain::rest), slack = index_of(Uncertain::slack);
+constexpr std::size_t rest = index_of(Uncertain::rest), slack = index_of(Uncertain::slack),
+                      hose = index_of(Uncertain::friction_hose);
 
-/// A job that lives 1e6, three of five starts, beside two rests of one start each; slack was varied from rest 2.
+/// A job that lives 1e6, three of five starts, beside two rests of one start each. Slack and friction along the hose were
+/// varied from rest 2.
 struct Rests {
-  std::vector<VariedStrains> varied{4};
+  std::vector<VariedStrains> varied{6};
   std::vector<std::size_t> starts{3, 1, 1};
   LifeResponse response;
 
   Rests(double of_one, double of_two) {
     varied[0].rest = 1, varied[1].rest = 2;
-    varied[2].rest = varied[3].rest = 2;
-    varied[2].z[slack] = -1.5, varied[3].z[slack] = 1.5;
+    for (std::size_t v = 2; v < varied.size(); ++v) varied[v].rest = 2;
+    varied[2].z[slack] = varied[4].z[hose] = -1.5, varied[3].z[slack] = varied[5].z[hose] = 1.5;
     response.knowledge = pipeline::prior_of({});
     response.planned = {{5.9, 6, 6.1}};
-    response.worst_life = {6, of_one, of_two, of_two - 2, of_two + 1};
+    response.worst_life = {6, of_one, of_two, of_two - 2, of_two + 1, of_two - 2, of_two + 1};
     for (const VariedStrains& at : varied)
       response.points.push_back(at.z), response.inside.push_back(at.inside);
     fatigue::put_rests(response, varied, starts);
@@ -59,12 +61,22 @@ TEST_CASE("rests: lives over all starts have the quantiles of the starts, whiche
 TEST_CASE("rests: a variation that went on from another rest counts by what it changes there") {
   const Rests of(5, 8);
   pipeline::ParameterPoint z{};
-  z[slack] = -1.5;
-  // From rest 2, life 1e8, to the job's own, 1e6, the strain grows by f - 1; slack makes it f or g times as large.
+  z[hose] = -1.5;
+  // From rest 2, life 1e8, to the job's own, 1e6, the strain grows by f - 1. Friction along the hose makes it f or g times
+  // as large.
   const double f = std::pow(10, 2. / 5), g = std::pow(10, -1. / 5);
   CHECK(of.response.change(z) == Approx(2 - 5 * std::log10(f + f - 1)));
-  z[slack] = 1.5;
+  z[hose] = 1.5;
   CHECK(of.response.change(z) == Approx(2 - 5 * std::log10(f + g - 1)));
+}
+
+TEST_CASE("rests: at another slack a life stays as computed, whichever rest the cables went on from") {
+  const Rests of(5, 8);
+  pipeline::ParameterPoint z{};
+  z[slack] = -1.5;
+  CHECK(of.response.log10_life(z, 0) == Approx(6));
+  z[slack] = 1.5;
+  CHECK(of.response.log10_life(z, 0) == Approx(9));
 }
 
 TEST_CASE("rests: lives beyond anything physical shorten no other life") {

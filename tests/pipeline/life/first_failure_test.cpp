@@ -168,6 +168,28 @@ TEST_CASE("the error of a percentile is that of few samples where the response i
   CHECK(std::log10(bent[1]) < 2 * std::log10(of_samples[1]));
 }
 
+TEST_CASE("the error of a percentile contains what one node of the friction along the hose decides") {
+  // Lives fall by 0.2 z above 0 and do not change below. Without the node at 1.5 they do not fall above 0. Without the node at
+  // -1.5 they rise by 0.2 |z| below 0.
+  LifeResponse response = straight(0, 0, 0);
+  response.planned = {{5, 5, 5}};
+  for (const double z : {-1.5, 1.5}) {
+    response.points.push_back({});
+    response.inside.push_back(Inside::as_is);
+    response.points.back()[index_of(Uncertain::friction_hose)] = z;
+    for (std::size_t k = 0; k < response.strength.size(); ++k) response.worst_life.push_back(5.3 - (z > 0 ? 0.3 : 0));
+  }
+  for (Eigen::Index p = 0; p < response.knowledge.mean.size(); ++p)
+    if (p != static_cast<Eigen::Index>(index_of(Uncertain::friction_hose)))
+      response.knowledge.covariance(p, p) = 0;
+  constexpr std::size_t samples = 10000;
+  const std::vector<double> lives = first_failures({response}, "job", samples);
+  const LifePercentiles error = error_factors({response}, "job", samples, lives);
+  // 10 % of lives are shorter than that at z = 1.28, and 90 % than that at z = -1.28.
+  CHECK(std::log10(error[0]) == Approx(0.2 * decile).epsilon(0.05));
+  CHECK(std::log10(error[2]) == Approx(0.2 * decile).epsilon(0.05));
+}
+
 TEST_CASE("the best test is that of the cause that spreads most, and its range is that of what is left") {
   const double a = 0.8, c = 0.4, by_scatter = 0.1 / decile;
   const FirstFailures lives = summary_of({straight(a, 0, c)}, "job");
