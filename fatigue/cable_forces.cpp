@@ -222,8 +222,7 @@ void write_tensions(pipeline::FileWriter& life, const std::vector<std::string>& 
 
 }  // namespace
 
-std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& strain,
-                                                  const pipeline::Job& job, pipeline::FileWriter& life) {
+CableForces write_cable_forces(const pipeline::FileReader& strain, const pipeline::Job& job, pipeline::FileWriter& life) {
   if (!strain.has("/cable/strain")) {
     for (const char* name : {"largest_force_share", "clamp_moment_share"})
       if (strain.has_attribute(name)) life.attribute(name, strain.number_attribute(name));
@@ -284,7 +283,7 @@ std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& st
                     pipeline::readable(std::abs(tension[bender][bent_sample]))),
         cure.cause, cure.remedy));
   }
-  return warnings;
+  return {std::move(warnings), std::move(tension)};
 }
 
 }  // namespace dresslife::fatigue

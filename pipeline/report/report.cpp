@@ -343,7 +343,7 @@ std::string facts(const RankingRow& row) {
   for (const UnvalidatedMode& mode : row.unvalidated) {
     const std::string of = mode.dresspack.empty() ? "" : " of " + escaped(mode.dresspack);
     const bool wall = mode.mode == UnvalidatedMode::wall;
-    if (mode.mode == UnvalidatedMode::rating) {
+    if (mode.mode == UnvalidatedMode::rating || mode.mode == UnvalidatedMode::corkscrew) {
       fact(mode.mode + of + ", unvalidated", escaped(unvalidated_words(mode)));
       continue;
     }
