@@ -401,6 +401,9 @@ Format make_life_format() {
      "largest force of a cable over that at which it tears (materials' tensile_strength_MPa; 0: not known)"},
     {"clamp_moment_share", f64, maybe,
      "largest moment of all cables on the hose at a clamp, over the largest that the simulated hose carries there"},
+    {"strain_relief_share", f64, maybe,
+     "largest pull of a cable at a clamp over what EN 50262 asks a strain relief of type A to hold (fatigue/strain_relief.h); "
+     "a check, no life"},
     {"loose_mesh_error", f64, maybe, "as in the strain file"},
     {"worst_site", f64, always, "index of the worst site"},
     {"worst_segment_from_tool", f64, always, "its segment, counted from the tool, 1 first"},

@@ -382,6 +382,8 @@ TEST_CASE("life.h5: forces of the cables by span, and the span where they ask mo
     CHECK(life.read<double>("/clamp/hose_moment")[50] == Approx((in_first ? of_first : 0.1) / 2));
     CHECK(life.number_attribute("largest_force_share") ==
           Approx(std::abs(force.force(-3e-4)) / force.strength()));
+    // Of 10 mm; only the third cable's base clamp is pulled most.
+    CHECK(life.number_attribute("strain_relief_share") == Approx(force.force(2e-4) / 42));
     const auto warns = [&](const std::string& words) {
       return std::any_of(
           result.notes.warnings.begin(), result.notes.warnings.end(),
