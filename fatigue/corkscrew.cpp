@@ -22,6 +22,18 @@ BoredCable bored(const pipeline::Dresspack& dresspack, const pipeline::Component
           room, 1 / (tightest_diameters * 2 * cable.radius), length};
 }
 
+/// Whether the robot ends in the pose in which it begins, but for whole turns of its joints. Without this the next repeat
+/// begins with a move that is not in the motion, and what is left of the twist is not known.
+bool returns(const pipeline::FileReader& strain) {
+  if (!strain.has("/robot/joint_position")) return false;
+  const auto angle = strain.read<double>("/robot/joint_position");
+  const std::size_t joints = angle.size() / strain.length("sample");
+  constexpr double turn = 2 * std::numbers::pi;
+  for (std::size_t k = 0; k < joints; ++k)
+    if (std::abs(std::remainder(angle[angle.size() - joints + k] - angle[k], turn)) > least_turn_left) return false;
+  return true;
+}
+
 /// How a dresspack lies, by its segments.
 struct Shape {
   std::vector<std::size_t> segment;  ///< of the file
@@ -38,7 +50,7 @@ struct Shape {
       turn_left += lengths[k] * (twist[twist.size() - of.size() + k] - twist[k]);
     }
     turn_left = std::abs(turn_left);
-    if (turn_left < least_turn_left) turn_left = 0;
+    if (turn_left < least_turn_left || !returns(strain)) turn_left = 0;
   }
 };
 

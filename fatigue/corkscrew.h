@@ -14,7 +14,8 @@
 //    A coil below kappa_c is the cable's usual rest in a hose with slack. Its strain is in the lives of the wires (W32).
 // kappa_c: 1 / 5 diameters, the tightest bend that a maker allows (bend_limit.h).
 //
-// A repeat that leaves the dresspack twisted by D adds G J D / L to M. The repeats until both limits are passed are the life.
+// A repeat after which the robot's joints have returned, but for whole turns, and that leaves the dresspack twisted by D adds
+// G J D / L to M. The repeats until both limits are passed are the life.
 // E I and G J are those of a cable whose parts slide, which is safe. Not contained: weight across the hose (which
 // stabilises), friction at the wall, coils with steep turns (r q > 0.5), a lay that a twist opens inside a cable. The force
 // of a cable is its largest one along the hose. A dresspack with rings or further clamps counts with its whole length.

@@ -486,7 +486,7 @@ Format make_life_format() {
      "failure modes that are not in life_hours_p10 .. _p90, because no test validates their laws: a line each with tabs "
      "between mode, dresspack among several, hours until it has failed in 10, 50, 90 % of cases (nan: not known), share of "
      "samples in which it fails before the wires, life_hours_p10 if it counted, segment from the tool, distance from the "
-     "tool m, what rubs, place around the hose or rated cable, time s, program line, of the wall by its law the bends "
+     "tool m, what rubs, place around the hose, rated or coiled cable, time s, program line, of the wall by its law the bends "
      "from straight to the limit of the bend radius, further sentences, share of the failures within the robot's life that visual checks find before (nan: not known), share of "
      "all that fail unseen; a maker's rating is a lower bound of a life"},
     {"not_evaluated", text, maybe, "parts of the dresspacks and failure modes without a life"},

@@ -1075,6 +1075,8 @@ TEST_CASE("life.h5: a twist that every repeat leaves winds a loose cable into a 
   CHECK(std::isinf(still[0].hours[0]));
   CHECK(still[0].note == "Neither its forces nor its twist would wind it.");
   f.twist = 0.5;
+  CHECK(std::isinf(coil_of("recorded.h5").first[0].hours[0]));  // without joints what a repeat leaves is not known
+  for (std::size_t t = 0; t < samples; ++t) f.joints.push_back(2 * std::numbers::pi * static_cast<double>(t) / (samples - 1));
   const auto [wound, other] = coil_of("wound.h5");
   REQUIRE(wound.size() == 1);
   // Without a force: 4/3 E I q of torque at the tight coil. The last sample is twisted by as much as a repeat leaves.
@@ -1086,6 +1088,8 @@ TEST_CASE("life.h5: a twist that every repeat leaves winds a loose cable into a 
   CHECK(wound[0].hours[1] == Approx(hours(tight / torque - 1, duration)).epsilon(strata));
   CHECK(wound[0].time == Approx(duration));
   CHECK_THAT(wound[0].note, Catch::Contains("A repeat leaves 29 degrees of twist."));
+  for (double& angle : f.joints) angle /= 3;
+  CHECK(std::isinf(coil_of("elsewhere.h5").first[0].hours[0]));
   f.twist = 1.01 * tight / torsion;
   CHECK(coil_of("tight.h5").first[0].hours[1] == Approx(hours(1, duration)).epsilon(strata));
   f.room = std::numeric_limits<double>::infinity();
