@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/cable_force.h"
 #include "pipeline/cable/polymer.h"
@@ -15,8 +16,9 @@ namespace {
 
 constexpr double tightest_diameters = 5;
 
-BoredCable bored(const pipeline::Dresspack& dresspack, const pipeline::Component& cable, double room, double length) {
-  return {pipeline::CableForce(dresspack, cable).bending_stiffness(),
+BoredCable bored(const pipeline::Dresspack& dresspack, const pipeline::Component& cable, const pipeline::CableForce& force, double room,
+                 double length) {
+  return {force.bending_stiffness(),
           pipeline::pull_and_twist(dresspack, cable).relaxed() +
               pipeline::torsion_of_polymer * pipeline::polymer_bending(cable),
           room, 1 / (tightest_diameters * 2 * cable.radius), length};
@@ -96,7 +98,11 @@ std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pip
   for (std::size_t k = 0; k < tension.size(); ++k) {
     if (static_cast<std::size_t>(of[k]) != dresspack || !(room[k] > 0)) continue;
     if (std::isinf(room[k])) return {};
-    const BoredCable cable = bored(mounted, mounted.components[static_cast<std::size_t>(component[k])], room[k], shape.length);
+    const pipeline::Component& part = mounted.components[static_cast<std::size_t>(component[k])];
+    const pipeline::CableForce force(mounted, part);
+    const double most = force.strength() > 0 ? pipeline::believable_share * force.strength() : std::numeric_limits<double>::infinity();
+    if (std::any_of(tension[k].begin(), tension[k].end(), [&](double pull) { return std::abs(pull) > most; })) return {};
+    const BoredCable cable = bored(mounted, part, force, room[k], shape.length);
     const double growth = cable.torsion * shape.turn_left / shape.length;  // of the torque by a repeat
     if (!worst) worst = Corkscrew{k, BoredCable::largest_margin, std::numeric_limits<double>::infinity(), shape.turn_left};
     for (std::size_t t = 0; t < tension[k].size(); ++t)

@@ -64,7 +64,7 @@ struct Corkscrew {
 constexpr double least_turn_left = 0.01;
 
 /// tension: (cable, sample) of the strain file, largest along each cable by size [N]. Nothing: no cable of the dresspack lies
-/// loose in a room of known size, or forces are not known.
+/// loose in a room of known size, or the forces are not known or not believable (believable.h).
 std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pipeline::Job& job, std::size_t dresspack,
                                    const std::vector<std::vector<double>>& tension);
 

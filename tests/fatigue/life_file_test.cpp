@@ -1092,6 +1092,11 @@ TEST_CASE("life.h5: a twist that every repeat leaves winds a loose cable into a 
   CHECK(std::isinf(coil_of("elsewhere.h5").first[0].hours[0]));
   f.twist = 1.01 * tight / torsion;
   CHECK(coil_of("tight.h5").first[0].hours[1] == Approx(hours(1, duration)).epsilon(strata));
+  dresspack.materials[0].tensile_strength = 230e6;
+  f.cables[0].strain = {-1e-3, 0, 0};  // a third of what tears it
+  CHECK(coil_of("forced.h5").first.empty());
+  f.cables[0].strain = {0, 0, 0};
+  CHECK(coil_of("unforced.h5").first.size() == 1);
   f.room = std::numeric_limits<double>::infinity();
   CHECK(coil_of("endless.h5").first.empty());
 }
