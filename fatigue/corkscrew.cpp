@@ -108,12 +108,14 @@ std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pip
     for (std::size_t t = 0; t < tension[k].size(); ++t)
       for (std::size_t i = 0; i < shape.segment.size(); ++i) {
         const std::size_t row = t * segments + shape.segment[i];
-        const double compression = -tension[k][t], torque = cable.torsion * std::abs(twist[row]),
-                     bend = std::hypot(curvature[2 * row], curvature[2 * row + 1]);
-        const double critical = cable.critical_torque(compression, bend);
-        if (growth > 0) worst->repeats = std::min(worst->repeats, std::max(1.0, (critical - torque) / growth));
-        // Only what is beyond its limits under the forces and the twist of the smallest margin has a smaller one.
-        if (worst->margin * torque < cable.critical_torque(worst->margin * compression, bend)) continue;
+        const double compression = -tension[k][t], torque = cable.torsion * std::abs(twist[row]);
+        // Only what is beyond both limits under the forces and the twist of the smallest margin has a smaller one.
+        const bool tight = worst->margin * torque >= cable.torque_to_tighten(worst->margin * compression);
+        if (!tight && growth == 0) continue;
+        const double bend = std::hypot(curvature[2 * row], curvature[2 * row + 1]);
+        if (growth > 0)
+          worst->repeats = std::min(worst->repeats, std::max(1.0, (cable.critical_torque(compression, bend) - torque) / growth));
+        if (!tight || worst->margin * torque < cable.torque_to_coil(worst->margin * compression, bend)) continue;
         worst->margin = cable.margin(compression, torque, bend);
         worst->cable = k, worst->position = shape.middle[i], worst->sample = t;
       }
