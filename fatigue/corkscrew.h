@@ -54,9 +54,10 @@ struct BoredCable {
 struct Corkscrew {
   std::size_t cable = 0;  ///< of the strain file
   double margin = 0;      ///< on its forces and twist
-  double repeats = 0;     ///< until it is one; infinite: no repeat leaves a twist, or it is far; 1: in every repeat
-  double turn_left = 0;   ///< D, 0 below `least_turn_left` [rad]
-  double position = 0;    ///< of the place from the base clamp [m]
+  double repeats =
+      0;  ///< until it is one; infinite: no repeat leaves a twist, or it is far; 1: in every repeat
+  double turn_left = 0;  ///< D, 0 below `least_turn_left` [rad]
+  double position = 0;   ///< of the place from the base clamp [m]
   std::size_t sample = 0;
 };
 
@@ -65,7 +66,7 @@ constexpr double least_turn_left = 0.01;
 
 /// tension: (cable, sample) of the strain file, largest along each cable by size [N]. Nothing: no cable of the dresspack lies
 /// loose in a room of known size, or the forces are not known or not believable (believable.h).
-std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pipeline::Job& job, std::size_t dresspack,
-                                   const std::vector<std::vector<double>>& tension);
+std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pipeline::Job& job,
+                                   std::size_t dresspack, const std::vector<std::vector<double>>& tension);
 
 }  // namespace dresslife::fatigue

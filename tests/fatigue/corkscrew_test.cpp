@@ -31,7 +31,8 @@ TEST_CASE("corkscrew: twist alone coils a cable at Greenhill's torque, compressi
   CHECK(of.torque_to_coil(euler, 0) == Approx(0).margin(rounding));
 }
 
-TEST_CASE("corkscrew: a long cable under tension coils at 2 sqrt(E I T), one pressed into a bend at Dawson and Paslay's force") {
+TEST_CASE(
+    "corkscrew: a long cable under tension coils at 2 sqrt(E I T), one pressed into a bend at Dawson and Paslay's force") {
   BoredCable of = cable();
   CHECK(of.torque_to_coil(-7, 0) == Approx(2 * std::sqrt(of.bending * 7)));
   of.length = 100;
@@ -50,13 +51,15 @@ TEST_CASE("corkscrew: the closed form is the least torque of all wave numbers") 
             Approx(least_torque(cable(), compression, curvature)).epsilon(steps).margin(steps));
 }
 
-TEST_CASE("corkscrew: compression alone makes a helix of curvature r P / (2 E I), which is tight at its limit") {
+TEST_CASE(
+    "corkscrew: compression alone makes a helix of curvature r P / (2 E I), which is tight at its limit") {
   const BoredCable of = cable();
   const double force = 2 * of.bending * of.tightest / of.room, rounding = 1e-12;
   CHECK(of.torque_to_tighten(force) == Approx(0).margin(rounding));
 }
 
-TEST_CASE("corkscrew: the helix of least energy under compression and torque has the limit's curvature at the critical torque") {
+TEST_CASE(
+    "corkscrew: the helix of least energy under compression and torque has the limit's curvature at the critical torque") {
   const BoredCable of = cable();
   const double compression = 40, torque = of.torque_to_tighten(compression);
   REQUIRE(torque > 0);
