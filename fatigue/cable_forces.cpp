@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "fatigue/strain_relief.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
@@ -222,8 +223,7 @@ void write_tensions(pipeline::FileWriter& life, const std::vector<std::string>& 
 
 }  // namespace
 
-std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& strain,
-                                                  const pipeline::Job& job, pipeline::FileWriter& life) {
+CableForces write_cable_forces(const pipeline::FileReader& strain, const pipeline::Job& job, pipeline::FileWriter& life) {
   if (!strain.has("/cable/strain")) {
     for (const char* name : {"largest_force_share", "clamp_moment_share"})
       if (strain.has_attribute(name)) life.attribute(name, strain.number_attribute(name));
@@ -236,7 +236,7 @@ std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& st
   std::vector<double> cable_moment, hose_moment;  // of the span whose cables ask most of their hose
   std::vector<pipeline::CableForce> force;
   for (const PulledCable& cable : cables.all) force.push_back(cable.force);
-  double force_share = 0, moment_share = 0;
+  double force_share = 0, moment_share = 0, relief_share = 0;
   std::size_t strained = 0, at_sample = 0;   // the cable that takes most of its strength, and when
   std::size_t bender = 0, bent_sample = 0;  // the cable that pulls most at the most bent clamp, and when
   for (std::size_t span = 0; span < cables.spans; ++span) {
@@ -246,6 +246,11 @@ std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& st
     if (in_span.empty()) continue;
     pipeline::CablePulls pulls = pipeline::pulls_of(taken(cables, in_span), cables.samples);
     for (std::size_t i = 0; i < in_span.size(); ++i) tension[in_span[i]] = std::move(pulls.tension[i]);
+    for (std::size_t i = 0; i < in_span.size(); ++i) {
+      const double held = held_by_strain_relief(2 * facts[in_span[i]].component->radius);
+      if (held > 0)
+        relief_share = std::max(relief_share, std::max(pulls.end_pull[i][0], pulls.end_pull[i][1]) / held);
+    }
     if (pulls.force_share > force_share)
       force_share = pulls.force_share, strained = in_span[pulls.of_cable], at_sample = pulls.at_sample;
     std::vector<double> of_hose(cables.samples);
@@ -265,6 +270,7 @@ std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& st
   life.append("/clamp/hose_moment", hose_moment);
   life.attribute("largest_force_share", force_share);
   life.attribute("clamp_moment_share", moment_share);
+  life.attribute("strain_relief_share", relief_share);
   const bool sticks = !slides(job.strain.slip.front());
   std::vector<pipeline::Warning> warnings;
   if (force_share > pipeline::believable_share)
@@ -284,7 +290,7 @@ std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& st
                     pipeline::readable(std::abs(tension[bender][bent_sample]))),
         cure.cause, cure.remedy));
   }
-  return warnings;
+  return {std::move(warnings), std::move(tension)};
 }
 
 }  // namespace dresslife::fatigue

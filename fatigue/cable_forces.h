@@ -10,9 +10,13 @@
 
 namespace dresslife::fatigue {
 
+struct CableForces {
+  std::vector<pipeline::Warning> warnings;
+  std::vector<std::vector<double>> tension;  ///< (cable, sample) of the file, largest along each by size [N]; empty: not known
+};
+
 /// Writes tensions, moments and their shares into the life file. Of a file that has no strains of cables what
 /// it tells itself is handed on. Errors: InputError when the file names a cable that the job does not have.
-std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& strain,
-                                                  const pipeline::Job& job, pipeline::FileWriter& life);
+CableForces write_cable_forces(const pipeline::FileReader& strain, const pipeline::Job& job, pipeline::FileWriter& life);
 
 }  // namespace dresslife::fatigue

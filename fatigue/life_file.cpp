@@ -586,20 +586,23 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c) {
 }
 
 /// Modes that are not in the planner's hours. Returns notes for the terminal. lives: (sample) log10 repeats of those
-/// that are.
-std::string write_unvalidated(const Context& c, const std::vector<double>& lives) {
+/// that are. tension: see corkscrew.h.
+std::string write_unvalidated(const Context& c, const std::vector<double>& lives,
+                              const std::vector<std::vector<double>>& tension) {
   std::vector<pipeline::UnvalidatedMode> modes = abrasion_modes(c.strain, c.job, lives);
   const auto jackets = jacket_modes(c.strain, c.job, lives);
   modes.insert(modes.end(), jackets.begin(), jackets.end());
   const auto rated = rating_modes(c.strain, c.job, lives);
   modes.insert(modes.end(), rated.begin(), rated.end());
+  const auto coils = corkscrew_modes(c.strain, c.job, lives, tension);
+  modes.insert(modes.end(), coils.begin(), coils.end());
   const auto wall = write_hose(c);
   modes.insert(modes.end(), wall.begin(), wall.end());
   c.life.attribute("unvalidated_modes", pipeline::unvalidated_text(modes));
-  c.life.attribute("not_evaluated", not_evaluated(c.strain, c.job));
+  c.life.attribute("not_evaluated", not_evaluated(c.strain, c.job, coils.size() == c.job.dresspacks.size()));
   std::string summary;
   for (const pipeline::UnvalidatedMode& mode : modes)
-    if (mode.mode != pipeline::UnvalidatedMode::rating)
+    if (mode.mode != pipeline::UnvalidatedMode::rating && mode.mode != pipeline::UnvalidatedMode::corkscrew)
       summary += fmt::format("; the {} {}",
                              mode.mode == pipeline::UnvalidatedMode::wall     ? "hose's wall"
                              : mode.mode == pipeline::UnvalidatedMode::jacket ? "worst jacket"
@@ -849,8 +852,8 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_program(c, cycles);
   write_causes(c, cycles, write_worst_strain(c));
   const std::string summary = write_worst(c, cycles, p10_repeats);
-  const std::vector<pipeline::Warning> of_forces = write_cable_forces(strain, job, life);
-  return {pipeline::joined(of_forces, warnings_of(c, cycles)), summary + write_unvalidated(c, first.log10_life)};
+  const CableForces forces = write_cable_forces(strain, job, life);
+  return {pipeline::joined(forces.warnings, warnings_of(c, cycles)), summary + write_unvalidated(c, first.log10_life, forces.tension)};
 }
 
 }  // namespace dresslife::fatigue

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 
+#include "fatigue/corkscrew.h"
 #include "fatigue/damage.h"
 #include "fatigue/inspection.h"
 #include "fatigue/life_distribution.h"
@@ -327,7 +328,36 @@ std::vector<UnvalidatedMode> rating_modes(const FileReader& strain, const pipeli
   return modes;
 }
 
-std::string not_evaluated(const FileReader& strain, const pipeline::Job& job) {
+std::vector<UnvalidatedMode> corkscrew_modes(const FileReader& strain, const pipeline::Job& job, const std::vector<double>& lives,
+                                             const std::vector<std::vector<double>>& tension) {
+  std::vector<UnvalidatedMode> modes;
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    const std::optional<Corkscrew> worst = corkscrew(strain, job, d, tension);
+    if (!worst) continue;
+    const Program program(strain);
+    UnvalidatedMode& mode = modes.emplace_back();
+    mode.mode = UnvalidatedMode::corkscrew;
+    mode.dresspack = pipeline::name_among(job, d);
+    mode.place = path_in_job(job, strain.read<std::string>("/cable/name")[worst->cable]).inside;
+    mode.time = program.time[worst->sample];
+    program.put_sample(mode, worst->sample);
+    put_place(mode, strain, d, worst->position);
+    mode.note = worst->margin < BoredCable::largest_margin
+                    ? fmt::format("Forces and twist {} times as large would wind it.", pipeline::readable(worst->margin, 2))
+                    : "Neither its forces nor its twist would wind it.";
+    if (worst->turn_left > 0)
+      mode.note += fmt::format(" A repeat leaves {} degrees of twist.", pipeline::readable(180 / std::numbers::pi * worst->turn_left, 2));
+    // Stiffnesses of a cable are known within a factor of two. ESTIMATE.
+    constexpr double spread = 0.3;
+    std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
+    if (std::isfinite(worst->repeats))
+      own = pipeline::first_failures({response_of(mode.mode, worst->repeats, spread, job, mode.dresspack)}, "", lives.size());
+    set_lives(mode, std::move(own), lives, program.repeat());
+  }
+  return modes;
+}
+
+std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, bool corkscrew) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -364,7 +394,9 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job) {
   if (!bare.empty() && bare.size() == cables) add("jackets of the cables");
   else
     for (const std::string& cable : bare) add("jacket of " + cable);
-  for (const char* always : {"kinks", "corkscrew", "fretting and grip at clamps", "connectors"}) add(always);
+  add("kinks");
+  if (!corkscrew) add(UnvalidatedMode::corkscrew);
+  for (const char* always : {"fretting and grip at clamps", "connectors"}) add(always);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

@@ -32,11 +32,17 @@ std::vector<pipeline::UnvalidatedMode> rating_modes(const pipeline::FileReader& 
                                                     const pipeline::Job& job,
                                                     const std::vector<double>& lives);
 
+/// Corkscrew of each dresspack with loose cables (corkscrew.h), of the cable that is nearest to it. lives: as above. tension: see there.
+std::vector<pipeline::UnvalidatedMode> corkscrew_modes(const pipeline::FileReader& strain, const pipeline::Job& job,
+                                                       const std::vector<double>& lives,
+                                                       const std::vector<std::vector<double>>& tension);
+
 /// Percentiles of a mode's own lives and what it would change if it counted. own, lives: (sample) log10 repeats.
 /// repeat: duration of one [s].
 void set_lives(pipeline::UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives, double repeat);
 
 /// The parts and modes of the job that have no life, in words: "power cable, kinks, corkscrew, fretting and grip at clamps, connectors".
-std::string not_evaluated(const pipeline::FileReader& strain, const pipeline::Job& job);
+/// corkscrew: it is evaluated for all dresspacks.
+std::string not_evaluated(const pipeline::FileReader& strain, const pipeline::Job& job, bool corkscrew);
 
 }  // namespace dresslife::fatigue

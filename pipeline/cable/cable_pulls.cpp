@@ -11,6 +11,7 @@ CablePulls pulls_of(std::span<const PulledCable> cables, std::size_t samples) {
   std::vector<double> moment(4 * samples, 0.0);  // (clamp, 2, sample) about d1 and d2
   for (const PulledCable& cable : cables) {
     std::vector<double>& tension = pulls.tension.emplace_back(samples);
+    std::array<double, 2>& end_pull = pulls.end_pull.emplace_back();
     for (std::size_t t = 0; t < samples; ++t) {
       tension[t] = cable.force.force(cable.strain[0][t]);
       if (const double strength = cable.force.strength();
@@ -22,6 +23,7 @@ CablePulls pulls_of(std::span<const PulledCable> cables, std::size_t samples) {
       for (std::size_t clamp = 0; clamp < 2; ++clamp) {
         const double strain = cable.strain[clamp + 1][t];
         const double pull = strain == cable.strain[0][t] ? tension[t] : cable.force.force(strain);
+        end_pull[clamp] = std::max(end_pull[clamp], pull);
         moment[2 * clamp * samples + t] += pull * cable.place[clamp][1];
         moment[(2 * clamp + 1) * samples + t] -= pull * cable.place[clamp][0];
       }

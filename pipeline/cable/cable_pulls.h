@@ -24,6 +24,8 @@ struct CablePulls {
   /// Largest force along each cable by size, with its sign (cable, sample) [N].
   std::vector<std::vector<double>> tension;
   std::vector<double> moment;  ///< of all cables on the hose, the larger of both clamps (sample) [N m]
+  /// Largest tension at each cable's base and at its tool clamp, 0: pressed only (cable, 2) [N].
+  std::vector<std::array<double, 2>> end_pull;
   double force_share = 0;      ///< over the force at which a cable tears, the largest of all; 0: not known
   std::size_t of_cable = 0, at_sample = 0;  ///< where and when that is
 };

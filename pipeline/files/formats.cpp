@@ -401,6 +401,9 @@ Format make_life_format() {
      "largest force of a cable over that at which it tears (materials' tensile_strength_MPa; 0: not known)"},
     {"clamp_moment_share", f64, maybe,
      "largest moment of all cables on the hose at a clamp, over the largest that the simulated hose carries there"},
+    {"strain_relief_share", f64, maybe,
+     "largest pull of a cable at a clamp over what EN 50262 asks a strain relief of type A to hold (fatigue/strain_relief.h); "
+     "a check, no life"},
     {"loose_mesh_error", f64, maybe, "as in the strain file"},
     {"worst_site", f64, always, "index of the worst site"},
     {"worst_segment_from_tool", f64, always, "its segment, counted from the tool, 1 first"},
@@ -483,7 +486,7 @@ Format make_life_format() {
      "failure modes that are not in life_hours_p10 .. _p90, because no test validates their laws: a line each with tabs "
      "between mode, dresspack among several, hours until it has failed in 10, 50, 90 % of cases (nan: not known), share of "
      "samples in which it fails before the wires, life_hours_p10 if it counted, segment from the tool, distance from the "
-     "tool m, what rubs, place around the hose or rated cable, time s, program line, of the wall by its law the bends "
+     "tool m, what rubs, place around the hose, rated or coiled cable, time s, program line, of the wall by its law the bends "
      "from straight to the limit of the bend radius, further sentences, share of the failures within the robot's life that visual checks find before (nan: not known), share of "
      "all that fail unseen; a maker's rating is a lower bound of a life"},
     {"not_evaluated", text, maybe, "parts of the dresspacks and failure modes without a life"},

@@ -16,6 +16,7 @@ struct UnvalidatedMode {
   static constexpr const char* abrasion = "abrasion";
   static constexpr const char* jacket = "jacket wear";
   static constexpr const char* rating = "maker's rating";
+  static constexpr const char* corkscrew = "corkscrew";
 
   std::string mode;       ///< one of the above
   std::string dresspack;  ///< in which, among several; empty: the only one

@@ -328,6 +328,9 @@ std::string facts(const RankingRow& row) {
                          : ". <b>Above a fifth of either, strains rest on forces that nobody sees in "
                            "a dresspack: check slack, play and grips</b>"));
   }
+  if (row.strain_relief_share)
+    fact("pull at clamps", fmt::format("{:.2g} of what a strain relief of type A has to hold (EN 50262){}", *row.strain_relief_share,
+                                       *row.strain_relief_share > 1 ? ". <b>Check that the clamps hold the cables</b>" : ""));
   if (row.loose_mesh_error)
     fact("mesh of loose cables",
          fmt::format(
@@ -343,7 +346,7 @@ std::string facts(const RankingRow& row) {
   for (const UnvalidatedMode& mode : row.unvalidated) {
     const std::string of = mode.dresspack.empty() ? "" : " of " + escaped(mode.dresspack);
     const bool wall = mode.mode == UnvalidatedMode::wall;
-    if (mode.mode == UnvalidatedMode::rating) {
+    if (mode.mode == UnvalidatedMode::rating || mode.mode == UnvalidatedMode::corkscrew) {
       fact(mode.mode + of + ", unvalidated", escaped(unvalidated_words(mode)));
       continue;
     }

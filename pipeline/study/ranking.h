@@ -96,6 +96,7 @@ struct RankingRow {
   /// them on the hose at a clamp over the largest that it carries there. Absent: no cable slides, or not
   /// known.
   std::optional<double> largest_force_share, clamp_moment_share;
+  std::optional<double> strain_relief_share;  ///< pull of a cable at a clamp over what strain reliefs are tested with; absent: as above
   std::optional<double>
       loose_mesh_error;  ///< share of loose cables' curvature that their mesh misses; absent: none lies loose
   std::string estimates;  ///< keys that the dresspacks leave out, with their estimated values; empty: none, or not known

@@ -84,6 +84,7 @@ class Table {
                             "computed lives", end),
                 [i = i](const RankingRow& row) { return std::isfinite(row.planned_errors[i]); },
                 [i = i](const RankingRow& row) { return row.planned_errors[i]; }));
+    add_corkscrew_and_ends();
   }
   std::vector<RankingColumn> columns;
 
@@ -137,6 +138,19 @@ class Table {
                 abrasion, [](const UnvalidatedMode& mode) { return mode.found_share; }));
     add(of_mode("abrasion_unseen_share", "1", "share of all dresspacks that wear through within the robot's life, unseen by checks",
                 abrasion, [](const UnvalidatedMode& mode) { return mode.unseen_share; }));
+  }
+
+  void add_corkscrew_and_ends() {
+    constexpr const char* corkscrew = UnvalidatedMode::corkscrew;
+    add(of_mode("corkscrew_life_hours_p10", "h",
+                "by then a cable has wound into a corkscrew in 10 % of such dresspacks; inf: none does; not validated", corkscrew,
+                [](const UnvalidatedMode& mode) { return mode.hours[0]; }));
+    add(of_mode("corkscrew_of", "text", "the cable that is nearest to it", corkscrew,
+                [](const UnvalidatedMode& mode) { return mode.place; }));
+    add(of_mode("corkscrew_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", corkscrew,
+                [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
+    add(of("strain_relief_share", "1", "largest pull of a cable at a clamp over what EN 50262 asks a strain relief of type A to hold",
+           &RankingRow::strain_relief_share));
   }
 
   void add_jacket() {

@@ -92,6 +92,9 @@ std::string inspection_words(const RankingRow& row) {
   if (mode->mode == UnvalidatedMode::rating)
     return fmt::format("The maker's rating of {} covers only {} (not validated): test or replace it by then.", mode->place,
                        range_text(mode->hours[0], mode->hours[2]));
+  if (mode->mode == UnvalidatedMode::corkscrew)
+    return fmt::format("Twist may wind {} into a corkscrew in the hose, {}, after {} (not validated): inspect it there.", mode->place,
+                       place, range_text(mode->hours[0], mode->hours[2]));
   return fmt::format("{} may come before, {}, after {} (not validated): inspect it there.", mode->mode, place,
                      hours_text(mode->early_hours()));
 }
@@ -104,6 +107,16 @@ std::string rating_words(const UnvalidatedMode& mode, const std::string& of) {
                                               mode.step.empty() ? "" : ", during '" + mode.step + "'");
   return fmt::format("The maker's rating of {}{} is a lower bound of its life, is not validated and not in the hours above. It "
                      "covers {}.", mode.place, of, until);
+}
+
+std::string corkscrew_words(const UnvalidatedMode& mode, const std::string& of) {
+  const std::string life = std::isinf(mode.hours[0]) ? "None occurs." : fmt::format("It occurs after {} (10 .. 90 %).",
+                                                                                     range_text(mode.hours[0], mode.hours[2]));
+  return joined_words({fmt::format("Corkscrew{} is not validated and not in the hours above. {} Nearest to it is {}, {:.2f} m from the "
+                                   "tool, at {:.1f} s{}.",
+                                   of, life, mode.place, mode.position_from_tool, mode.time,
+                                   mode.step.empty() ? "" : ", during '" + mode.step + "'"),
+                       mode.note});
 }
 
 }  // namespace
@@ -231,6 +244,7 @@ std::string unvalidated_words(const UnvalidatedMode& mode) {
     return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.{}", of,
                        unvalidated_life(mode.hours[1]), too_short_wall(mode));
   if (mode.mode == UnvalidatedMode::rating) return joined_words({rating_words(mode, of), mode.note});
+  if (mode.mode == UnvalidatedMode::corkscrew) return corkscrew_words(mode, of);
   const bool jacket = mode.mode == UnvalidatedMode::jacket;
   if (mode.place.empty())
     return jacket ? fmt::format("Jacket wear{}: no cable rubs in the hose.", of)

@@ -16,7 +16,9 @@
 #include "fatigue/verdict.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/cable/believable.h"
+#include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/cable_force.h"
+#include "pipeline/cable/polymer.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/life_response.h"
 #include "pipeline/life/unvalidated_modes.h"
@@ -78,6 +80,8 @@ struct StrainFile {
         strain;  // largest, at the base and at the tool clamp, at the last sample; rising evenly to there
   };
   std::vector<Cable> cables;        // of the job's first component
+  double room = 0;              // of each cable [m]; 0: no table
+  double twist = 0;             // of all segments at the last sample, rising evenly to there [rad/m]
   std::vector<double> hose_moment;  // (span) at the last sample, as the strains
   double curvature = 0;        // about d1 at samples 20 and, to the other side, 60; else 0 [1/m]
   std::vector<Rubbed> rubbed;  // by link_4, 5 mm long, in one sector of 5 degrees; empty: no table
@@ -126,6 +130,9 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
   const std::vector<double> lengths{0.1, 0.2, 0.3, 0.4};
   const std::vector<std::string> text{"approach", "weld", "retreat"};
   const std::vector<double> rows(samples * segments, 0.0);
+  std::vector<double> twists;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    twists.push_back(f.twist * static_cast<double>(k / segments) / (samples - 1));
   std::vector<double> pairs(2 * samples * segments, 0.0);
   for (std::size_t k = 0; k < segments; ++k)
     pairs[2 * (20 * segments + k)] = f.curvature, pairs[2 * (60 * segments + k)] = -f.curvature;
@@ -139,7 +146,7 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
   file.append("/segment/length", std::span<const double>(lengths));
   file.append("/segment/wires_at", std::vector<double>{0, 0.2, 0.45, 0.8});  // the first at its clamp
   file.append("/deformation/curvature", std::span<const double>(pairs));
-  file.append("/deformation/twist", std::span<const double>(rows));
+  file.append("/deformation/twist", std::span<const double>(twists));
   file.append("/deformation/elongation", std::span<const double>(rows));
   write_set(file, "", f.sites, f.wrong_offset);
   write_set(file, "/bound_stick", f.stick, 0);
@@ -179,6 +186,9 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
       file.append("/cable/dresspack", std::vector<std::int32_t>{0});
       file.append("/cable/component", std::vector<std::int32_t>{0});
       file.append("/cable/clamp_place", std::span<const double>(f.cables[k].place));
+      if (f.room == 0) continue;
+      file.append("/cable/room", std::vector<double>{f.room});
+      file.append("/cable/path_gain", std::vector<double>{0, 0});
     }
     for (std::size_t t = 0; t < samples; ++t) {
       const double risen = double(t) / (samples - 1);
@@ -372,6 +382,8 @@ TEST_CASE("life.h5: forces of the cables by span, and the span where they ask mo
     CHECK(life.read<double>("/clamp/hose_moment")[50] == Approx((in_first ? of_first : 0.1) / 2));
     CHECK(life.number_attribute("largest_force_share") ==
           Approx(std::abs(force.force(-3e-4)) / force.strength()));
+    // Of 10 mm; only the third cable's base clamp is pulled most.
+    CHECK(life.number_attribute("strain_relief_share") == Approx(force.force(2e-4) / 42));
     const auto warns = [&](const std::string& words) {
       return std::any_of(
           result.notes.warnings.begin(), result.notes.warnings.end(),
@@ -1035,6 +1047,58 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   f.rubbed[1] = {-0.15, 10, 30};
   CHECK_THROWS_WITH(run(folder, f, job, "damaged.h5"),
                     Catch::Contains("/rubbing: row 2 is no patch of a dresspack; make the file again with dresslife-strain"));
+}
+
+TEST_CASE("life.h5: a twist that every repeat leaves winds a loose cable into a corkscrew") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;
+  dresspack.components[0].radius = 5e-3;
+  dresspack.components[0].components.resize(1);
+  pipeline::Component& wires = dresspack.components[0].components[0];
+  wires.name = "wire", wires.material = "copper", wires.count = 100, wires.radius = 7.5e-5;
+  StrainFile f = example();
+  f.cables = {{0, {0, 0, 0, 0}, {0, 0, 0}}};
+  f.hose_moment = {1};
+  const auto coil_of = [&](const char* name) {
+    const FileReader life(run(folder, f, job, name).file, pipeline::life_format());
+    auto modes = pipeline::unvalidated_from(life.text_attribute("unvalidated_modes"));
+    std::erase_if(modes, [](const auto& mode) { return mode.mode != pipeline::UnvalidatedMode::corkscrew; });
+    return std::pair{modes, life.text_attribute("not_evaluated")};
+  };
+  CHECK(coil_of("no_room.h5").first.empty());
+  CHECK_THAT(coil_of("no_room.h5").second, Catch::Contains("corkscrew"));
+  f.room = 0.01;
+  const auto [still, rest] = coil_of("still.h5");
+  CHECK_THAT(rest, !Catch::Contains("corkscrew"));
+  REQUIRE(still.size() == 1);
+  CHECK(std::isinf(still[0].hours[0]));
+  CHECK(still[0].note == "Neither its forces nor its twist would wind it.");
+  f.twist = 0.5;
+  CHECK(std::isinf(coil_of("recorded.h5").first[0].hours[0]));  // without joints what a repeat leaves is not known
+  for (std::size_t t = 0; t < samples; ++t) f.joints.push_back(2 * std::numbers::pi * static_cast<double>(t) / (samples - 1));
+  const auto [wound, other] = coil_of("wound.h5");
+  REQUIRE(wound.size() == 1);
+  // Without a force: 4/3 E I q of torque at the tight coil. The last sample is twisted by as much as a repeat leaves.
+  const double bending = pipeline::CableForce(dresspack, dresspack.components[0]).bending_stiffness();
+  const double torsion = pipeline::pull_and_twist(dresspack, dresspack.components[0]).relaxed() +
+                         pipeline::torsion_of_polymer * pipeline::polymer_bending(dresspack.components[0]);
+  const double tight = 4.0 / 3 * bending * std::sqrt(20 / f.room), torque = torsion * f.twist;
+  constexpr double strata = 1e-3;  // 10,000 samples
+  CHECK(wound[0].hours[1] == Approx(hours(tight / torque - 1, duration)).epsilon(strata));
+  CHECK(wound[0].time == Approx(duration));
+  CHECK_THAT(wound[0].note, Catch::Contains("A repeat leaves 29 degrees of twist."));
+  for (double& angle : f.joints) angle /= 3;
+  CHECK(std::isinf(coil_of("elsewhere.h5").first[0].hours[0]));
+  f.twist = 1.01 * tight / torsion;
+  CHECK(coil_of("tight.h5").first[0].hours[1] == Approx(hours(1, duration)).epsilon(strata));
+  dresspack.materials[0].tensile_strength = 230e6;
+  f.cables[0].strain = {-1e-3, 0, 0};  // a third of what tears it
+  CHECK(coil_of("forced.h5").first.empty());
+  f.cables[0].strain = {0, 0, 0};
+  CHECK(coil_of("unforced.h5").first.size() == 1);
+  f.room = std::numeric_limits<double>::infinity();
+  CHECK(coil_of("endless.h5").first.empty());
 }
 
 TEST_CASE("life.h5: of the cables in a hose the one whose jacket is worn through first is named, beside the wires") {

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double unasked = -1e3;  // of a limit that is not set: far from it, and finite for the models
 
-enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable, abrasion, wall, rating, jacket, bracket };
+enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable, abrasion, wall, rating, jacket, corkscrew, bracket };
 static_assert(bracket == bracket_limit);
 
 void see(Outcome& outcome, Limit limit, double g) {
@@ -39,11 +39,12 @@ struct ModeLimit {
   Limit limit;
   std::optional<double> AskedLimits::*hours;
 };
-constexpr std::array<ModeLimit, 4> mode_limits{
+constexpr std::array<ModeLimit, 5> mode_limits{
     {{"abrasion_life_h", UnvalidatedMode::abrasion, abrasion, &AskedLimits::abrasion},
      {"wall_life_h", UnvalidatedMode::wall, wall, &AskedLimits::wall},
      {"rating_life_h", UnvalidatedMode::rating, rating, &AskedLimits::rating},
-     {"jacket_life_h", UnvalidatedMode::jacket, jacket, &AskedLimits::jacket}}};
+     {"jacket_life_h", UnvalidatedMode::jacket, jacket, &AskedLimits::jacket},
+     {"corkscrew_life_h", UnvalidatedMode::corkscrew, corkscrew, &AskedLimits::corkscrew}}};
 
 void see_modes(Outcome& outcome, const RankingRow& row, const AskedLimits& asked) {
   for (const ModeLimit& of : mode_limits)
@@ -81,7 +82,7 @@ const std::vector<std::string>& outcome_limit_names() {
       "bend radius", "twist",         "too short",           "too long",
       "tension",     "contact force", "retraction's stroke", "forces in cables",
       "abrasion",    "hose's wall",   "maker's rating",      "jacket wear",
-      "bracket"};
+      "corkscrew",   "bracket"};
   return names;
 }
 
@@ -158,6 +159,7 @@ void describe(Fields& f, AskedLimits& limits) {
   f.maybe_number("wall_life_h", limits.wall, above(0), "least hours of motion until half of the hoses have cracked");
   f.maybe_number("rating_life_h", limits.rating, above(0), "least hours of motion that makers' ratings cover in 9 of 10 samples");
   f.maybe_number("jacket_life_h", limits.jacket, above(0), least);
+  f.maybe_number("corkscrew_life_h", limits.corkscrew, above(0), least);
 }
 
 Outcome worst_of(const std::vector<Outcome>& jobs) {

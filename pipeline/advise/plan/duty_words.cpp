@@ -27,6 +27,7 @@ std::string inspection(const DutyResult& duty, double hours) {
     return fmt::format(" The maker's rating of {} covers only {}: test or replace it by then.", first->place, after);
   const std::string of = first->dresspack.empty() ? "" : " of " + first->dresspack;
   if (first->mode == UnvalidatedMode::jacket) return fmt::format(" A cable's jacket{} may wear through in the hose after {}: inspect it.", of, after);
+  if (first->mode == UnvalidatedMode::corkscrew) return fmt::format(" Cables{} may wind into a corkscrew after {}: inspect them.", of, after);
   return fmt::format(" The hose{} may {} after {}: inspect it.", of,
                      first->mode == UnvalidatedMode::wall ? "crack" : "wear through", after);
 }
@@ -37,6 +38,7 @@ std::string other_words(const DutyMode& mode) {
   if (mode.mode == UnvalidatedMode::rating) return fmt::format("the maker's rating of {}{} covers {}", mode.place, of, hours);
   if (mode.mode == UnvalidatedMode::wall) return fmt::format("half of the hoses{} have cracked after {}", of, hours);
   if (mode.mode == UnvalidatedMode::jacket) return fmt::format("1 of 10 dresspacks{} has a jacket worn through in the hose after {}", of, hours);
+  if (mode.mode == UnvalidatedMode::corkscrew) return fmt::format("1 of 10 dresspacks{} has a corkscrew after {}", of, hours);
   return fmt::format("1 of 10 hoses{} is worn through after {}", of, hours);
 }
 

@@ -407,6 +407,27 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   CHECK(cell("abrasion_on").empty());
 }
 
+TEST_CASE("ranking: a corkscrew has words and columns, also if none occurs") {
+  const Scratch scratch;
+  UnvalidatedMode coil;
+  coil.mode = UnvalidatedMode::corkscrew, coil.hours = {300, 600, 1200}, coil.first_share = 1, coil.together_p10 = 300;
+  coil.position_from_tool = 0.4, coil.place = "signal cable 2", coil.time = 2, coil.note = "A repeat leaves 10 degrees of twist.";
+  SampleLife life = living(12000);
+  life.planned_hours = 1e5, life.robot_life_hours = 40000, life.unvalidated = unvalidated_text({coil});
+  const auto rows = read_ranking({job_with(scratch, "coiled", life)});
+  CHECK_THAT(action_words(rows[0]), Catch::Contains("Twist may wind signal cable 2 into a corkscrew in the hose, 0.40 m from the tool, "
+                                                    "after 300 .. 1,200 h (not validated): inspect it there."));
+  CHECK(unvalidated_words(rows[0]) ==
+        "Corkscrew is not validated and not in the hours above. It occurs after 300 .. 1,200 h (10 .. 90 %). Nearest to it is signal "
+        "cable 2, 0.40 m from the tool, at 2.0 s. A repeat leaves 10 degrees of twist.");
+  const auto table = read_csv(ranking_csv(rows));
+  const auto column = std::find(table[0].begin(), table[0].end(), "corkscrew_life_hours_p10");
+  REQUIRE(column != table[0].end());
+  CHECK(table[1].at(static_cast<std::size_t>(column - table[0].begin())) == "300");
+  coil.hours.fill(infinity), coil.note = "Forces and twist 10 times as large would wind it.";
+  CHECK_THAT(unvalidated_words(coil), Catch::Contains(". None occurs. Nearest to it is signal cable 2") && Catch::EndsWith(coil.note));
+}
+
 TEST_CASE("ranking: ratings have words and columns, and the first action names a rating that may end first") {
   const Scratch scratch;
   UnvalidatedMode rated;

@@ -160,6 +160,10 @@ TEST_CASE("modes beside the wires have limits in hours, and a limit of what a jo
   CHECK(outcome_of(row, folder, asked).violation() == Approx(std::log(3.0)));
   CHECK(outcome_of(row, folder, asked).words() == "jacket wear passed by 1.1");
   row.unvalidated.pop_back(), asked.jacket.reset();
+  row.unvalidated.push_back(mode(UnvalidatedMode::corkscrew, 100, 200));
+  asked.corkscrew = 200;
+  CHECK(outcome_of(row, folder, asked).words() == "corkscrew passed by 0.69");
+  row.unvalidated.pop_back(), asked.corkscrew.reset();
   row.unvalidated[0].hours.fill(endless), row.unvalidated[1].hours.fill(endless);
   asked.rating = 1e5;
   CHECK(outcome_of(row, folder, asked).violation() == 0);
