@@ -173,9 +173,15 @@ std::string bound_words(const RankingRow& row) {
   if (!(glued > 0) || !(free > bounds_apart * glued) || !std::isfinite(life)) return "";
   const bool is_free = life > free * (1 - same);
   if (!is_free && life > glued * (1 + same)) return "";
-  return fmt::format("The job's life equals its {} bound, at which nothing {} inside the cables. If the job sets strain.slip, leave "
-                     "it out for the best estimate, which includes the ratings of cable makers.",
-                     is_free ? "upper" : "lower", is_free ? "rubs" : "slips");
+  // Ratings were compared with tests under friction, so other jobs do not include them (pipeline/resolve/apply_calibration.h).
+  const bool has_ratings = row.estimates.find("uncertainty.ratings typical") != std::string::npos;
+  const std::string rest =
+      has_ratings ? "best estimate."
+                  : "best estimate. It includes the ratings of cable makers, which this life does not: it may be longer than this life.";
+  return fmt::format("The job's life equals its {} bound{}, at which nothing {} inside the cables. If the job sets strain.slip, leave "
+                     "it out for the {}",
+                     is_free ? "upper" : "lower", has_ratings ? "" : " without the ratings of cable makers", is_free ? "rubs" : "slips",
+                     rest);
 }
 
 std::string action_words(const RankingRow& row) {
