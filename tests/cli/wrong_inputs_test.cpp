@@ -169,7 +169,8 @@ const Wrong wrong[] = {
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 1,2", "hose.yaml:5:16: error: ", "'1,2' (must be a number", "write 1.2 with a point", draw},
     {"hose.yaml", "slack_percent: 1", "slack_percent: -1", "hose.yaml:16:20: error: ", "slack_percent is -1", "; ", draw},
     {"hose.yaml", "radius_mm: 4.1", "radius_mm: 8.2", "hose.yaml:12:5: error: ", "1.2 mm outside the hose's bore", "helix_radius_mm: 12.8 or less", draw},
-    {"hose.yaml", "helix_radius_mm: 14", "helix_radius_mm: 0.014", "hose.yaml:12:5: error: ", "inside the core", "; ", draw},
+    {"hose.yaml", "radius_mm: 4.1", "radius_mm: 22", "hose.yaml:12:5: error: ", "'lead' is 44 mm thick (the hose is 42 mm wide inside)", "take a wider hose", draw},
+    {"hose.yaml", "helix_radius_mm: 14", "helix_radius_mm: 0.014", "hose.yaml:12:5: error: ", "'lead' covers the axis by 4.09 mm", "give helix_radius_mm: 4.1 or more", draw},
     {"hose.yaml", "name: lead", "name: lead/1", "hose.yaml:12:5: error: ", "holds a '/'", "choose another name", draw},
     {"hose.yaml", "count: 19, radius_mm: 0.1", "count: 19, radius_mm: 1", "hose.yaml:18:101: error: ", "outside it", "check helix_radius_mm and radius_mm", draw},
     {"cable.yaml", "outer diameter 8.2 mm", "outer diameter 8,2 mm", "cable.yaml:6:17: error: ", "'outer diameter 8' of a data sheet", "; ", "dresslife draw cable.yaml"},
@@ -457,4 +458,25 @@ TEST_CASE("a misspelt option is answered with the nearest one, a dry run names j
   CHECK(dry.status == 1);
   CHECK_THAT(dry.out, Contains(" refused: study.yaml:3:32: error: routing.free_length_m is 2100 (its size must be ") &&
                           Contains("1 of 2 jobs to make; nothing was run\n"));
+}
+
+TEST_CASE("wrong inputs: a refused diameter of the hose gives no further errors") {
+  const Scratch scratch;
+  scratch.write("hose.yaml", edited(hose, "diameter_mm: 50", "diameter_mm: 50,5"));
+  const Outcome outcome = run(scratch, "dresslife", "draw hose.yaml");
+  INFO(outcome.err);
+  CHECK(outcome.status == 1);
+  CHECK_THAT(outcome.err, Contains("write 50.5 with a point"));
+  CHECK(count_of(outcome.err, "error: ") == 1);
+}
+
+TEST_CASE("wrong inputs: a job with a robot program is warned of its settings, too") {
+  const Scratch scratch;
+  scratch.write("hose.yaml", hose);
+  scratch.write("spot.mod", module);
+  const std::size_t begin = job.find("motion:"), end = job.find("dresspack:");
+  scratch.write("job.yaml", edited(job, job.substr(begin, end - begin), "motion: spot.mod\n") + "fatigue: {operating_hours_per_week: 0.5}\n");
+  const Outcome outcome = run(scratch, "dresslife", "check job.yaml");
+  INFO(outcome.err << outcome.out);
+  CHECK_THAT(outcome.err + outcome.out, Contains("fatigue.operating_hours_per_week is 0.5"));
 }
