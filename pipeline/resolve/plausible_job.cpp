@@ -51,6 +51,7 @@ constexpr double longest_ramp = 5,
 constexpr double farthest = 20;          // [m] from the origin: a cell
 constexpr double widest_spread = 20;  // a factor in one deviation: friction of seven published cables has 2.2
 constexpr double least_pre_twist = 6.2832 * degree, largest_pre_twist = 3600 * degree;
+constexpr int few_segments = 16;  // with more, a hose whose segments are too long is too long itself
 constexpr double shortest_bracket = 1e-3, longest_built = 2;  // [m]
 constexpr double widest_ring = 10;                            // of the dresspack's diameter
 constexpr double longest_stroke = 5, largest_pull = 2000, stiffest_spring = 1e4,
@@ -258,7 +259,7 @@ void doubt_mounting(const Routing& routing, const AddDoubt& add) {
 void doubt_routing(const Routing& routing, const Dresspack& dresspack, int segments, const AddDoubt& add) {
   doubt_mounting(routing, add);
   if (const double limit = least_bend_radius(dresspack), segment = routing.free_length / segments;
-      routing.base_clamp && limit > 0 && segment > limit)
+      routing.base_clamp && segments < few_segments && limit > 0 && segment > limit)
     add(routing.where,
         fmt::format("simulation.segments is {}: a segment is {:.3g} m long (limit {:.3g} m, the least bend radius)", segments,
                     segment, limit),
