@@ -10,12 +10,6 @@
 #include "pipeline/base/limits.h"
 
 namespace dresslife::pipeline {
-namespace {
-
-constexpr std::chrono::minutes between_lines{1};  // of a log
-
-}  // namespace
-
 std::string remaining_words(double seconds, double begun, double share) {
   const double done = share - begun;
   if (seconds < 2 || done < 0.01 || share >= 1) return "";
@@ -28,8 +22,16 @@ std::string remaining_words(double seconds, double begun, double share) {
 Progress::Progress(std::string label, bool quiet)
     : label_(std::move(label)),
       quiet_(quiet),
-      terminal_(::isatty(STDERR_FILENO)),
-      next_line_(Clock::now() + between_lines) {}
+      terminal_(::isatty(STDERR_FILENO)) {
+  log();  // the first minute begins with the first piece of work
+}
+
+Progress::Log& Progress::log() {
+  static Log log;
+  return log;
+}
+
+void Progress::set_log_interval(std::chrono::milliseconds interval) { log() = {interval, Clock::now() + interval}; }
 
 Progress::~Progress() { clear(); }
 
@@ -51,8 +53,8 @@ void Progress::show(const std::string& words) { draw(words); }
 void Progress::draw(const std::string& words) {
   if (quiet_) return;
   if (!terminal_) {
-    if (Clock::now() < next_line_) return;
-    next_line_ = Clock::now() + between_lines;
+    if (Clock::now() < log().next_line) return;
+    log().next_line = Clock::now() + log().interval;
     tell(fmt::format("{}: {}\n", label_, words));
     return;
   }

@@ -23,6 +23,8 @@ class Progress {
   void show(const std::string& words);  ///< of work whose share is not known
   void note(const std::string& line);   ///< a lasting line; also where there is no terminal, unless quiet
   void clear();
+  /// Between two lines of a log, of all Progress of a program together: short pieces of work follow each other for long.
+  static void set_log_interval(std::chrono::milliseconds interval);
 
  private:
   struct Mark {
@@ -30,6 +32,11 @@ class Progress {
     Clock::time_point time;
   };
   void draw(const std::string& words);
+  struct Log {
+    std::chrono::milliseconds interval{std::chrono::minutes{1}};
+    Clock::time_point next_line = Clock::now() + interval;
+  };
+  static Log& log();
 
   std::string label_;
   bool quiet_, terminal_;
@@ -38,7 +45,6 @@ class Progress {
   double last_share_ = 0;
   bool drawn_ = false;
   std::optional<Mark> first_;
-  Clock::time_point next_line_;
 };
 
 /// "3 min left", "2.5 h left"; empty while too little is done to tell (less than two seconds or a hundredth).

@@ -15,6 +15,7 @@
 #include "pipeline/report/calibration_picture.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/folder_source.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -53,6 +54,7 @@ int calibrate(const Options& options) {
   if (!words.empty()) tell(words);  // before hours of computation
   const StudyPlaces places{fs::path(options.out) / ("calibrate_" + file.stem().string()), program_folder()};
   const FolderLock lock(places.folder);
+  claim_folder(places.folder, file);
   const Learned learned = learn(tests, options.sets, places,
                                 [&](const Study& study) { return made_rows(study, places, options); });
   const std::string table = learned_table(learned);

@@ -25,8 +25,9 @@ void add_slip(const Job& job, std::vector<std::string>& notes) {
   for (const Slip slip : job.strain.slip)
     if (!rubs(slip)) {
       notes.push_back(fmt::format(
-          "note: strain.slip is {} at one level or more, so that the life is a bound. strain.slip: friction, or no key, gives "
-          "the best estimate",
+          "note: strain.slip is {} at one level or more, so that the life is a bound without the ratings of cable makers. "
+          "strain.slip: friction, or no key, gives the best estimate with these ratings, which may be longer than an upper bound "
+          "without them",
           word(slip)));
       return;
     }

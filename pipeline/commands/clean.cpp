@@ -9,6 +9,7 @@
 #include "pipeline/base/readable.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/folder_source.h"
 #include "pipeline/study/job_folder.h"
 
 namespace dresslife::pipeline {
@@ -23,6 +24,7 @@ int clean(const StudyOptions& options) {
     throw InputError({folder.string()}, "is not there (the study has not run)",
                      "run it: dresslife run " + options.study);
   const FolderLock lock(folder);
+  check_source(folder, request.file);
   const StudyState standing = standing_of(request);
   std::uintmax_t freed = 0;
   std::set<std::string> jobs;

@@ -8,6 +8,7 @@
 #include "pipeline/base/plain_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/folder_source.h"
 
 namespace dresslife::pipeline {
 
@@ -40,6 +41,7 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   check_programs(file, standing.study);
   for (const Warning& warning : mounting_warnings(file, standing.study)) tell(shown(warning.line() + "\n"));
   const FolderLock lock(standing.places.folder);
+  claim_folder(standing.places.folder, study);
   look_again(standing);
   make_rest(request, standing, options);
   std::vector<RankingRow> rows = ranking_of(standing.study, standing.places, standing.states);

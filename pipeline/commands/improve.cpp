@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/folder_source.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -47,8 +49,9 @@ int improve_study(Options options) {
   const std::string name = study_name(options.request.file);
   const StudyPlaces places{fs::path(options.out) / (name + "_improve"), program_folder()};
   const FolderLock lock(places.folder);
+  claim_folder(places.folder, options.request.file);
   RunOptions quiet = options;
-  quiet.quiet = true;
+  quiet.quiet = options.quiet || ::isatty(STDERR_FILENO);  // a terminal has one line, and that shows the search
   Progress progress(name, options.quiet);
   const TrialMakers makers{
       [&](const Study& study) { return made_rows(study, places, quiet); },

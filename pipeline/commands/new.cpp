@@ -142,7 +142,9 @@ Choice proposed(const Draft& draft) {
   if (draft.exercise) arguments.emplace_back("--exercise");
   if (run_stage_program("dresslife-sim", arguments) != 0)
     throw InputError({"dresslife new"}, "no routing can be proposed (see above), nothing was written",
-                     "mend what is named there");
+                     draft.exercise ? "mend what is named there"
+                                    : "mend what is named there; what it calls motion.KEY belongs to a job: make one without "
+                                      "--program, and write motion: {program: FILE, KEY: VALUE} into it");
   const ScreenedList found = read_screening(told.path());
   const ScreenedCandidate& best = found.candidates.front();
   Choice choice{parse_yaml(best.changes, "proposal"),

@@ -10,6 +10,7 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
 #include "pipeline/study/changes.h"
+#include "pipeline/study/folder_source.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/study_problems.h"
 
@@ -23,9 +24,11 @@ namespace fs = std::filesystem;
 /// run left them.
 int report(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
-  if (const fs::path folder = request.out / study_name(request.file); kind_of(folder) != FileKind::folder)
+  const fs::path folder = request.out / study_name(request.file);
+  if (kind_of(folder) != FileKind::folder)
     throw InputError({folder.string()}, "is not there (the study has not run)",
                      "run it: dresslife run " + options.study);
+  check_source(folder, request.file);
   StudyState standing = standing_of(request);
   tell_changes(standing.study, standing.places, standing.states);
   const auto& [study, places, states, remembered, looks, digests] = standing;

@@ -24,6 +24,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/units.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/folder_source.h"
 #include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {
@@ -192,6 +193,7 @@ int reprogram(const Options& options) {
   const std::string name = study_name(request.file);
   const StudyPlaces places{fs::path(options.out) / (name + "_reprogram"), program_folder()};
   const FolderLock lock(places.folder);
+  claim_folder(places.folder, request.file);
   Study study{name, changed_jobs(request, {}, "as_it_is")};
   int failed = 0;
   const std::vector<RankingRow> rows = made_rows(study, places, options);

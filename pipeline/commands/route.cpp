@@ -19,7 +19,6 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/plain_file.h"
-#include "pipeline/base/progress.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/stage_failed.h"
 #include "pipeline/base/whole_file.h"
@@ -33,6 +32,7 @@
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/folder_source.h"
 #include "pipeline/study/job_folder.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/row_words.h"
@@ -103,10 +103,12 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
 }
 
 /// Runs a routing through the whole chain.
-void run(Trial& trial, std::size_t k, const Draft& draft, const Options& options, const StudyPlaces& places) {
+/// which: "run 2 of 4", for the progress.
+void run(Trial& trial, std::size_t k, const std::string& which, const Draft& draft, const Options& options,
+         const StudyPlaces& places) {
   const ScreenedCandidate& candidate = trial.proposals.candidates[k];
   const Node document = routed(draft, candidate.changes, trial.proposals.motion, trial.factor);
-  Study study{fmt::format("{} at {:.0f} %", draft.name, 100 * trial.factor), {}};
+  Study study{fmt::format("{} at {:.0f} %, {}", draft.name, 100 * trial.factor, which), {}};
   study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * trial.factor, k + 1),
                         std::make_shared<const Job>(job_from(document)), ""});
   const RankingRow& row = trial.rows[k] = made_rows(study, places, options).front();
@@ -182,17 +184,10 @@ Trial tried(const Draft& draft, const Options& options, double factor, const Stu
     if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
       to_run.push_back(k);
   if (trial.start) to_run.push_back(*trial.start);
-  Options without_progress = options;
-  without_progress.quiet = true;
-  Progress progress(fmt::format("{} at {:.0f} % of the dresspack's size", draft.name, 100 * factor),
-                    options.quiet);
   for (std::size_t n = 0; n < to_run.size(); ++n) {
     if (to_run[n] != trial.start && !tolerance && trial.feasible()) continue;
-    progress.show(static_cast<double>(n) / static_cast<double>(to_run.size()),
-                  fmt::format("run {} of {}{}", n + 1, tolerance ? "" : "at most ", to_run.size()));
-    run(trial, to_run[n], draft, without_progress, places);
+    run(trial, to_run[n], fmt::format("run {} of {}{}", n + 1, tolerance ? "" : "at most ", to_run.size()), draft, options, places);
   }
-  progress.clear();
   if (tolerance && trial.feasible()) judge(trial, draft, options, places);
   return trial;
 }
@@ -333,6 +328,7 @@ int route(const Options& options) {
   check_replaceable(page);
   const StudyPlaces places{fs::path(options.out) / (draft.name + "_route"), program_folder()};
   const FolderLock lock(places.folder);
+  if (kind_of(options.request.of) == FileKind::file) claim_folder(places.folder, options.request.of);
   std::optional<Trial> chosen, nearest;
   for (const double factor : factors_of(options)) {
     Trial trial = tried(draft, options, factor, places);
@@ -347,7 +343,7 @@ int route(const Options& options) {
     if (feasible) break;
   }
   if (!chosen && std::isfinite(violation(*nearest))) {
-    run(*nearest, 0, draft, options, places);
+    run(*nearest, 0, "run of the nearest", draft, options, places);
     if (nearest->best) chosen = std::move(nearest);
   }
   if (!chosen) {

@@ -11,6 +11,7 @@
 #include "pipeline/commands/results.h"
 #include "pipeline/study/changes.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/folder_source.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/shards.h"
 #include "pipeline/study/study_problems.h"
@@ -27,7 +28,7 @@ int run_shard(const RunOptions& options) {
   StudyState standing = expanded(request);
   const fs::path& folder = standing.places.folder;
   const FolderLock beside(folder, FolderLock::Mode::with_shards);
-  make_notes(folder / ".stage");
+  claim_folder(folder, request.file);
   keep_shard(standing, shard);
   const FolderLock lock(folder / standing.places.notes());
   look_again(standing);
@@ -39,7 +40,9 @@ int run_shard(const RunOptions& options) {
 
 /// What a run would make, without making it.
 int dry_run(const RunOptions& options) {
-  StudyState standing = standing_of(request_of(options));
+  const StudyRequest request = request_of(options);
+  check_source(request.out / study_name(request.file), request.file);
+  StudyState standing = standing_of(request);
   tell_changes(standing.study, standing.places, standing.states);
   std::size_t to_make = 0, refused = 0;
   std::vector<Json> jobs;
@@ -81,6 +84,7 @@ int run(const Options& options) {
   const bool begun = kind_of(folder) == FileKind::folder;
   if (!begun) standing = expanded(request);  // a study that cannot be expanded leaves no folder
   const FolderLock lock(folder);
+  claim_folder(folder, request.file);
   if (begun) standing = standing_of(request);
   if (standing.remembered && !standing.all_done()) standing = expanded(request);
   if (!begun) look_again(standing);

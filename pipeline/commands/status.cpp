@@ -7,13 +7,16 @@
 #include "pipeline/commands/as_json.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/study/changes.h"
+#include "pipeline/study/folder_source.h"
 #include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 int status(const StudyOptions& options) {
-  StudyState standing = standing_of(request_of(options));
+  const StudyRequest request = request_of(options);
+  check_source(request.out / study_name(request.file), request.file);
+  StudyState standing = standing_of(request);
   tell_changes(standing.study, standing.places, standing.states);
   std::size_t done = 0;
   std::vector<Json> jobs;

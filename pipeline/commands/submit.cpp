@@ -12,6 +12,7 @@
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/job/cluster.h"
+#include "pipeline/study/folder_source.h"
 #include "pipeline/study/shards.h"
 
 namespace dresslife::pipeline {
@@ -76,7 +77,9 @@ std::string submitted(const Cluster& cluster, const std::string& more, const fs:
 
 int submit(const SubmitOptions& options) {
   const Cluster cluster = read_cluster(named_file(options.cluster, "clusters"));
-  const StudyState standing = standing_of(request_of(options));
+  const StudyRequest request = request_of(options);
+  check_source(request.out / study_name(request.file), request.file);
+  const StudyState standing = standing_of(request);
   if (standing.all_done()) {
     print(shown(fmt::format("{}: nothing to do; dresslife report tells of it\n", standing.study.name)));
     return 0;
@@ -84,6 +87,7 @@ int submit(const SubmitOptions& options) {
   const int shards = shards_needed(standing, cluster.most_stages);
   const fs::path script = standing.places.folder / "submit.sh";
   fs::create_directories(standing.places.folder);
+  claim_folder(standing.places.folder, request.file);
   write_text_if_changed(script, with_mark(script_of(options, cluster, standing), Mark::script));
   const std::string array = shards > 1 ? fmt::format(" --array=1-{}", shards) : "";
   if (options.only_write) {

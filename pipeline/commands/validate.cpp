@@ -11,6 +11,7 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/report/validation_picture.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/folder_source.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -18,11 +19,12 @@ namespace {
 namespace fs = std::filesystem;
 
 int validate(const RunOptions& options) {
-  const ValidationStudy validation =
-      read_observations(named_file(options.study, "observations"), options.sets);
+  const fs::path file = named_file(options.study, "observations");
+  const ValidationStudy validation = read_observations(file, options.sets);
   for (const Warning& warning : validation.doubts) tell(shown(warning.line() + "\n"));
   const StudyPlaces places{fs::path(options.out) / validation.study.name, program_folder()};
   const FolderLock lock(places.folder);
+  claim_folder(places.folder, file);
   const std::vector<RankingRow> rows = made_rows(validation.study, places, options);
   const std::string table = validation_table(validation, rows);
   write_text_if_changed(places.folder / "validation.md", with_mark(table, Mark::xml));

@@ -298,7 +298,7 @@ int check_component(const Component& component, const Component* parent, Problem
 
 /// A thin wall with round crests and roots fits the profile (corrugation.h).
 void check_hose(const Dresspack& dresspack) {
-  if (!dresspack.hose_corrugation) return;
+  if (!dresspack.hose_corrugation || !(dresspack.diameter > 0)) return;  // a refused diameter is a problem of its own
   const Corrugation& c = *dresspack.hose_corrugation;
   if (dresspack.hose_strain_factor)
     throw InputError(c.where, "both hose_strain_factor and hose_corrugation are given",
@@ -365,14 +365,28 @@ void check_room(const Dresspack& dresspack) {
 /// What fills the middle is either described by the core's keys or a component; no part lies in the core or outside
 /// the bore.
 void check_place(const Dresspack& dresspack, const Component& component) {
+  if (!(dresspack.diameter > 0)) return;  // refused: a problem of its own
   const PartsRoom room = room_of_parts(dresspack);
+  if (inner_radius(dresspack) && !room.estimated && component.radius > room.bore)
+    throw InputError(component.where,
+                     fmt::format("'{}' is {:.4g} mm thick (the hose is {:.4g} mm wide inside)", component.name,
+                                 2e3 * component.radius, 2e3 * room.bore),
+                     "check the diameters of both, or take a wider hose");
   const bool has_core = room.core > 0 || dresspack.core_bending_stiffness.value_or(0) > 0;
   if (component.helix_radius == 0 && has_core && inner_radius(dresspack))
     throw InputError(
         component.where,
         fmt::format("'{}' lies in the middle, and the keys core_.. describe something else that does", component.name),
         "leave out the keys core_.., or the component");
-  if (const double by = inside_core(room, component); by > 0)
+  if (const double by = inside_core(room, component); by > 0 && room.core == 0)
+    throw InputError(component.where,
+                     fmt::format("'{}' covers the axis by {:.3g} mm (helix_radius_mm is {:.4g}, radius_mm {:.4g})", component.name,
+                                 1e3 * by, 1e3 * component.helix_radius, 1e3 * component.radius),
+                     room.bore < 2 * component.radius
+                         ? "give helix_radius_mm: 0; beside the axis it has no room"
+                         : fmt::format("give helix_radius_mm: {:.4g} or more{}", 1e3 * component.radius,
+                                       component.count == 1 ? ", or 0 in the middle" : ""));
+  else if (by > 0)
     throw InputError(component.where,
                      fmt::format("'{}' begins {:.4g} mm from the axis, {:.3g} mm inside the core (core_diameter_mm is "
                                  "{:.4g})",

@@ -29,6 +29,7 @@ constexpr double wire_lay_ratio = 16;  // lay length over the conductor's width:
 constexpr double core_lay_ratio = 12;  // over the width of the cores: flexible cables have 8 to 16
 constexpr double section_tolerance = 0.25;  // a standard's nominal section is a rounded one: 0.22 for 7 x 0.2 mm
 constexpr double thickest_insulation = 5;  // core over conductor: control cables have 1.5 to 3, those for 1 kV up to 4
+constexpr double thinnest_insulation = 50e-6;  // [m]: signal cables have 0.15 mm and more
 constexpr int rounds = 60;             // of the search for the cores' diameter
 
 double first_radius(int count, double diameter) {
@@ -86,7 +87,8 @@ void lay(CoreRing& ring, double diameter, double lay_length, const Where& where)
 /// What a sheet stands for, from the wire outwards.
 class Expansion {
  public:
-  explicit Expansion(const DataSheet& sheet) : sheet_(sheet), wire_(wire_of(sheet)) {
+  explicit Expansion(const DataSheet& given) : sheet_(with_class(given)), wire_(wire_of(sheet_)), has_class_(given.conductor_class > 0) {
+    const DataSheet& sheet = sheet_;
     const double section = pi / 4 * wire_ * wire_;
     const double wires = std::round(sheet.cross_section / section);
     if (wires < 1 || wires > most_wires)
@@ -113,6 +115,7 @@ class Expansion {
   /// What a rule stands in for: "wire 0.15 mm, jacket 1.21 mm"; empty: nothing.
   std::string estimates() const {
     std::vector<std::string> parts;
+    if (!has_class_ && sheet_.conductor_class > 0) parts.push_back(fmt::format("conductor class {}", sheet_.conductor_class));
     const auto add = [&](const char* what, bool given, double value) {
       if (!given) parts.push_back(fmt::format("{} {:.3g} mm", what, 1e3 * value));
     };
@@ -140,11 +143,13 @@ class Expansion {
  private:
   static constexpr int most_wires = 5000;  // 400 mm2 of class 6
 
+  /// Cables that move have the finest class: the one that counts where neither the class nor the wire is given.
+  static DataSheet with_class(DataSheet sheet) {
+    if (!sheet.conductor_class && !sheet.wire_diameter) sheet.conductor_class = fine_class;
+    return sheet;
+  }
   /// Given, else by the class. Errors: InputError for a class without it, or a wire that is too thick for it.
   static double wire_of(const DataSheet& sheet) {
-    if (!sheet.conductor_class && !sheet.wire_diameter)
-      throw InputError(sheet.where, "data_sheet has neither wire_diameter_mm nor conductor_class",
-                       "give one of the two: wire_diameter_mm: 0.15, or conductor_class: 6 (IEC 60228)");
     if (!sheet.conductor_class) return *sheet.wire_diameter;
     if (sheet.conductor_class < flexible_class)
       throw InputError(sheet.where,
@@ -270,6 +275,12 @@ class Expansion {
                       wire_count(), 1e3 * wire_, 1e3 * conductor_, 1e3 * core_diameter_),
           (fitting_gauge().empty() ? fitting_diameter() : fitting_gauge()) +
               "check cross_section_mm2, of one core, the jacket's thickness and the diameters");
+    if (core_diameter_ < conductor_ + 2 * thinnest_insulation)
+      throw InputError(
+          sheet_.where,
+          fmt::format("a core is {:.4g} mm wide, which leaves {:.3g} mm of insulation around its conductor of {:.3g} mm (limit {:g} mm)",
+                      1e3 * core_diameter_, 5e2 * (core_diameter_ - conductor_), 1e3 * conductor_, 1e3 * thinnest_insulation),
+          fitting_diameter() + "check the diameters, jacket_thickness_mm and cross_section_mm2, of one core");
     if (!sheet_.core_diameter && core_diameter_ > thickest_insulation * conductor_)
       throw InputError(
           sheet_.where,
@@ -347,6 +358,7 @@ class Expansion {
 
   DataSheet sheet_;
   double wire_, outer_ = 0, jacket_ = 0;  // [m]
+  bool has_class_;                        // of its own
   std::vector<CoreRing> wire_rings_;
   double conductor_ = 0, core_diameter_ = 0;  // [m]
 };
@@ -420,6 +432,12 @@ std::string jacket_material(const std::string& phrase) {
   return "";
 }
 
+/// Decimal commas as points: "12 x 0,25 mm2, OD 9,5 mm". A comma behind a unit, or before a number of cores, separates.
+std::string with_points(const std::string& text) {
+  static const std::regex comma(R"((^|[^a-zA-Z0-9.²^])(\d+),(\d+)(?![\d.]* *[xX*]))");
+  return std::regex_replace(text, comma, "$1$2.$3");
+}
+
 /// The keys that one phrase of a sheet's line stands for.
 std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase,
                                                                 const Where& where) {
@@ -462,18 +480,23 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
 Node sheet_from_line(const Node& line) {
   Node sheet;
   sheet.kind = Node::Kind::map;
-  std::string_view rest = line.text;
+  const std::string text = with_points(line.text);
+  std::string_view rest = text;
+  Problems problems;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(','), rest.size());
     const std::string phrase = plain(std::string(rest.substr(0, end)));
     rest.remove_prefix(std::min(end + 1, rest.size()));
-    for (const auto& [key, value] : keys_of_phrase(phrase, line.where)) {
-      if (sheet.find(key))
-        throw InputError(line.where, fmt::format("'{}' tells {} a second time", phrase, key),
-                         "keep one of the two");
-      sheet[key] = scalar(value);
-    }
+    problems.attempt("", line.where, [&] {
+      for (const auto& [key, value] : keys_of_phrase(phrase, line.where)) {
+        if (sheet.find(key))
+          throw InputError(line.where, fmt::format("'{}' tells {} a second time", phrase, key),
+                           "keep one of the two");
+        sheet[key] = scalar(value);
+      }
+    });
   }
+  problems.finish();
   place_at(sheet, line.where);
   return sheet;
 }

@@ -52,8 +52,8 @@ void describe(Fields& f, DataSheet& sheet);
 /// diameter 8.2 mm, jacket PUR 1.1 mm". Of pairs "4 x 2 x 0.25 mm2", "pair lay length 20 mm"; "core
 /// diameter 1.4 mm", "wire lay length 18 mm". The class may stand in for the lengths. A jacket's material (PUR,
 /// TPU, PVC, TPE) gives its wear rates; others give none.
-/// Without a class the wire and the jacket or core must be given. Errors: InputError at the line for words that
-/// are none of these.
+/// Without the wire and the class, class 6 counts; with the wire alone, the jacket or core must be given. Decimal commas are
+/// accepted. Errors: InputErrors at the line, one for each phrase that is none of these.
 Node sheet_from_line(const Node& line);
 
 enum class Fillers { none, allowed };

@@ -1,6 +1,7 @@
 #include "pipeline/resolve/plausible_job.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <numbers>
 
 #include "pipeline/base/warning_words.h"
+#include "pipeline/cable/bend_limit.h"
 #include "pipeline/resolve/radians.h"
 #include "pipeline/settings/fields.h"
 
@@ -49,6 +51,7 @@ constexpr double longest_ramp = 5,
 constexpr double farthest = 20;          // [m] from the origin: a cell
 constexpr double widest_spread = 20;  // a factor in one deviation: friction of seven published cables has 2.2
 constexpr double least_pre_twist = 6.2832 * degree, largest_pre_twist = 3600 * degree;
+constexpr int few_segments = 16;  // with more, a hose whose segments are too long is too long itself
 constexpr double shortest_bracket = 1e-3, longest_built = 2;  // [m]
 constexpr double widest_ring = 10;                            // of the dresspack's diameter
 constexpr double longest_stroke = 5, largest_pull = 2000, stiffest_spring = 1e4,
@@ -232,7 +235,35 @@ void doubt_cell(const Cell& cell, const SimulationSettings& simulation, const Ad
           fmt::format("radius_mm: {:g} if that was metres", 1e6 * cell.capsules[k].radius));
 }
 
-void doubt_routing(const Routing& routing, const Dresspack& dresspack, const AddDoubt& add) {
+/// Radians as a controller shows them, rounded: no axis beyond a turn, and parts of a degree.
+void doubt_mounting(const Routing& routing, const AddDoubt& add) {
+  std::vector<std::string> written, meant;
+  double largest = 0;
+  int parts = 0;
+  for (const double angle : routing.mounting_pose) {
+    const double number = angle / degree;
+    largest = std::max(largest, std::abs(number));
+    parts += std::abs(number - std::round(number)) > 1e-9;
+    written.push_back(fmt::format("{:.4g}", number));
+    meant.push_back(fmt::format("{:.4g}", number / degree));
+  }
+  if (parts < 2 || largest > most_radians) return;
+  add(routing.where,
+      fmt::format("no angle of routing.mounting_pose_deg, [{}], is larger than {:.3g} deg (limit {:.3g} or more)",
+                  fmt::join(written, ", "), largest, most_radians),
+      "radians instead of degrees",
+      fmt::format("routing.mounting_pose_deg: [{}] if those were radians; leave it if the arm stood so near to its zero pose",
+                  fmt::join(meant, ", ")));
+}
+
+void doubt_routing(const Routing& routing, const Dresspack& dresspack, int segments, const AddDoubt& add) {
+  doubt_mounting(routing, add);
+  if (const double limit = least_bend_radius(dresspack), segment = routing.free_length / segments;
+      routing.base_clamp && segments < few_segments && limit > 0 && segment > limit)
+    add(routing.where,
+        fmt::format("simulation.segments is {}: a segment is {:.3g} m long (limit {:.3g} m, the least bend radius)", segments,
+                    segment, limit),
+        "a number for a trial: the shape, the bends and the lives are wrong", "simulation.segments: 64");
   if (const double twist = std::abs(routing.pre_twist);
       (twist > 0 && twist < least_pre_twist) || twist > largest_pre_twist)
     add(routing.where,
@@ -337,7 +368,7 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
   doubt_robot(job.robot, doubt);
   doubt_cell(job.cell, job.simulation, doubt);
   for (const MountedDresspack& mounted : job.dresspacks)
-    doubt_routing(mounted.routing, mounted.dresspack, doubt);
+    doubt_routing(mounted.routing, mounted.dresspack, job.simulation.segments, doubt);
   warnings = joined(std::move(warnings), radians_in(echo_fields(job.robot), "robot"));
   warnings = joined(std::move(warnings), radians_in(echo_fields(job.cell), "cell"));
   for (const MountedDresspack& mounted : job.dresspacks) {

@@ -69,9 +69,9 @@ namespace {
 std::string too_short_wall(const UnvalidatedMode& mode) {
   constexpr double published_bends = 16e6, long_life = 1e5;  // [h]: no robot works so long
   if (mode.bends_at_limit <= 0 || mode.bends_at_limit >= published_bends || !(mode.hours[1] < long_life)) return "";
-  return fmt::format(" This number is not credible, and no plan should rest on it: the same law gives {} bends from straight to the "
-                     "limit of the bend radius, and a published hose endured {} without damage. Keep the maker's bend radius. A "
-                     "bending test by the maker, as strain_life_table of the material of the wall, would give a better number.",
+  return fmt::format("The only known law gives {} bends from straight to the limit of the bend radius, and a published hose endured {} "
+                     "without damage. Keep the maker's bend radius. A bending test by the maker, as strain_life_table of the material "
+                     "of the wall, would give a life.",
                      readable(mode.bends_at_limit), readable(published_bends));
 }
 
@@ -84,13 +84,13 @@ std::string inspection_words(const RankingRow& row) {
   if (mode->mode == UnvalidatedMode::wall)
     return fmt::format("{} may crack {} after {} (not validated): inspect it there.", of, place, hours_text(mode->hours[1]));
   if (mode->mode == UnvalidatedMode::abrasion)
-    return fmt::format("{} may wear through on {}, {}, after {} (not validated): inspect it there.", of, mode->place, place,
+    return fmt::format("{} may wear through on {}, {}, after {} (10 .. 90 %, not validated): inspect it there.", of, mode->place, place,
                        range_text(mode->hours[0], mode->hours[2]));
   if (mode->mode == UnvalidatedMode::jacket)
-    return fmt::format("The jacket of {} may wear through in the hose, {}, after {} (not validated): inspect it there.", mode->place,
+    return fmt::format("The jacket of {} may wear through in the hose, {}, after {} (10 .. 90 %, not validated): inspect it there.", mode->place,
                        place, range_text(mode->hours[0], mode->hours[2]));
   if (mode->mode == UnvalidatedMode::rating)
-    return fmt::format("The maker's rating of {} covers only {} (not validated): test or replace it by then.", mode->place,
+    return fmt::format("The maker's rating of {} covers only {} (10 .. 90 %, not validated): test or replace it by then.", mode->place,
                        range_text(mode->hours[0], mode->hours[2]));
   if (mode->mode == UnvalidatedMode::corkscrew)
     return fmt::format("Twist may wind {} into a corkscrew in the hose, {}, after {} (not validated): inspect it there.", mode->place,
@@ -186,9 +186,15 @@ std::string bound_words(const RankingRow& row) {
   if (!(glued > 0) || !(free > bounds_apart * glued) || !std::isfinite(life)) return "";
   const bool is_free = life > free * (1 - same);
   if (!is_free && life > glued * (1 + same)) return "";
-  return fmt::format("The job's life equals its {} bound, at which nothing {} inside the cables. If the job sets strain.slip, leave "
-                     "it out for the best estimate, which includes the ratings of cable makers.",
-                     is_free ? "upper" : "lower", is_free ? "rubs" : "slips");
+  // Ratings were compared with tests under friction, so other jobs do not include them (pipeline/resolve/apply_calibration.h).
+  const bool has_ratings = row.estimates.find("uncertainty.ratings typical") != std::string::npos;
+  const std::string rest =
+      has_ratings ? "best estimate."
+                  : "best estimate. It includes the ratings of cable makers, which this life does not: it may be longer than this life.";
+  return fmt::format("The job's life equals its {} bound{}, at which nothing {} inside the cables. If the job sets strain.slip, leave "
+                     "it out for the {}",
+                     is_free ? "upper" : "lower", has_ratings ? "" : " without the ratings of cable makers", is_free ? "rubs" : "slips",
+                     rest);
 }
 
 std::string action_words(const RankingRow& row) {
@@ -220,7 +226,8 @@ std::string failure_words(const RankingRow& row) {
   if (!is_damaged(row)) return "No wire is damaged.";
   const std::string first = row.failing_mode.empty()
                                 ? ""
-                                : fmt::format("Fails first: {}, in {:.0f} % of the samples.", row.failing_mode,
+                                : fmt::format("Fails first{}: {}, in {:.0f} % of the samples.",
+                                              row.unvalidated.empty() ? "" : " of the validated modes", row.failing_mode,
                                               100 * row.failing_mode_share);
   const std::string during = row.worst_step.empty() ? "" : ", during '" + row.worst_step + "'";
   return joined_words({first, fmt::format("The worst wire is {}, {:.2f} m from the tool. Its most damaging cycle ends at {:.1f} s{}.",
@@ -240,9 +247,11 @@ std::string joint_words(const RankingRow& row) {
 
 std::string unvalidated_words(const UnvalidatedMode& mode) {
   const std::string of = mode.dresspack.empty() ? "" : " of " + mode.dresspack;
+  if (mode.mode == UnvalidatedMode::wall && !is_credible(mode))
+    return fmt::format("The life of the hose's wall{} is not predicted. {}", of, too_short_wall(mode));
   if (mode.mode == UnvalidatedMode::wall)
-    return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.{}", of,
-                       unvalidated_life(mode.hours[1]), too_short_wall(mode));
+    return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.", of,
+                       unvalidated_life(mode.hours[1]));
   if (mode.mode == UnvalidatedMode::rating) return joined_words({rating_words(mode, of), mode.note});
   if (mode.mode == UnvalidatedMode::corkscrew) return corkscrew_words(mode, of);
   const bool jacket = mode.mode == UnvalidatedMode::jacket;

@@ -403,9 +403,10 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
   motion.tools = frames_of(program.tools);
   motion.work_objects = frames_of(program.work_objects);
   motion.steps.clear();
-  motion.left_out = moves_left_out(program);
-  for (pipeline::Warning& warning : motion.left_out)  // wherever the program lies
+  std::vector<pipeline::Warning> left_out = moves_left_out(program);
+  for (pipeline::Warning& warning : left_out)  // wherever the program lies
     warning.where = std::filesystem::path(warning.where).filename().string();
+  motion.left_out = pipeline::joined(std::move(motion.left_out), left_out);
   for (const Instruction& instruction : program.instructions)
     motion.steps.push_back(step_of(instruction, program));
   // A motion begins where its first move leads: the robot stands there while it waits before that move.

@@ -93,6 +93,11 @@ class Dialect {
   virtual bool only_waits(const std::string& instruction) const = 0;
   /// Whether an unknown instruction is known to be input, output or logic.
   virtual bool harmless(const std::string& instruction) const = 0;
+  /// The move that an unknown instruction probably is, with a typing error, as the language writes it; empty: none.
+  virtual std::string move_meant(const Statement& statement) const {
+    static_cast<void>(statement);
+    return "";
+  }
   /// Whether an instruction that is left out, or a function that is not read, may write to this argument.
   virtual bool writes(const std::string& instruction, int position, const Expression& argument) const {
     static_cast<void>(position);

@@ -24,6 +24,12 @@ void Interpreter::run_instruction(const Statement& statement) {
   }
   charge(instruction_work);
   if (dialect_.instruction(statement, *this)) return;
+  if (const std::string meant = dialect_.move_meant(statement); !meant.empty() && !dialect_.harmless(statement.name)) {
+    complain(statement.place,
+             fmt::format("runs '{}', which is neither an instruction nor a routine of the files read", statement.text),
+             fmt::format("did you mean {}? Else give the module that declares it, too (motion.modules: [{{file: FILE}}])", meant));
+    return;
+  }
   forget_arguments(statement.name, statement.arguments, statement.place);
   if (dialect_.harmless(statement.name))
     note(statement.place, statement.text + ": input, output or logic");

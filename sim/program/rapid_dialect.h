@@ -33,6 +33,7 @@ class Rapid final : public Dialect {
   /// In production main runs until it is stopped.
   bool begins_again(const Routine& routine) const override { return routine.name == "main"; }
   bool harmless(const std::string& name) const override;
+  std::string move_meant(const Statement& statement) const override;
   bool writes(const std::string& name, int position, const Expression& argument) const override;
   const RecordType* type_of(const std::string& name) const override { return code_.record(name); }
   void store(Value& place, Value value) const override;

@@ -1,7 +1,9 @@
 // RAPID's moves: target, speed, zone, tool, work object, and what displaces them.
 #include <algorithm>
+#include <map>
 #include <numbers>
 
+#include "pipeline/settings/fields.h"
 #include "sim/program/rapid_dialect.h"
 #include "sim/program/rapid_functions.h"
 #include "sim/program/rapid_types.h"
@@ -62,6 +64,19 @@ void remember(Instruction& move, const char* part, const Expression& written, In
 }
 
 }  // namespace
+
+std::string Rapid::move_meant(const Statement& statement) const {
+  constexpr std::ptrdiff_t fewest = 4;  // target, speed, zone, tool
+  const auto given = std::count_if(statement.arguments.begin(), statement.arguments.end(),
+                                   [](const Expression& argument) { return argument.option.empty(); });
+  if (given < fewest || !statement.name.starts_with("mov")) return "";
+  static const std::map<std::string, std::string> moves{
+      {"moveabsj", "MoveAbsJ"}, {"movej", "MoveJ"}, {"movel", "MoveL"}, {"movec", "MoveC"}};
+  std::vector<std::string> names;
+  for (const auto& [name, written] : moves) names.push_back(name);
+  const std::string nearest = pipeline::nearest_word(statement.name, names);
+  return nearest.empty() ? "" : moves.at(nearest);
+}
 
 const Signature* rapid_move(const std::string& instruction) {
   for (const Signature& signature : signatures)

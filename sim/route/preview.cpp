@@ -20,7 +20,7 @@ namespace {
 constexpr int most_moments = 240;  // of the program: 0.2 s of curves
 constexpr int fewest_moments = 24;
 constexpr double moments_a_second = 5;
-constexpr int tried_lengths = 8, tried_poses = 8;  // of each span: 0.2 s of equilibria
+constexpr int tried_lengths = 16, tried_poses = 8;  // of each span: 0.4 s of equilibria; steps of 2 %, as remedies try them (sim/run/cures.cpp)
 constexpr double before_the_program = -1;          // time of the mounting pose [s]
 
 struct Moment {
@@ -62,8 +62,8 @@ class Previewer {
     }
     write_spans(file);
     write_scan(file);
-    write_refusal(file);
     const QuickWarnings quick = quick_warnings(setup_);
+    write_refusal(quick.warnings, file);
     file.attribute("warnings", pipeline::warnings_text(quick.warnings));
     file.attribute("notes", fmt::format("{}", fmt::join(quick.notes, "\n")));
   }
@@ -251,12 +251,18 @@ class Previewer {
   }
 
   /// The simulation's own words; the moment where a span lacks most is when the clamps are too far apart.
-  void write_refusal(pipeline::FileWriter& file) const {
+  /// Beside a warning of slack no second search for a remedy.
+  void write_refusal(const std::vector<pipeline::Warning>& warnings, pipeline::FileWriter& file) const {
+    const bool warns_of_slack = std::any_of(warnings.begin(), warnings.end(), [](const pipeline::Warning& warning) {
+      return warning.kind == pipeline::WarningKind::slack;
+    });
     std::string refusal;
     try {
       const Simulation simulation(setup_);
     } catch (const RoutingRefusal& problem) {
-      refusal = pipeline::InputError(problem.where, problem.problem, refusal_remedy(setup_, problem)).what();
+      refusal = pipeline::InputError(problem.where, problem.problem,
+                                     warns_of_slack ? "see the remedy of the warning" : refusal_remedy(setup_, problem))
+                    .what();
     } catch (const pipeline::InputError& problem) {
       refusal = problem.what();
     }

@@ -23,9 +23,11 @@ using pipeline::WarningKind;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double degree = EIGEN_PI / 180;
-constexpr int tried_lengths = 8, tried_poses = 8;  // 256 equilibria with four pairs of directions: a second
+constexpr int tried_poses = 8;
+/// Of each pair of directions: 320 equilibria, a second. A length alone is the easiest change, so its steps are finer, 3 %.
+constexpr std::array<int, 4> tried_lengths{16, 8, 8, 8};
 constexpr double margin = 1.05;  // of a limit at rest and in a short run: a program at work adds to it
-constexpr std::array<std::size_t, 4> most_tried{4, 3, 3, 3};  // by the checks, of each pair of directions: a second each
+constexpr std::array<std::size_t, 4> most_tried{5, 3, 3, 3};  // by the checks, of each pair of directions: a second each
 constexpr double most_work = 1e7;  // of all trials of one job: ten seconds
 constexpr int most_segments = 32;  // of a trial: a bend radius within a few percent
 
@@ -122,10 +124,9 @@ class RestTrials {
 std::string radius_words(double curvature) { return in_words(1 / curvature, "m"); }
 
 std::string no_other_words(const CheckedMotion& motion, const std::string& limit) {
-  return fmt::format("{} keeps the limit{}, so that a clamp must move: `dresslife route` finds other clamps",
-                     motion.work > most_work ? "no length and no direction of these two clamps that was tried in the time of a check"
-                                             : "no length and no direction of these two clamps",
-                     limit);
+  return fmt::format("no length and no direction of these two clamps that was tried{} keeps the limit{}: `dresslife route` finds "
+                     "other clamps",
+                     motion.work > most_work ? " in the time of a check" : "", limit);
 }
 
 using Kinds = std::vector<WarningKind>;
@@ -135,7 +136,8 @@ bool is_among(const Kinds& kinds, const Check& check) {
 
 /// What the checks say of a changed job.
 struct Trial {
-  bool cured = false;  ///< it keeps the limits of the kinds that were asked, and passes no other one than the job does now
+  bool keeps = false;  ///< it keeps the limits of the kinds that were asked, and passes no other one than the job does now
+  bool cured = false;  ///< the same with the margin
   double radius = 0;   ///< smallest bend radius in the short run [m]; 0: there was none
   std::string other;   ///< name of a check whose limit is passed and which is none of the bend radius; empty: none
 };
@@ -149,18 +151,20 @@ Trial trial_of(const CheckedMotion& motion, const pipeline::Setup& changed, cons
   if (!found.run.refusal.empty()) return {};
   Trial trial;
   if (const Check* const bend = find(found.run.checks, check_name::bend_radius, dresspack)) trial.radius = bend->value;
-  trial.cured = std::all_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
+  trial.keeps = std::all_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
     if (check.dresspack != dresspack) return true;
-    const bool asked = is_among(kinds, check);
-    if (asked && check.name == check_name::bend_radius && check.value < margin * check.limit) return false;
-    return !check.warning || (!asked && std::any_of(now.begin(), now.end(), [&](const Check& before) {
+    return !check.warning || (!is_among(kinds, check) && std::any_of(now.begin(), now.end(), [&](const Check& before) {
       return before.warning && before.kind == check.kind && before.dresspack == dresspack;
     }));
+  });
+  trial.cured = trial.keeps && std::none_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
+    return check.dresspack == dresspack && is_among(kinds, check) && check.name == check_name::bend_radius &&
+           check.value < margin * check.limit;
   });
   for (const Check& check : found.checks)
     if (check.dresspack == dresspack && check.warning && check.kind != WarningKind::bend_radius) trial.other = check.name;
   const bool coarse = segments < std::min(short_run_segments, changed.simulation.segments);
-  return trial.cured && coarse ? trial_of(motion, changed, kinds, dresspack, now, short_run_segments) : trial;
+  return trial.keeps && coarse ? trial_of(motion, changed, kinds, dresspack, now, short_run_segments) : trial;
 }
 
 bool cures(const CheckedMotion& motion, const pipeline::Setup& changed, const Kinds& kinds, int dresspack,
@@ -182,45 +186,53 @@ class RemedySearch {
   RemedySearch(const CheckedMotion& motion, const std::vector<Check>& checks, const RestTrials& trials, int dresspack)
       : motion_(motion), checks_(checks), trials_(trials), dresspack_(dresspack) {}
 
-  /// Words of the first that keeps them; empty: none that was tried does.
+  /// Words of the first that keeps them; empty: none that was tried does. All warnings of a dresspack name the same one.
   std::string words() {
-    const Check* net = find(checks_, check_name::net_twist, dresspack_);
-    constexpr double little = 10 * degree;  // a pre-twist below it changes no shape that a user sees
-    if (net && std::abs(net->centre) > little) {
-      Change change{routing().free_length, std::round((routing().pre_twist - net->centre) / degree) * degree};
-      change.curvature = trials_.curvature(change.length);
-      if (tried_with(change).cured) return words_of(change);
-    }
-    constexpr std::array<std::array<bool, 2>, 4> turns{{{false, false}, {false, true}, {true, false}, {true, true}}};
-    for (std::size_t turn = 0; turn < turns.size(); ++turn) {
-      std::size_t tried = 0;
-      for (const double length : lengths()) {
-        Change change{length, routing().pre_twist, turns[turn]};
-        change.curvature = trials_.curvature(length, change.turned);
-        if (best_.trial.radius == 0 && change.curvature < best_.curvature) best_ = change;
-        if (change.curvature * limit() * margin > 1 || tried == most_tried[turn]) continue;
-        ++tried;
-        change.trial = tried_with(change);
-        if (change.trial.cured) return words_of(change);
-        if (change.trial.radius > best_.trial.radius) best_ = change;
-      }
-    }
-    return "";
+    std::string& known = motion_.remedies[dresspack_];
+    if (known.empty()) known = found_words();
+    return known;
   }
-  /// " (best of those tried: 1.250 m, 187.2 mm in a short run; asked are 210.0 mm, the limit and 5 %)": least bent of those that
+  /// " (best of those tried: 1.250 m, 187.2 mm in a short run; asked are 200.0 mm)": least bent of those that
   /// ran; where none did, at rest. now: smallest bend radius of the job [m]. Empty: none has a shape at rest.
   std::string best_words(double now) const {
     const Trial& trial = best_.trial;
     if (trial.radius == 0 && std::isinf(best_.curvature)) return "";
     if (trial.radius > 0 && trial.radius <= now) return " (none of those tried bends less than it does now)";
-    return fmt::format(" (best of those tried: {} m{}, {}; asked are {}, the limit and {:.0f} %{})", at_least_metres(best_.length),
+    return fmt::format(" (best of those tried: {} m{}, {}; asked are {}{})", at_least_metres(best_.length),
                        best_.turned[0] || best_.turned[1] ? " with another direction of a clamp" : "",
                        trial.radius > 0 ? in_words(trial.radius, "m") + " in a short run" : radius_words(best_.curvature) + " at rest",
-                       in_words(margin * limit(), "m"), 100 * (margin - 1),
-                       trial.other.empty() ? "" : "; it passes another limit: " + trial.other);
+                       in_words(limit(), "m"), trial.other.empty() ? "" : "; it passes another limit: " + trial.other);
   }
 
  private:
+  std::string found_words() {
+    const Check* net = find(checks_, check_name::net_twist, dresspack_);
+    constexpr double little = 10 * degree;  // a pre-twist below it changes no shape that a user sees
+    if (net && std::abs(net->centre) > little) {
+      Change change{routing().free_length, std::round((routing().pre_twist - net->centre) / degree) * degree};
+      change.curvature = trials_.curvature(change.length);
+      change.trial = tried_with(change);
+      if (change.trial.keeps) return words_of(change);
+    }
+    constexpr std::array<std::array<bool, 2>, 4> turns{{{false, false}, {false, true}, {true, false}, {true, true}}};
+    for (std::size_t turn = 0; turn < turns.size(); ++turn) {
+      std::size_t tried = 0;
+      std::optional<Change> kept;  // the limits, but not with the margin
+      for (const double length : lengths(tried_lengths[turn])) {
+        Change change{length, routing().pre_twist, turns[turn]};
+        change.curvature = trials_.curvature(length, change.turned);
+        if (best_.trial.radius == 0 && change.curvature < best_.curvature) best_ = change;
+        if (change.curvature * limit() > 1 || tried == most_tried[turn]) continue;
+        ++tried;
+        change.trial = tried_with(change);
+        if (change.trial.cured) return words_of(change);
+        if (change.trial.keeps && (!kept || change.trial.radius > kept->trial.radius)) kept = change;
+        if (change.trial.radius > best_.trial.radius) best_ = change;
+      }
+      if (kept) return words_of(*kept);
+    }
+    return "";
+  }
   const pipeline::MountedDresspack& mounted() const {
     return motion_.setup.dresspacks[static_cast<std::size_t>(dresspack_)];
   }
@@ -228,14 +240,14 @@ class RemedySearch {
   double limit() const { return limits_of(mounted().dresspack).least_bend_radius; }
 
   /// Nearest to the present one first.
-  std::vector<double> lengths() const {
+  std::vector<double> lengths(int count) const {
     const WorkingLength range = working_length(trials_.longest());
     const double least = std::ceil(1e3 * range.least) / 1e3, most = std::floor(1e3 * range.most) / 1e3;
     const double now = routing().free_length;
     std::vector<double> all;
     if (now >= range.least && now <= range.most) all.push_back(now);
-    for (int k = 0; k < tried_lengths; ++k)
-      all.push_back(std::round(1e3 * least * std::pow(most / least, static_cast<double>(k) / (tried_lengths - 1))) / 1e3);
+    for (int k = 0; k < count; ++k)
+      all.push_back(std::round(1e3 * least * std::pow(most / least, static_cast<double>(k) / (count - 1))) / 1e3);
     std::stable_sort(all.begin(), all.end(), [&](double a, double b) {
       return std::abs(std::log(a / now)) < std::abs(std::log(b / now));
     });
@@ -269,8 +281,10 @@ class RemedySearch {
     for (int end = 0; end < 2; ++end)
       if (change.turned[static_cast<std::size_t>(end)])
         add(fmt::format("{}_clamp.direction: {}", end == 0 ? "base" : "tool", vector_words(direction(end))));
-    return fmt::format("{} (bend radius at rest {}; keeps the limits in a short run)", fmt::join(keys, " and "),
-                       radius_words(change.curvature));
+    const std::string near =
+        change.trial.cured ? "" : fmt::format(", the bend radius by little: {}", in_words(change.trial.radius, "m"));
+    return fmt::format("{} (bend radius at rest {}; keeps the limits in a short run{})", fmt::join(keys, " and "),
+                       radius_words(change.curvature), near);
   }
 
   const CheckedMotion& motion_;
@@ -416,9 +430,6 @@ Cure slack_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
   const double wanted = short_one ? std::ceil(1e3 * range.least) / 1e3 : std::floor(1e3 * range.most) / 1e3;
   const std::string alone = fmt::format("{}: {:.3f}", length_key(motion, broken), wanted);
   if (!can_be_tried(motion, broken.dresspack)) return {cause, alone};
-  pipeline::Setup changed = motion.setup;
-  changed.dresspacks[static_cast<std::size_t>(broken.dresspack)].routing.free_length = wanted;
-  if (cures(motion, changed, {WarningKind::bend_radius, WarningKind::slack}, broken.dresspack, checks)) return {cause, alone};
   const RestTrials trials(motion, broken);
   const std::string remedy = RemedySearch(motion, checks, trials, broken.dresspack).words();
   return {cause, remedy.empty() ? alone + " for the slack alone; " + no_other_words(motion, " of the bend radius") : remedy};

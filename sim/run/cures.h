@@ -10,6 +10,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct CheckedMotion {
   const Rod* rod = nullptr;                   ///< null: a prescribed deformation
   const ClampPath* path = nullptr;            ///< null: a prescribed deformation
   mutable double work = 0;                    ///< of short runs that tried remedies, as World::work
+  mutable std::map<int, std::string> remedies{};  ///< (dresspack) routing that keeps its limits, in words; empty: none was found yet
 };
 
 struct Cure {

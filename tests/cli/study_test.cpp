@@ -262,3 +262,37 @@ TEST_CASE("a name of a shipped job and a study means the job, in every command, 
   CHECK(run(scratch, "dresslife", "status two_robots").err.empty());
   CHECK(run(scratch, "dresslife", "status jobs/bending_cable").err.empty());
 }
+
+TEST_CASE("two files of one name do not replace each other's results") {
+  Scratch scratch;
+  write_small_job(scratch);
+  fs::create_directories(scratch / "a"), fs::create_directories(scratch / "b");
+  fs::copy(scratch / "poses.csv", scratch / "a/poses.csv");
+  fs::copy(scratch / "poses.csv", scratch / "b/poses.csv");
+  scratch.write("a/job.yaml", content(scratch / "job.yaml"));
+  scratch.write("b/job.yaml", edited(content(scratch / "job.yaml"), "slip: stick", "slip: free"));
+  must_run(scratch, "dresslife", "run a/job.yaml");
+  const std::string of_a = content(scratch / "runs/job/job/life.h5");
+  for (const std::string command : {"run", "run -n", "status", "report", "clean", "submit --only-write"}) {
+    const Outcome refused = run(scratch, "dresslife", command + " b/job.yaml");
+    INFO(command << ": " << refused.err);
+    CHECK(refused.status == 1);
+    CHECK(refused.err.find("runs/job: error: holds the results of another file, a/job.yaml, not of b/job.yaml") !=
+          std::string::npos);
+    CHECK(refused.err.find("-o FOLDER") != std::string::npos);
+    CHECK(content(scratch / "runs/job/job/life.h5") == of_a);
+  }
+  must_run(scratch, "dresslife", "run b/job.yaml -o other");
+  // An edited file, a copy of all in another place, and a moved file keep their folder.
+  scratch.write("a/job.yaml", "# a remark\n" + content(scratch / "a/job.yaml"));
+  CHECK(stages_ran(run(scratch, "dresslife", "run a/job.yaml")) == "0");
+  CHECK(run_shell(scratch, "mkdir copy && cp -rp a runs copy && cd copy && '" DRESSLIFE_BIN_DIR "/dresslife' status a/job.yaml")
+            .status == 0);
+  fs::rename(scratch / "a", scratch / "moved");
+  CHECK(run(scratch, "dresslife", "status moved/job.yaml").status == 0);
+  CHECK(run(scratch, "dresslife", "run moved/job.yaml").status == 0);
+  // What the user asks for.
+  CHECK(run(scratch, "dresslife", "run b/job.yaml --force").status == 0);
+  CHECK(content(scratch / "runs/job/job/life.h5") != of_a);
+  CHECK(run(scratch, "dresslife", "status moved/job.yaml").status == 1);
+}

@@ -169,10 +169,10 @@ const Wrong wrong[] = {
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 1,2", "hose.yaml:5:16: error: ", "'1,2' (must be a number", "write 1.2 with a point", draw},
     {"hose.yaml", "slack_percent: 1", "slack_percent: -1", "hose.yaml:16:20: error: ", "slack_percent is -1", "; ", draw},
     {"hose.yaml", "radius_mm: 4.1", "radius_mm: 8.2", "hose.yaml:12:5: error: ", "1.2 mm outside the hose's bore", "helix_radius_mm: 12.8 or less", draw},
-    {"hose.yaml", "helix_radius_mm: 14", "helix_radius_mm: 0.014", "hose.yaml:12:5: error: ", "inside the core", "; ", draw},
+    {"hose.yaml", "radius_mm: 4.1", "radius_mm: 22", "hose.yaml:12:5: error: ", "'lead' is 44 mm thick (the hose is 42 mm wide inside)", "take a wider hose", draw},
+    {"hose.yaml", "helix_radius_mm: 14", "helix_radius_mm: 0.014", "hose.yaml:12:5: error: ", "'lead' covers the axis by 4.09 mm", "give helix_radius_mm: 4.1 or more", draw},
     {"hose.yaml", "name: lead", "name: lead/1", "hose.yaml:12:5: error: ", "holds a '/'", "choose another name", draw},
     {"hose.yaml", "count: 19, radius_mm: 0.1", "count: 19, radius_mm: 1", "hose.yaml:18:101: error: ", "outside it", "check helix_radius_mm and radius_mm", draw},
-    {"cable.yaml", "outer diameter 8.2 mm", "outer diameter 8,2 mm", "cable.yaml:6:17: error: ", "'outer diameter 8' of a data sheet", "; ", "dresslife draw cable.yaml"},
     {"cable.yaml", "outer diameter 8.2 mm", "outer diameter 82 mm", "cable.yaml:6:17: error: ", "times its conductor", "check outer_diameter_mm: 82", "dresslife draw cable.yaml"},
     {"cable.yaml", "outer diameter 8.2 mm", "outer diameter 82 mm", "cable.yaml:6:17: error: ", "times its conductor", "give outer_diameter_mm: 8.2 if a decimal point was lost", "dresslife draw cable.yaml"},
     {"cable.yaml", "outer diameter 8.2 mm", "outer diameter 0.0082 mm", "cable.yaml:6:17: error: ", "leaves no room", "give outer_diameter_mm: 8.2 if that was metres", "dresslife draw cable.yaml"},
@@ -316,7 +316,7 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 0.3\n    radial_line_load_N_per_m: 5e6", "hose.yaml:12:5", "radial_line_load_N_per_m of 'lead' is 5e+06, 610 MPa on its width (limit 10: jackets yield)", "0.05 MPa times the part's width"},
     {"job.yaml", "segments: 24", "segments: 24, sample_rate_Hz: 0.5", "", "simulation.sample_rate_Hz is 0.5 (limit 5 or more)", "simulation.sample_rate_Hz: 25"},
     {"job.yaml", "simulation: {", "strain: {gate: 0.1}\nsimulation: {", "", "strain.gate is 0.1 (limit 0.0005 or less): cycles below it are left out", "strain.gate: 0.001 if"},
-    {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack: too long", "routing.free_length_m: 2.054"},
+    {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack: too long", "routing.free_length_m: 2.046"},
     simulation_key("gravity_m_per_s2: [0, 0, 9.81]", "the upward part of simulation.gravity_m_per_s2 is 9.81", "simulation.gravity_m_per_s2: [0, 0, -9.81]"),
     simulation_key("gravity_m_per_s2: [0, 0, -1]", "the size of simulation.gravity_m_per_s2 is 1 (limit 9.71 .. 9.90). Likely cause: multiples of g", "simulation.gravity_m_per_s2: [0, 0, -9.81]"),
     simulation_key("gravity_m_per_s2: [0, -9.81, 0]", "the upward part of simulation.gravity_m_per_s2 is 0", "a wall or a ceiling"),
@@ -457,4 +457,25 @@ TEST_CASE("a misspelt option is answered with the nearest one, a dry run names j
   CHECK(dry.status == 1);
   CHECK_THAT(dry.out, Contains(" refused: study.yaml:3:32: error: routing.free_length_m is 2100 (its size must be ") &&
                           Contains("1 of 2 jobs to make; nothing was run\n"));
+}
+
+TEST_CASE("wrong inputs: a refused diameter of the hose gives no further errors") {
+  const Scratch scratch;
+  scratch.write("hose.yaml", edited(hose, "diameter_mm: 50", "diameter_mm: 50,5"));
+  const Outcome outcome = run(scratch, "dresslife", "draw hose.yaml");
+  INFO(outcome.err);
+  CHECK(outcome.status == 1);
+  CHECK_THAT(outcome.err, Contains("write 50.5 with a point"));
+  CHECK(count_of(outcome.err, "error: ") == 1);
+}
+
+TEST_CASE("wrong inputs: a job with a robot program is warned of its settings, too") {
+  const Scratch scratch;
+  scratch.write("hose.yaml", hose);
+  scratch.write("spot.mod", module);
+  const std::size_t begin = job.find("motion:"), end = job.find("dresspack:");
+  scratch.write("job.yaml", edited(job, job.substr(begin, end - begin), "motion: spot.mod\n") + "fatigue: {operating_hours_per_week: 0.5}\n");
+  const Outcome outcome = run(scratch, "dresslife", "check job.yaml");
+  INFO(outcome.err << outcome.out);
+  CHECK_THAT(outcome.err + outcome.out, Contains("fatigue.operating_hours_per_week is 0.5"));
 }

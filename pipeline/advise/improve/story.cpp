@@ -98,6 +98,10 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
     return text;
   }
   const Final& best = *finals.best();
+  if (was.feasible() && best.hours <= finals.of.front().hours)
+    return text + fmt::format("Nothing that was tried lives longer. Keep the job as it is. The best of {} trials, trial {}: {}{}.\n",
+                              found.trials.size(), best.trial, hours_text(best.hours),
+                              story.longer_in ? fmt::format("; it lives longer in {:.0f} of 100 samples", 100 * *story.longer_in) : "");
   text += fmt::format("Trial {} of {}: {}, all limits kept", best.trial, found.trials.size(),
                       hours_text(best.hours));
   if (story.longer_in) text += fmt::format("; it lives longer in {:.0f} of 100 samples", 100 * *story.longer_in);
@@ -106,8 +110,6 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row), unvalidated_words(*row)})
       text += words + (words.empty() ? "" : "\n");
   text += change_lines(found.trials[best.trial]) + tolerance_words(story.nudges, off) + other_words(finals);
-  if (best.hours <= finals.of.front().hours && was.feasible())
-    text += "Nothing that was tried lives longer.\n";
   for (const std::string& job : best.jobs)
     text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());
   return text;

@@ -168,8 +168,25 @@ TEST_CASE("a sheet's line is what its keys are") {
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, jacket 1 mm"),
              Catch::Contains("data_sheet has no outer_diameter_mm; give it, or conductor_class"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 1.2.3 mm, jacket 1 mm"), Catch::Contains("sheet:1:1: error: "));
-  CHECK_THAT(refusal("7 x 0.5 mm2, "),
-             Catch::Contains("neither wire_diameter_mm nor conductor_class"));
+  // All that is not understood at once.
+  CHECK_THAT(refusal("7 x 0.5, screen 85 %, wire 0.1 mm"),
+             Catch::Contains("write '7 x 0.5 mm2'") && Catch::Contains("'screen 85 %' of a data sheet is not understood"));
+}
+
+TEST_CASE("a data sheet whose cores have no insulation is refused") {
+  // 7 x 0.5 mm2 of class 6 is a conductor of 0.95 mm.
+  const Component cable = cable_of("cores: 1, cross_section_mm2: 0.5, conductor_class: 6, core_diameter_mm: 1.4");
+  const double conductor = 2e3 * (cable.components[0].components[0].helix_radius + cable.components[0].components[0].radius);
+  CHECK_THAT(refusal_of(fmt::format("cores: 7, cross_section_mm2: 0.5, conductor_class: 6, core_diameter_mm: {:.4f}", conductor + 0.004)),
+             Catch::Contains("leaves 0.002") && Catch::Contains(" mm of insulation around its conductor"));
+}
+
+TEST_CASE("a data sheet's line may have decimal commas") {
+  const auto line_of = [](const std::string& text) { return parse_yaml("'" + text + "'", "sheet"); };
+  CHECK(to_yaml(sheet_from_line(line_of("4 x 2 x 0,25 mm2,class 6,wire 0,1 mm, OD 9,5 mm,jacket PUR 1,1 mm"))) ==
+        to_yaml(sheet_from_line(line_of("4 x 2 x 0.25 mm2, class 6, wire 0.1 mm, OD 9.5 mm, jacket PUR 1.1 mm"))));
+  CHECK(to_yaml(sheet_from_line(line_of("class 6,12 x 0,25 mm2"))) == to_yaml(sheet_from_line(line_of("class 6, 12 x 0.25 mm2"))));
+  CHECK_THAT(message_of([&] { sheet_from_line(line_of("12 x 0,25")); }), Catch::Contains("write '12 x 0.25 mm2'"));
 }
 
 TEST_CASE("a conductor's class stands in for what a sheet leaves out, and the source says so") {
@@ -216,8 +233,13 @@ TEST_CASE("a conductor's class stands in for what a sheet leaves out, and the so
   CHECK_THAT(refusal_of("cores: 1, cross_section_mm2: 400, conductor_class: 6"), Catch::Contains("no conductor of class 6 so large"));
   CHECK_THAT(refusal_of("cores: 3, cross_section_mm2: 0.5, conductor_class: 6, wire_diameter_mm: 0.2, outer_diameter_mm: 8"),
              Catch::Contains("class 6 has wires of 0.16 mm at most at 0.5 mm2"));
-  CHECK_THAT(refusal_of("cores: 3, cross_section_mm2: 0.5, outer_diameter_mm: 8, jacket_thickness_mm: 1"),
-             Catch::Contains("neither wire_diameter_mm nor conductor_class"));
+  // Without the class and the wire's diameter class 6 counts, and the source says so.
+  const Component assumed = cable_of("cores: 3, cross_section_mm2: 0.5, outer_diameter_mm: 8, jacket_thickness_mm: 1");
+  CHECK(assumed.components[0].components[0].radius == Approx(0.15 / 2e3));
+  Node pack = parse_yaml("name: p\nsource: mine\ncomponents:\n  - {name: lead, helix_radius_mm: 0, data_sheet: '12 x 0.25 mm2'}\n",
+                         "pack.yaml");
+  expand_data_sheets(pack);
+  CHECK_THAT(pack.find("source")->text, Catch::Contains("ESTIMATE by rules: lead conductor class 6, wire "));
 }
 
 TEST_CASE("sheets that cannot be are refused with what does not fit") {

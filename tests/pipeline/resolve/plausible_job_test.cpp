@@ -114,3 +114,27 @@ TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hide
   CHECK(doubts_of(5, 5.1e-4, true) == 1);
   CHECK(doubts_of(1, 0.1, false) == 2);
 }
+
+TEST_CASE("plausible jobs: a mounting pose in rounded radians, segments longer than a bend") {
+  const auto words_of = [](const std::vector<double>& degrees, int segments) {
+    Job job;
+    Routing& routing = job.dresspacks[0].routing;
+    routing.free_length = 2;
+    routing.base_clamp.emplace();
+    for (const double angle : degrees) routing.mounting_pose.push_back(angle * degree);
+    job.dresspacks[0].dresspack.least_bend_radius = 0.26;
+    job.simulation.segments = segments;
+    std::string words;
+    for (const Warning& warning : plausibility_warnings(job)) words += warning.words + "\n";
+    return words;
+  };
+  CHECK_THAT(words_of({0, -0.17, 0.17, 0, 1.05, 0}, 64),
+             Catch::Contains("no angle of routing.mounting_pose_deg, [0, -0.17, 0.17, 0, 1.05, 0], is larger than 1.05 deg") &&
+                 Catch::Contains("routing.mounting_pose_deg: [0, -9.74, 9.74, 0, 60.16, 0] if those were radians"));
+  CHECK(words_of({0, -10, 10, 0, 60, 0}, 64) == "");
+  CHECK(words_of({0, -5, 5, 0, 2, 0}, 64) == "");       // whole degrees
+  CHECK(words_of({0, -9.74, 9.74, 0, 60.16, 0}, 64) == "");
+  CHECK(words_of({}, 8) == "");                          // 0.25 m
+  CHECK_THAT(words_of({}, 4), Catch::Contains("simulation.segments is 4: a segment is 0.5 m long (limit 0.26 m") &&
+                                  Catch::Contains("Remedy: simulation.segments: 64"));
+}

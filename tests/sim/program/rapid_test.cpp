@@ -227,3 +227,11 @@ TEST_CASE("rapid: settings, displacement, unknown instructions") {
   CHECK_FALSE(r.program.skipped[0].may_move);
   CHECK(r.program.skipped[1].may_move);
 }
+
+TEST_CASE("rapid: a typing error in the name of a move is the first problem, and asks for nothing else") {
+  const Reading r = run("MoveAbs home, v1000, z10, gun;\nMoveJ p1, v1000, fine, gun;");
+  REQUIRE(r.problems.size() == 1);
+  CHECK_THAT(r.problem(), Catch::Contains("main.mod:3:") && Catch::Contains("runs 'MoveAbs', which is neither an instruction") &&
+                                Catch::Contains("did you mean MoveAbsJ?") && Catch::Contains("motion.modules"));
+  CHECK(run("Mover home, 7;\nMoveJ p1, v1000, fine, gun;").program.instructions.size() == 1);  // no move: it has no tool
+}
