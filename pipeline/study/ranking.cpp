@@ -15,6 +15,7 @@
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/cable/believable.h"
 #include "pipeline/files/files.h"
 #include "pipeline/life/first_failure.h"
 #include "pipeline/settings/units.h"
@@ -326,6 +327,10 @@ std::string one_line(std::string text) {
 }
 
 }  // namespace
+
+bool RankingRow::force_ok() const {
+  return largest_force_share.value_or(0) <= believable_share && clamp_moment_share.value_or(0) <= believable_share;
+}
 
 const UnvalidatedMode* RankingRow::unvalidated_mode(std::string_view mode) const {
   const UnvalidatedMode* first = nullptr;

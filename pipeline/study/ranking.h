@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "pipeline/base/warnings.h"
-#include "pipeline/cable/believable.h"
 #include "pipeline/life/unvalidated_modes.h"
 #include "pipeline/study/build_graph.h"
 
@@ -114,10 +113,7 @@ struct RankingRow {
   bool waits() const {
     return failure == "stale" || failure == "to do";
   }  ///< has not failed with the present settings
-  bool force_ok() const {
-    return largest_force_share.value_or(0) <= believable_share &&
-           clamp_moment_share.value_or(0) <= believable_share;
-  }
+  bool force_ok() const;  ///< no more than believable_share of what cables and clamps bear
   double hours_of(double repeats) const { return repeats * repeat_seconds / 3600; }
   bool planned() const { return !std::isnan(planned_hours[0]); }
   /// planned_hours with the scatter of wires only.

@@ -45,7 +45,8 @@ struct PolymerLoss {
 PolymerLoss polymer_loss(double factor);
 inline constexpr double most_loss_factor = 0.7;
 
-/// The elements of one span over steps of one length.
+/// The elements of one span over steps of one length. advance() and energy() are inline, in sim/rod/hysteresis_steps.h: their
+/// matrices take each source that reads them 1 s.
 class Hysteresis {
  public:
   Hysteresis() = default;
@@ -54,22 +55,8 @@ class Hysteresis {
              double step);
 
   /// Moment of all elements [N m] once `memory` has been moved on to this bend [1/m].
-  Eigen::Vector2d advance(BendMemory& memory, const Eigen::Vector2d& bend) const {
-    const Eigen::Vector2d change = bend - memory.bend;
-    memory.bend = bend;
-    memory.held.rowwise() += change.transpose().array();
-    const Eigen::Array<double, BendMemory::frictions, 1> cut =
-        yield_ / memory.held.square().rowwise().sum().max(yield_.square()).sqrt();
-    memory.held.colwise() *= cut;
-    memory.relaxing = memory.relaxing.colwise() * keep_ + (gain_.matrix() * change.transpose()).array();
-    return (memory.held.matrix().transpose() * friction_.matrix()) +
-           memory.relaxing.matrix().transpose() * polymer_.matrix();
-  }
-  /// [J/m] stored in the elements.
-  double energy(const BendMemory& memory) const {
-    return 0.5 * ((memory.held.square().rowwise().sum() * friction_).sum() +
-                  (memory.relaxing.square().rowwise().sum() * polymer_).sum());
-  }
+  Eigen::Vector2d advance(BendMemory& memory, const Eigen::Vector2d& bend) const;
+  double energy(const BendMemory& memory) const;  ///< stored in the elements [J/m]
   double tangent() const {
     return tangent_;
   }  ///< change of moment per bend within a step, nothing sliding [N m2]

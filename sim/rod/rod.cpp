@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "sim/rod/block_tridiagonal.h"
+#include "sim/rod/hysteresis_steps.h"
 #include "sim/rod/link.h"
 
 namespace dresslife::sim {

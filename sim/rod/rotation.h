@@ -56,8 +56,8 @@ inline Quaternion rotation(const Vector3& r) {
   return {std::cos(0.5 * angle), s * r.x(), s * r.y(), s * r.z()};
 }
 
-/// The smallest turn that lets `from` point along `to` (lengths > 0; opposite: about any axis across). It is compiled once:
-/// Eigen solves the opposite case by a singular value decomposition, which takes each source that calls it 5 s.
+/// The smallest turn that lets `from` point along `to` (lengths > 0; opposite: about any axis across). Eigen's FromTwoVectors
+/// gives the same, but its singular value decomposition takes each source that calls it 5 s.
 Quaternion turn_between(const Vector3& from, const Vector3& to);
 
 /// Body z axis in the world: the tangent of a segment or clamp.

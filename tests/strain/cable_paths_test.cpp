@@ -419,6 +419,32 @@ TEST_CASE("a grip bounds the force of a cable, and its slip adds up over a repea
   CHECK(let_in > 0.005);  // of 2 m that stretch by 0.5 % and more to and fro, twice
 }
 
+TEST_CASE("one cycle ends as one of many, whether it closes at once or little by little") {
+  // Later cycles of one long motion begin as repeats of a short one do.
+  constexpr std::size_t cycle = 20, cycles = 12;
+  constexpr double settled = 1e-6;  // strain by which a repeat may still differ from the one before
+  struct Case {
+    double grip, line_load;  // [N], [N/m]
+  };
+  // Grips alone close in the second repeat. Between grips and friction every repeat leaves a share of what is left.
+  for (const Case& of : {Case{100, 0}, {2000, 10000}}) {
+    CAPTURE(of.grip, of.line_load);
+    Dresspack dresspack = held_hose();
+    dresspack.components[0].friction = 0.3;
+    dresspack.components[0].radial_line_load = of.line_load;
+    dresspack.components[0].laying.base_grip = dresspack.components[0].laying.tool_grip = of.grip;
+    Run one(dresspack, Slip::friction, cycle, cycle), many(dresspack, Slip::friction, cycles * cycle, cycle);
+    double apart = 0;
+    for (const std::size_t segment : {0, 31, 63})
+      for (std::size_t t = 0; t < cycle; ++t)
+        apart = std::max(
+            apart, std::abs(one.strain(0, segment, t) - many.strain(0, segment, (cycles - 1) * cycle + t)));
+    CHECK(apart < settled);
+    CHECK(one.paths.grip_slip(0)[0] > 1e-3);  // of the strain of 5e-3 in 2 m
+    CHECK(one.paths.grip_slip(0)[0] == Approx(many.paths.grip_slip(0)[0] / cycles).margin(length * settled));
+  }
+}
+
 TEST_CASE("forces of held cables are told beside their moment on the hose") {
   Run run(held_hose(), Slip::free, 20, 20);
   const CablePulls pulls = pulls_of(run.paths);

@@ -126,6 +126,11 @@ TEST_CASE("placement: what cannot be placed is refused with what would do") {
   CHECK(refusal(hose_text(fmt::format("inner_diameter_mm: {}\n", enough), cable("lead", 12, 5))) == "");
   CHECK_THAT(refusal(hose_text("", cable("lead", 3, 5))),
              Contains("place: auto is given, and the hose's bore is not") && Contains("give inner_diameter_mm"));
+  CHECK_THAT(refusal(hose_text("inner_diameter_mm: 70\n", cable("lead", 3, 5))),
+             Contains("inner_diameter_mm is 70 (diameter_mm is 60)"));
+  const std::string wide_core = "inner_diameter_mm: 50\ncore_diameter_mm: 52\n";
+  CHECK_THAT(refusal(hose_text(wide_core, cable("lead", 1, 3, "helix_radius_mm: 12"))),
+             Contains("core_diameter_mm is 52 (the hose is 50 wide inside)"));
   CHECK_THAT(refusal(hose_text("inner_diameter_mm: 50\n", cable("lead", 3, 5, "place: auto, helix_radius_mm: 10"))),
              Contains("both place and helix_radius_mm are given"));
   CHECK_THAT(refusal(hose_text("inner_diameter_mm: 50\n", cable("lead", 3, 5, "place: middle"))),

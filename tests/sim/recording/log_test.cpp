@@ -88,6 +88,13 @@ TEST_CASE("log: time stamps of loggers and spreadsheets") {
   CHECK(seconds_between("2027-03-01 08:00:00+01:00", "2027-03-01T07:00:00Z") == Approx(0).margin(rounding));
   CHECK(seconds_between("23:59:59.9", "00:00:00.1") == Approx(0.2).margin(rounding));
   CHECK(seconds_between("1804500000000", "1804500000250") == Approx(0.25).margin(rounding));
+  const auto words = [](double seconds) {
+    LogTime clock(seconds);
+    clock.read("7");
+    return clock.words();
+  };
+  CHECK(words(1) == "numbers in s");
+  CHECK(words(1e-3) == "numbers in ms");
   for (const char* wrong : {"", "soon", "2027-02-30 10:00:00", "2027-03-01", "10:61:00", "nan"})
     CHECK_FALSE(LogTime({}).read(wrong));
 }
@@ -269,8 +276,9 @@ TEST_CASE("log: a spline through exact samples gives back the curve") {
 }
 
 TEST_CASE("log: noise of half the bound neither moves the robot nor leaves the bound") {
-  const double noise = 0.05;  // [deg]
-  Writer quiet(125), noisy(125, noise);
+  const double noise = 0.05;                  // [deg]
+  const double rate = GENERATE(100 / 3., 125.);  // [Hz] with two to four, and with twelve rows around each knot
+  Writer quiet(rate), noisy(rate, noise);
   for (Writer* writer : {&quiet, &noisy}) {
     writer->stand(2);
     writer->part(4, cycle(4));
@@ -280,6 +288,8 @@ TEST_CASE("log: noise of half the bound neither moves the robot nor leaves the b
   const Course course(log, two_axes(), bound), truth(exact, two_axes(), bound);
   CHECK(course.largest_smoothing <= bound);
   CHECK(course.largest_smoothing > 0);
+  // With two rows on either side a knot lies between rows, else on a row.
+  CHECK(std::ranges::any_of(course.knots(), [&](double t) { return std::abs(std::remainder(t, 1 / rate)) > 0.3 / rate; }));
   for (std::size_t k = 0; k < log.size(); ++k)
     CHECK(
         (course.at(log.times[k]) - Eigen::Map<const Eigen::Vector2d>(log.at(k))).lpNorm<Eigen::Infinity>() <=

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <random>
 
+#include "sim/rod/hysteresis_steps.h"
 #include "tests/sim/rod/published_swings.h"
 #include "tests/sim/rod/rod_driven_cable.h"
 #include "tests/sim/rod/rod_problems.h"

@@ -1,6 +1,8 @@
 // Logarithm, exponential and the map from angular velocity to the link's rotation vector.
 #include "sim/rod/rotation.h"
 
+#include <numbers>
+
 #include "sim/rod/link.h"
 #include "tests/catch.h"
 
@@ -15,6 +17,21 @@ TEST_CASE("log undoes exp for every turn below half a turn") {
     CHECK((rotation_vector(rotation(r)) - r).norm() < rounding);
     const Quaternion expected(Eigen::AngleAxisd(angle, axis));
     CHECK((rotation(r).coeffs() - expected.coeffs()).norm() < rounding);
+  }
+}
+
+TEST_CASE("the turn between two directions is the smallest, up to half a turn") {
+  const double rounding = 1e-12;  // 1e-16 over 1 + cosine, which is 8e-4 where a turn is not made in two
+  const double turned_in_two = 1.4e-6;  // [rad] short of half a turn, cosines differ from -1 by 1e-12 there
+  const Vector3 from(0.3, -0.8, 0.5), across = from.unitOrthogonal();
+  for (const double less : {std::numbers::pi, std::numbers::pi - 1e-9, 2.0, 1.0, 0.04, 1e-7, 0.0}) {
+    CAPTURE(less);
+    const double angle = std::numbers::pi - less;
+    const Vector3 to = Quaternion(Eigen::AngleAxisd(angle, across)) * (2 * from);
+    const Quaternion turn = turn_between(from, to);
+    CHECK((turn * from - to / 2).norm() < rounding);
+    CHECK(std::abs(turn.w() - std::cos(angle / 2)) < (less < turned_in_two ? turned_in_two / 2 : rounding));
+    CHECK(turn.norm() == Approx(1).epsilon(rounding));
   }
 }
 
