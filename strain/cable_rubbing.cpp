@@ -69,10 +69,12 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
 
 std::vector<CableRubbing::Patch> CableRubbing::patches() const {
   std::vector<Patch> patches;
-  for (std::size_t k = 0; k < across_.work.size(); ++k)
-    if (const double work = across_.work[k] + along_.work[k]; work > 0)
+  for (std::size_t k = 0; k < across_.of.size(); ++k) {
+    const Sum &across = across_.of[k], &along = along_.of[k];
+    if (const double work = across.work + along.work; work > 0)
       patches.push_back({k / sectors, (static_cast<double>(k % sectors) + 0.5) * width(), work,
-                         (across_.largest[k] > along_.largest[k] ? across_ : along_).at[k]});
+                         (across.largest > along.largest ? across : along).at});
+  }
   return patches;
 }
 

@@ -62,15 +62,18 @@ class CableRubbing {
  private:
   static std::size_t sector_of(double x, double y, std::size_t guess);
 
-  /// (segment, sector)
+  /// Work of all samples and of the one with the most [J], which is `at`. Side by side in memory: a cable adds to one place.
+  struct Sum {
+    double work = 0, largest = 0;
+    std::size_t at = 0;
+  };
   struct Sums {
-    std::vector<double> work, largest;  ///< of all samples, of one [J]
-    std::vector<std::size_t> at;        ///< sample of the largest
-    explicit Sums(std::size_t segments) : work(segments * sectors), largest(work), at(work.size()) {}
+    std::vector<Sum> of;  ///< (segment, sector)
+    explicit Sums(std::size_t segments) : of(segments * sectors) {}
     void add(std::size_t segment, std::size_t sector, std::size_t sample, double of_sample) {
-      const std::size_t k = segment * sectors + sector;
-      work[k] += of_sample;
-      if (of_sample > largest[k]) largest[k] = of_sample, at[k] = sample;
+      Sum& sum = of[segment * sectors + sector];
+      sum.work += of_sample;
+      if (of_sample > sum.largest) sum.largest = of_sample, sum.at = sample;
     }
   };
 
