@@ -31,6 +31,7 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
   const auto middle = [](const std::vector<double>& of, std::size_t element, std::size_t d) {
     return (of[2 * element + d] + of[2 * element + 2 + d]) / 2;
   };
+  sector_.resize(elements);
   if (laid_.empty())
     for (std::size_t e = 0; e < elements; ++e) {
       const double turn = cable.lay_rate * spacing * (static_cast<double>(e) + 0.5);
@@ -48,7 +49,6 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
     const double length =
         spacing * static_cast<double>(elements) / static_cast<double>(segments_ * (end - first));
     double x = 0, y = 0;
-    std::size_t sector = sample > 0 ? side_[(sample - 1) * segments_ + i] : 0;
     for (std::size_t e = first; e < end; ++e) {
       const double to_x = middle(state.offset, e, 0), to_y = middle(state.offset, e, 1),
                    now = pressing(state.press, e);
@@ -59,7 +59,10 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
       const double by_x = to_x - middle(offset_, e, 0), by_y = to_y - middle(offset_, e, 1);
       const double moved = std::sqrt(by_x * by_x + by_y * by_y);
       const double work = (line_load + std::min(now, pressing(pressed_, e))) * moved * length;
-      if (work > 0) across_.add(i, sector = sector_of(at_x, at_y, sector), sample, work);
+      if (!(work > 0)) continue;
+      const std::size_t sector = sector_of(at_x, at_y, sector_[e]);
+      sector_[e] = static_cast<std::uint8_t>(sector);
+      across_.add(i, sector, sample, work);
     }
     touch(i, sample, x, y);
   }

@@ -82,6 +82,7 @@ class CableRubbing {
   std::vector<double> slid_;        ///< (segment) until the sample before [m]
   Sums across_, along_;
   std::vector<std::array<double, 2>> laid_;  ///< (element) its place in the hose [m]
+  std::vector<std::uint8_t> sector_;         ///< (element) in which it rubbed last
   std::vector<double> pressed_, offset_;  ///< (node), (node, 2) at the sample before
 };
 
