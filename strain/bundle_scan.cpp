@@ -1,6 +1,7 @@
 #include "strain/bundle_scan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -46,8 +47,14 @@ MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, c
   mixed.on_axis = settings_.on_axis;
   mixed.rest.resize(1 + settings_.fibre_count);
   mixed.fibre_scale.resize(settings_.fibre_count);
+  std::vector<double> at_rest;  // (kind, node)
+  for (int kind = 0; kind <= settings_.fibre_count; ++kind)
+    for (int node = 0; node < waves_per_layer; ++node)
+      at_rest.push_back(rest_ingredient(nodes[node], kind == 0 ? nullptr : &fibres[kind - 1]));
   for (int lane = 0; lane < lanes; ++lane) {
     const double angle = angles[lane < static_cast<int>(angles.size()) ? lane : 0];
+    std::array<double, waves_per_layer> shares;
+    for (int node = 0; node < waves_per_layer; ++node) shares[node] = nodal_share(angle, node);
     mixed.slip[lane] = 0;
     mixed.least_slip[lane] = -glued;
     mixed.most_slip[lane] = glued;
@@ -56,12 +63,11 @@ MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, c
     mixed.shape[2][lane] = static_cast<float>(std::sin(2 * angle));
     mixed.shape[3][lane] = static_cast<float>(std::cos(2 * angle));
     for (int kind = 0; kind <= settings_.fibre_count; ++kind) {
-      const Fibre* const fibre = kind == 0 ? nullptr : &fibres[kind - 1];
       double rest = 0;
       for (int node = 0; node < waves_per_layer; ++node)
-        rest += nodal_share(angle, node) * rest_ingredient(nodes[node], fibre);
+        rest += shares[node] * at_rest[kind * waves_per_layer + node];
       mixed.rest[kind][lane] = static_cast<float>(rest);
-      if (fibre) mixed.fibre_scale[kind - 1][lane] = mixed.scales ? static_cast<float>(1 / (1 + rest)) : 1.0f;
+      if (kind > 0) mixed.fibre_scale[kind - 1][lane] = mixed.scales ? static_cast<float>(1 / (1 + rest)) : 1.0f;
     }
   }
   return mixed;

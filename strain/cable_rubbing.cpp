@@ -1,6 +1,7 @@
 #include "strain/cable_rubbing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -8,7 +9,18 @@ namespace dresslife::strain {
 
 double CableRubbing::width() { return 2 * std::numbers::pi / sectors; }
 
-std::size_t CableRubbing::sector_of(double x, double y) {
+/// guess: a sector that it may be. A cable stays in its sector for many samples: then no angle is computed.
+std::size_t CableRubbing::sector_of(double x, double y, std::size_t guess) {
+  static const auto borders = [] {
+    std::array<std::array<double, 2>, sectors + 1> of;
+    for (std::size_t k = 0; k <= sectors; ++k) {
+      const double angle = static_cast<double>(k) * width();
+      of[k] = {std::cos(angle), std::sin(angle)};
+    }
+    return of;
+  }();
+  const auto left_of = [&](const std::array<double, 2>& border) { return border[0] * y - border[1] * x; };
+  if (left_of(borders[guess]) > 0 && left_of(borders[guess + 1]) < 0) return guess;
   const double angle = std::atan2(y, x);
   return static_cast<std::size_t>((angle < 0 ? angle + 2 * std::numbers::pi : angle) / width()) % sectors;
 }
@@ -19,6 +31,15 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
   const auto middle = [](const std::vector<double>& of, std::size_t element, std::size_t d) {
     return (of[2 * element + d] + of[2 * element + 2 + d]) / 2;
   };
+  sector_.resize(elements);
+  if (laid_.empty())
+    for (std::size_t e = 0; e < elements; ++e) {
+      const double turn = cable.lay_rate * spacing * (static_cast<double>(e) + 0.5);
+      laid_.push_back({std::cos(turn) * cable.place[0] - std::sin(turn) * cable.place[1],
+                       std::sin(turn) * cable.place[0] + std::cos(turn) * cable.place[1]});
+    }
+  // At the core it touches with its inner side.
+  const double between = cable.farthest < without_limit ? (cable.nearest + cable.farthest) / 2 : 0;
   const auto pressing = [](const std::vector<double>& of, std::size_t element) {
     return (of[element] + of[element + 1]) / 2;
   };
@@ -29,18 +50,19 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
         spacing * static_cast<double>(elements) / static_cast<double>(segments_ * (end - first));
     double x = 0, y = 0;
     for (std::size_t e = first; e < end; ++e) {
-      const double turn = cable.lay_rate * spacing * (static_cast<double>(e) + 0.5);
       const double to_x = middle(state.offset, e, 0), to_y = middle(state.offset, e, 1),
                    now = pressing(state.press, e);
-      double at_x = std::cos(turn) * cable.place[0] - std::sin(turn) * cable.place[1] + to_x;
-      double at_y = std::sin(turn) * cable.place[0] + std::cos(turn) * cable.place[1] + to_y;
-      if (std::hypot(at_x, at_y) < (cable.nearest + cable.farthest) / 2 && cable.farthest < without_limit)
-        at_x = -at_x, at_y = -at_y;
+      double at_x = laid_[e][0] + to_x, at_y = laid_[e][1] + to_y;
+      if (at_x * at_x + at_y * at_y < between * between) at_x = -at_x, at_y = -at_y;
       x += (line_load + now) * at_x, y += (line_load + now) * at_y;
       if (pressed_.empty()) continue;
-      const double moved = std::hypot(to_x - middle(offset_, e, 0), to_y - middle(offset_, e, 1));
+      const double by_x = to_x - middle(offset_, e, 0), by_y = to_y - middle(offset_, e, 1);
+      const double moved = std::sqrt(by_x * by_x + by_y * by_y);
       const double work = (line_load + std::min(now, pressing(pressed_, e))) * moved * length;
-      if (work > 0) across_.add(i, sector_of(at_x, at_y), sample, work);
+      if (!(work > 0)) continue;
+      const std::size_t sector = sector_of(at_x, at_y, sector_[e]);
+      sector_[e] = static_cast<std::uint8_t>(sector);
+      across_.add(i, sector, sample, work);
     }
     touch(i, sample, x, y);
   }
@@ -50,10 +72,12 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
 
 std::vector<CableRubbing::Patch> CableRubbing::patches() const {
   std::vector<Patch> patches;
-  for (std::size_t k = 0; k < across_.work.size(); ++k)
-    if (const double work = across_.work[k] + along_.work[k]; work > 0)
+  for (std::size_t k = 0; k < across_.of.size(); ++k) {
+    const Sum &across = across_.of[k], &along = along_.of[k];
+    if (const double work = across.work + along.work; work > 0)
       patches.push_back({k / sectors, (static_cast<double>(k % sectors) + 0.5) * width(), work,
-                         (across_.largest[k] > along_.largest[k] ? across_ : along_).at[k]});
+                         (across.largest > along.largest ? across : along).at});
+  }
   return patches;
 }
 

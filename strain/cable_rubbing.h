@@ -11,6 +11,7 @@
 // parts that do not rub (strain.slip).
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -34,7 +35,8 @@ class CableRubbing {
 
   /// The side on which it touches: the direction (x, y) toward d1 and d2 of the hose.
   void touch(std::size_t segment, std::size_t sample, double x, double y) {
-    side_[sample * segments_ + segment] = static_cast<std::uint8_t>(sector_of(x, y));
+    const std::size_t before = sample > 0 ? side_[(sample - 1) * segments_ + segment] : 0;
+    side_[sample * segments_ + segment] = static_cast<std::uint8_t>(sector_of(x, y, before));
   }
   /// Sliding along the hose: the motion is repeated, and its last repeat counts.
   void begin_repeat() { along_ = Sums(segments_); }
@@ -58,17 +60,20 @@ class CableRubbing {
   static double width();  ///< of a patch [rad]
 
  private:
-  static std::size_t sector_of(double x, double y);
+  static std::size_t sector_of(double x, double y, std::size_t guess);
 
-  /// (segment, sector)
+  /// Work of all samples and of the one with the most [J], which is `at`. Side by side in memory: a cable adds to one place.
+  struct Sum {
+    double work = 0, largest = 0;
+    std::size_t at = 0;
+  };
   struct Sums {
-    std::vector<double> work, largest;  ///< of all samples, of one [J]
-    std::vector<std::size_t> at;        ///< sample of the largest
-    explicit Sums(std::size_t segments) : work(segments * sectors), largest(work), at(work.size()) {}
+    std::vector<Sum> of;  ///< (segment, sector)
+    explicit Sums(std::size_t segments) : of(segments * sectors) {}
     void add(std::size_t segment, std::size_t sector, std::size_t sample, double of_sample) {
-      const std::size_t k = segment * sectors + sector;
-      work[k] += of_sample;
-      if (of_sample > largest[k]) largest[k] = of_sample, at[k] = sample;
+      Sum& sum = of[segment * sectors + sector];
+      sum.work += of_sample;
+      if (of_sample > sum.largest) sum.largest = of_sample, sum.at = sample;
     }
   };
 
@@ -76,6 +81,8 @@ class CableRubbing {
   std::vector<std::uint8_t> side_;  ///< (sample, segment) sector
   std::vector<double> slid_;        ///< (segment) until the sample before [m]
   Sums across_, along_;
+  std::vector<std::array<double, 2>> laid_;  ///< (element) its place in the hose [m]
+  std::vector<std::uint8_t> sector_;         ///< (element) in which it rubbed last
   std::vector<double> pressed_, offset_;  ///< (node), (node, 2) at the sample before
 };
 

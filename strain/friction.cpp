@@ -7,39 +7,41 @@
 namespace dresslife::strain {
 namespace {
 
-/// The slider at the end of a repeat of the motion, and at which sample it slid last; none: never.
-std::optional<std::size_t> settle(const double* means, const double* deviations, std::size_t samples,
-                                  const LayerSlip& slip, Slider& slider) {
-  std::optional<std::size_t> slid;
-  for (std::size_t t = 0; t < samples; ++t) {
-    const double before = slider.slip();
-    slider.next((1 - slip.elastic) * deviations[t], cap_at(slip.cap, means[t]));
-    if (slider.slip() != before) slid = t;
-  }
-  return slid;
-}
-
 /// Rows of deviations (mean, then the powers) to what is held of them (the powers), from where one repeat
 /// leaves them.
 void hold(const std::vector<double>& deviations, int powers, std::size_t stride, std::size_t samples,
           const LayerSlip& slip, std::vector<double>& held) {
   held.assign(powers * stride, 0.0);
-  std::vector<double> slope_slip(powers, 0.0);
-  Slider slider;
   const double slides = 1 - slip.elastic;
-  if (const auto slid = settle(deviations.data(), deviations.data() + stride, samples, slip, slider))
-    for (int power = 1; power < powers; ++power)
-      slope_slip[power] = slides * deviations[(1 + power) * stride + *slid];
+  const double* const away = deviations.data() + stride;
+  const auto deviation = [&](std::size_t t) { return slides * away[t]; };
+  const auto cap = [&](std::size_t t) { return cap_at(slip.cap, deviations[t]); };
+  Slider slider(settled_slip(samples, deviation, cap));
+  std::vector<std::size_t> slid;  // samples at which it slides
   for (std::size_t t = 0; t < samples; ++t) {
     const double before = slider.slip();
-    const double away = deviations[stride + t];
-    held[t] = slider.next(slides * away, cap_at(slip.cap, deviations[t])) + slip.elastic * away;
-    const bool sliding = slider.slip() != before;
-    for (int power = 1; power < powers; ++power) {
-      const double slope = deviations[(1 + power) * stride + t];
-      held[power * stride + t] =
-          Slider::next_slope(slides * slope, sliding, slope_slip[power]) + slip.elastic * slope;
+    held[t] = slider.next(deviation(t), cap(t)) + slip.elastic * away[t];
+    if (slider.slip() != before) slid.push_back(t);
+  }
+  // The slope of the held strain follows the deviation's while the slider sticks. While it slides it is that of the cap,
+  // none. The last slide may lie in the first repeat, with the slip at one of its limits.
+  std::optional<std::size_t> last;
+  if (!slid.empty()) last = slid.back();
+  for (std::size_t t = samples; !last && slider.slip() != 0 && t-- > 0;)
+    if (slider.slip() == deviation(t) - cap(t) || slider.slip() == deviation(t) + cap(t)) last = t;
+  for (int power = 1; power < powers; ++power) {
+    const double* const slope = away + power * stride;
+    double* const of_slope = held.data() + power * stride;
+    double slope_slip = last ? slides * slope[*last] : 0;
+    std::size_t t = 0;
+    const auto stick_until = [&](std::size_t end) {
+      for (; t < end; ++t) of_slope[t] = slides * slope[t] - slope_slip + slip.elastic * slope[t];
+    };
+    for (const std::size_t next : slid) {
+      stick_until(next);
+      slope_slip = slides * slope[next];
     }
+    stick_until(samples);
   }
 }
 

@@ -31,15 +31,8 @@ class Slider {
   explicit Slider(double slip) : slip_(slip) {}
   /// What is held of the next deviation. cap >= 0.
   double next(double deviation, double cap) {
-    const double held = std::clamp(deviation - slip_, -cap, cap);
-    slip_ = deviation - held;
-    return held;
-  }
-  /// The slope of the held strain along the component: it follows the deviation's while the slider sticks and
-  /// is that of the cap, none, while it slides.
-  static double next_slope(double slope, bool sliding, double& slope_slip) {
-    if (sliding) slope_slip = slope;
-    return slope - slope_slip;
+    slip_ = std::clamp(slip_, deviation - cap, deviation + cap);  // not a rounding changes the slip while it sticks
+    return deviation - slip_;
   }
   double slip() const { return slip_; }
 

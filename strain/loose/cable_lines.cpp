@@ -138,15 +138,13 @@ void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frame
     of_lane(most_strain, k) = pulled.most_strain();
     of_lane(least_strain, k) = -pulled.most_strain();
   }
-  for (std::size_t k = 0; k < batch_.lanes; ++k) {
-    const Frame& own = *frames[k < count() ? k : 0];
-    for (std::size_t i = 0; i < batch_.nodes; ++i) put(frame_at, i, k, own[i]);
-  }
+  for (std::size_t i = 0; i < batch_.nodes; ++i)
+    for (std::size_t k = 0; k < batch_.lanes; ++k) put(frame_at, i, k, (*frames[k < count() ? k : 0])[i]);
   loose_kernels().begin(batch_, memory(), frame_of(hose), goes_on ? time : 0);
 }
 
-void CableLines::place(const Frame& frame) {
-  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data());
+void CableLines::place(const Frame& frame, bool with_slope) {
+  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data(), with_slope);
 }
 
 Vector2d bend_at_clamp(const Vector2d& at_clamp, const Vector2d& next, const Vector2d& after_next, double q) {

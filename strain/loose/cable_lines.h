@@ -51,8 +51,8 @@ class CableLines {
   void begin(const HoseLine& hose, std::span<const Frame* const> frames, double step, bool goes_on);
   /// (cable) that they took to rest, of LineBench.
   std::span<std::int32_t> iterations() { return iterations_; }
-  /// Cables of a ring (strain/loose/ring.h) to their places in a frame.
-  void place(const Frame& frame);
+  /// Cables of a ring (strain/loose/ring.h) to their places in a frame. with_slope: see LooseKernels.
+  void place(const Frame& frame, bool with_slope);
   /// The sample is over. step: as in begin(); step 0: there was none before. states: (cable), or empty: not needed.
   void end(const HoseLine& hose, double step, std::span<CableState> states);
 

@@ -87,18 +87,19 @@ void Ring::go_on_from(const Ring& other) {
   lines_.go_on_from(other.lines_);
 }
 
-/// Every cable to where the turn has it.
-void Ring::place(const HoseLine& hose) {
+/// Every cable to where the turn has it. with_slope: and the slope there.
+void Ring::place(const HoseLine& hose, bool with_slope) {
   for (std::size_t i = 1; i + 1 < hose.nodes(); ++i)
     frame_[i] = turned(hose.turn[i], {std::cos(psi_[i]), std::sin(psi_[i])});
-  lines_.place(frame_);
+  lines_.place(frame_, with_slope);
+  if (with_slope) loose_kernels().slope_of_turn(lines_.batch(), slope_.data());
 }
 
-/// Newton's way to the minimum of the quadratic at hand, shifted by as much as makes that positive.
+/// From where place() was with the slope: Newton's way to the minimum of the quadratic at hand, shifted by as much as makes that positive.
 Eigen::VectorXd Ring::newton_turn() {
   const std::size_t rows = slope_.size(), lanes = lines_.batch().lanes;
   const auto count = static_cast<Eigen::Index>(lines_.count());
-  loose_kernels().assemble_turn(lines_.batch(), {bands_.data(), gained_.data(), slope_.data()});
+  loose_kernels().assemble_turn(lines_.batch(), {bands_.data(), gained_.data()});
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto by_cable = [&](const LaneRows& of, std::size_t in_all) {
     return Eigen::Map<const Table, 0, Eigen::OuterStride<>>(
@@ -138,7 +139,7 @@ Eigen::VectorXd Ring::newton_turn() {
 
 /// A step of Newton's. Returns its largest turn [rad].
 double Ring::step(const HoseLine& hose) {
-  const Eigen::VectorXd turn = newton_turn();  // finds the slope
+  const Eigen::VectorXd turn = newton_turn();
   const auto rows = static_cast<Eigen::Index>(slope_.size());
   const Eigen::Map<const Eigen::VectorXd> slope(slope_.data(), rows);
   const double most = turn.cwiseAbs().maxCoeff(), down = slope.dot(turn);
@@ -146,10 +147,10 @@ double Ring::step(const HoseLine& hose) {
   const std::vector<double> from = psi_;
   for (int tries = 0; tries < most_tries; ++tries) {
     for (Eigen::Index i = 0; i < rows; ++i) psi_[i + 1] = from[i + 1] + share * turn[i];
-    place(hose);
-    loose_kernels().slope_of_turn(lines_.batch(), slope_.data());
+    place(hose, most >= at_rest);
+    if (most < at_rest) break;
     const double there = slope.dot(turn);
-    if (most < at_rest || there <= -0.5 * down) break;
+    if (there <= -0.5 * down) break;
     share *= std::clamp(-down / (there - down), 0.1, 0.7);
   }
   return most;
@@ -161,7 +162,7 @@ bool Ring::advance(const HoseLine& hose, double time, bool goes_on) {
   lines_.begin(hose, frames, time, false);
   for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) psi_[i] += time * velocity_[i];
   frame_ = hose.turn;
-  place(hose);
+  place(hose, true);
   bool rests = false;
   for (int k = 0; k < most_iterations && !rests; ++k) rests = step(hose) < at_rest;
   for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - before[i]) / time;

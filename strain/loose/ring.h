@@ -39,7 +39,7 @@ class Ring {
   const std::vector<Eigen::Vector2d>& frame() const { return frame_; }
 
  private:
-  void place(const HoseLine& hose);
+  void place(const HoseLine& hose, bool with_slope);
   Eigen::VectorXd newton_turn();
   double step(const HoseLine& hose);
 
@@ -49,7 +49,7 @@ class Ring {
   std::vector<double> bands_, factors_;  ///< (row, 3) diagonal and the two beside it; row: a node inside
   LaneRows gained_, solved_,
       products_;               ///< (row, lane) of the cables' mean gains, their solutions; (lane, lane)
-  std::vector<double> slope_;  ///< (row) of the sum of the energies
+  std::vector<double> slope_;  ///< (row) of the sum of the energies, where place() found it last
 };
 
 }  // namespace dresslife::strain

@@ -519,8 +519,8 @@ void relax(const LineBatch& room, const WaitingCable* cables, std::size_t count,
     progress[lane / pack_size].begin(static_cast<int>(lane % pack_size));
   };
   for (std::size_t lane = 0; lane < packs * pack_size; ++lane) {
-    to_bench(cables[0], bench, lane);  // numbers for a spare lane
     take(lane);
+    if (!in_lane[lane]) to_bench(cables[0], bench, lane);  // numbers for a spare lane
   }
   const auto busy = [&](int p) { return bits(set(progress[p].busy)) != 0; };
   while (busy(0) || busy(1)) {
@@ -567,7 +567,8 @@ void begin(const LineBatch& batch, const LineMemory& memory, const HoseFrame& ho
       lines.put(place, batch.place, i, 0);
       lines.put(turned(at, frame), batch.before, i, 0);
       const bool clamped = i == 0 || i == last;
-      lines.put(clamped ? place : turned(gone_on(at, Pack(ahead) * lines.pair(memory.velocity, i, 0)), frame), batch.path, i, 0);
+      const Pair path = ahead == 0 ? at : gone_on(at, Pack(ahead) * lines.pair(memory.velocity, i, 0));
+      lines.put(clamped ? place : turned(path, frame), batch.path, i, 0);
     }
 }
 
@@ -633,13 +634,14 @@ void end(const LineBatch& batch, const LineMemory& memory, double time) {
 
 // ---- rings ------------------------------------------------------------------------------------------------
 
-void place(const LineBatch& batch, const double* laid, const double* frame) {
+void place(const LineBatch& batch, const double* laid, const double* frame, bool with_slope) {
   for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
     const Lines<1> lines{batch, k};
     for (std::size_t i = 1; i + 1 < batch.nodes; ++i) {
       const Pair by = Lines<1>::same(frame, i), a0 = lines.pair(laid, i, 0);
       lines.put(turned(a0, by), batch.path, i, 0);
     }
+    if (!with_slope) continue;
     lines.answer();
     lines.slopes<false>();
   }
@@ -662,7 +664,6 @@ void slope_of_turn(const LineBatch& batch, double* slope) {
 void assemble_turn(const LineBatch& batch, const RingSystem& system) {
   const std::size_t last = batch.nodes - 1, lanes = batch.lanes;
   const double h = batch.spacing;
-  slope_of_turn(batch, system.slope);
   for (std::size_t i = 1; i < last; ++i) {
     const bool at_clamp = i == 1 || i + 1 == last;
     Pack own(0.0), next(0.0), after(0.0);

@@ -79,10 +79,9 @@ struct WaitingCable {
 
 constexpr std::size_t bench_lanes = 2 * most_lanes;  ///< room for cables on their way to rest
 
-/// What turns the cables of a ring: bands (row, 3), what each cable gains (row, lane) and the slope (row); row: a node
-/// inside.
+/// What turns the cables of a ring: bands (row, 3) and what each cable gains (row, lane); row: a node inside.
 struct RingSystem {
-  double *bands = nullptr, *table = nullptr, *slope = nullptr;
+  double *bands = nullptr, *table = nullptr;
 };
 
 struct LooseKernels {
@@ -99,10 +98,10 @@ struct LooseKernels {
   /// The sample is over: the path back to its frame, and its velocity over so many seconds; 0: it keeps that which it has.
   void (*end)(const LineBatch&, const LineMemory&, double time);
   /// Every cable to its place in the ring's frame (node, 2), cosine and sine; laid: its place in that (node, 2, lane).
-  /// Then tension and slope of all but contact.
-  void (*place)(const LineBatch&, const double* laid, const double* frame);
+  /// with_slope: then tension and slope of all but contact.
+  void (*place)(const LineBatch&, const double* laid, const double* frame, bool with_slope);
   void (*assemble_turn)(const LineBatch&, const RingSystem&);
-  /// Of the slope alone.
+  /// Slope of the sum of the energies (row).
   void (*slope_of_turn)(const LineBatch&, double* slope);
   /// bands: as factors. table: (row, lane) right-hand sides, which become solutions.
   void (*substitute_turn)(const double* bands, std::size_t rows, std::size_t lanes, double* table);
