@@ -125,6 +125,16 @@ TEST_CASE("document: nesting without end is refused") {
   CHECK(refusal(std::string(200000, '{')).find("error: ") != std::string::npos);
 }
 
+TEST_CASE("document: more than a million values are refused by the signs between them, other letters are not counted") {
+  constexpr std::size_t million = 1'000'000;
+  for (const char sign : {',', '\n', ':', '[', '{'}) {
+    CAPTURE(sign);
+    CHECK_THAT(refusal(std::string(million + 1, sign)), Catch::Matchers::Contains("holds about 1000001 values"));
+  }
+  const std::string word(million + 1, 'x');
+  CHECK(parsed("a: " + word + "\n").find("a")->text == word);
+}
+
 TEST_CASE("document: random bytes are read or refused, never anything else") {
   std::mt19937 random(1);
   const std::string letters = "ab:-[]{}, \n\t'\"#&*!|>%@`?\\0179.~\r";
