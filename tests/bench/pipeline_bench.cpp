@@ -20,8 +20,8 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 
-#include "pipeline/base/whole_file.h"
 #include "pipeline/base/digest.h"
 #include "pipeline/study/known_study.h"
 #include "pipeline/study/ranking.h"
@@ -39,7 +39,7 @@ struct Folder {
   Folder() { fs::create_directories(path / "programs"); }
   ~Folder() { fs::remove_all(path); }
   fs::path write(const std::string& name, const std::string& text) const {
-    write_text_if_changed(path / name, text);
+    std::ofstream(path / name) << text;
     return path / name;
   }
 };
