@@ -33,6 +33,10 @@ void add_slip(const Job& job, std::vector<std::string>& notes) {
     }
 }
 
+std::string estimate_line(const std::string& dresspack, const std::string& estimates) {
+  return fmt::format("ESTIMATE, not in the dresspack{}{}: {}", dresspack.empty() ? "" : " ", dresspack, estimates);
+}
+
 /// Whether a place lies in the catalogue that comes with dresslife, which users do not edit.
 bool is_shipped(const Where& where) {
   const std::filesystem::path catalogue = shipped_catalogue();
@@ -71,6 +75,9 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
       check.warnings = joined(std::move(check.warnings), tight_warnings(line_key(job, d, "dresspack"), job.dresspacks[d]));
   }
   add_slip(job, check.notes);
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
+    if (const std::string& estimates = job.dresspacks[d].dresspack.estimates; !estimates.empty())
+      check.estimates.push_back(estimate_line(name_among(job, d), estimates));
   if (job.motion.is_prescribed()) {
     check.limits = "Not checked: strains and forces of the cables. A run may also warn of them.";
     check.warnings = joined(std::move(check.warnings), warnings_of_prescribed(file, sets));
@@ -100,6 +107,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
 void print_check(const JobCheck& check) {
   for (const Warning& warning : check.warnings) print(shown(warning.line() + "\n"));
   for (const std::string& note : check.notes) print(shown(note + "\n"));
+  for (const std::string& estimate : check.estimates) print(shown(estimate + "\n"));
   if (!check.refusal.empty()) print(shown("The simulation refuses the job: " + check.refusal + "\n"));
 }
 

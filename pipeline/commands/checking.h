@@ -13,6 +13,7 @@ struct JobCheck {
   std::string refusal;             ///< why the simulation refuses the job; empty: it takes it
   std::vector<Warning> warnings;   ///< a run of the job has warnings of the same kinds; of strain.slip only a check has one
   std::vector<std::string> notes;  ///< which lengths suit, for each dresspack between two clamps
+  std::vector<std::string> estimates;  ///< keys that each dresspack leaves out, with the values that count, as a run lists them
   std::string limits;              ///< what only a run finds, a sentence
 };
 

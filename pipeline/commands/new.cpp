@@ -44,7 +44,8 @@ struct Choice {
   Node routing;
   std::string source;
   std::vector<std::string> faults = {};  ///< what dresslife check says of it
-  std::vector<std::string> doubts = {};  ///< and of the program, whatever the routing
+  std::vector<std::string> estimates = {};  ///< of the dresspack
+  std::vector<std::string> doubts = {};  ///< and of program and dresspack, whatever the routing
   bool refused = false;
 };
 
@@ -118,10 +119,12 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
   }
   const JobCheck check = check_of(file.path(), {});  // a full disk or a killed stage is no fault of the routing
   choice.refused = !check.refusal.empty();
+  choice.estimates = check.estimates;
   if (choice.refused) choice.faults.push_back(check.refusal);
   for (const Warning& warning : check.warnings) {
-    const bool of_program = warning.kind == WarningKind::program || warning.kind == WarningKind::motion;
-    (of_program ? choice.doubts : choice.faults).push_back(warning.line());
+    const bool of_routing = warning.kind != WarningKind::program && warning.kind != WarningKind::motion &&
+                            warning.kind != WarningKind::material && warning.kind != WarningKind::overlap;
+    (of_routing ? choice.faults : choice.doubts).push_back(warning.line());
   }
 }
 
@@ -266,6 +269,7 @@ int make(Options options) {
   write_text_if_changed(options.job, with_mark(text_of(options, draft, choice, accelerations), Mark::yaml));
   print(shown(fmt::format("Job: {}\n", options.job)));
   for (const std::string& doubt : choice.doubts) print(shown(doubt + "\n"));
+  for (const std::string& estimate : choice.estimates) print(shown(estimate + "\n"));
   if (options.dresspack_is_example)
     print(fmt::format("Its dresspack {} is an example for a large robot: name yours.\n", default_dresspack));
   if (accelerations > 0) print("Fill in the accelerations of its axes.\n");

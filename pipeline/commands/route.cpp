@@ -240,8 +240,8 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
                        : fmt::format("--scale {:.2g} (a dresspack of the same make in that size), ", scale);
   return {fmt::format("the limit that decides: bend radius, {:.0f} mm of at least {:.0f} mm",
                       1e3 * least * share, 1e3 * least),
-          fmt::format("{}dresspack.least_bend_radius_mm: {:.0f} if its maker allows it, {}", smaller,
-                      std::floor(1e3 * least * share * margin), other)};
+          fmt::format("{}{}, or dresspack.least_bend_radius_mm: {:.0f} if its maker allows it", smaller,
+                      other, std::floor(1e3 * least * share * margin))};
 }
 
 /// What stood against the best of them.

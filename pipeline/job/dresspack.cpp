@@ -415,11 +415,13 @@ void check_place(const Dresspack& dresspack, const Component& component) {
 void check_bore(const Dresspack& dresspack) {
   if (dresspack.hose_material.empty() || inner_radius(dresspack) || !has_wires(dresspack) || dresspack.cable_alone)
     return;
-  throw InputError(dresspack.where,
-                   "hose_material is given and the hose's bore is not (whether its parts fit is not known)",
-                   fmt::format("give inner_diameter_mm, or hose_corrugation; corrugated hoses of {:.4g} mm usually "
-                               "have inner_diameter_mm: {:.3g} (ESTIMATE)",
-                               1e3 * dresspack.diameter, 1e3 * usual_bore_share * dresspack.diameter));
+  throw InputError(
+      dresspack.where,
+      "hose_material is given and the hose's bore is not (whether its parts fit is not known)",
+      fmt::format(
+          "give the profile of a corrugated hose; of {:.4g} mm usually {} (ESTIMATE). Of a smooth pipe give "
+          "inner_diameter_mm alone: it bends some hundred times harder",
+          1e3 * dresspack.diameter, corrugation_line(usual_corrugation(dresspack))));
 }
 
 void check_bending_friction(const Dresspack& dresspack) {

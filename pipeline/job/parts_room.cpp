@@ -1,5 +1,7 @@
 #include "pipeline/job/parts_room.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace dresslife::pipeline {
@@ -26,6 +28,20 @@ PartsRoom room_of_parts(const Dresspack& dresspack) {
   if (const auto inner = inner_radius(dresspack)) return {*inner, core};
   if (holds_cables(dresspack)) return {usual_bore_share * dresspack.diameter / 2, core, true};
   return {dresspack.diameter / 2, core};
+}
+
+Corrugation usual_corrugation(const Dresspack& dresspack) {
+  constexpr double pitch_share = 4.5 / 4, wall_share = 0.7 / 4;  // of the height, as of handling.yaml
+  const double bore = dresspack.inner_diameter.value_or(usual_bore_share * dresspack.diameter);
+  Corrugation usual;
+  usual.height = (dresspack.diameter - bore) / 2;
+  usual.pitch = pitch_share * usual.height, usual.wall = wall_share * usual.height;
+  return usual;
+}
+
+std::string corrugation_line(const Corrugation& corrugation) {
+  return fmt::format("hose_corrugation: {{pitch_mm: {:.3g}, height_mm: {:.3g}, wall_mm: {:.3g}}}",
+                     1e3 * corrugation.pitch, 1e3 * corrugation.height, 1e3 * corrugation.wall);
 }
 
 namespace {

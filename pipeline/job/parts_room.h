@@ -1,6 +1,8 @@
 // Where the parts of a dresspack must lie: inside its bore, outside what fills its middle.
 #pragma once
 
+#include <string>
+
 #include "pipeline/job/dresspack.h"
 
 namespace dresslife::pipeline {
@@ -16,6 +18,12 @@ struct PartsRoom {
 PartsRoom room_of_parts(const Dresspack& dresspack);
 /// Of corrugated conduits as they are sold: 17 / 21.2, 23 / 28.5, 29 / 34.5, 36 / 42.5, 48 / 54.5 mm. ESTIMATE.
 inline constexpr double usual_bore_share = 0.85;
+
+/// Of such a conduit with the diameter and, if it is known, the bore of the dresspack: in the proportions of
+/// config/dresspacks/handling.yaml. ESTIMATE.
+Corrugation usual_corrugation(const Dresspack& dresspack);
+/// "hose_corrugation: {pitch_mm: 3.38, height_mm: 3, wall_mm: 0.525}", a line of a dresspack.
+std::string corrugation_line(const Corrugation& corrugation);
 
 /// Of a diameter, as a caliper reads wrong: no part is refused for less.
 inline constexpr double caliper_error = 0.02;

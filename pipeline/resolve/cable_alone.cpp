@@ -90,6 +90,14 @@ const Node* lone_cable(const Node& dresspack) {
   return off_axis && std::strtod(off_axis->text.c_str(), nullptr) != 0 ? nullptr : &only;
 }
 
+/// What the data sheet of one cable leaves out, of dresspack.estimates; empty: nothing.
+std::string left_out_of(const Node& dresspack, const std::string& cable) {
+  const Node* const estimates = dresspack.find("estimates");
+  if (!estimates) return "";
+  const std::size_t begin = estimates->text.find(fmt::format("data_sheet of {}: ", cable));
+  return begin == std::string::npos ? "" : estimates->text.substr(begin, estimates->text.find("; ", begin) - begin);
+}
+
 Node expanded(Node dresspack) {
   expand_data_sheets(dresspack);
   return dresspack;
@@ -131,6 +139,7 @@ Node cable_alone(const Node& written, const std::string& part, const Where& aske
   alone.where = asked;
   copy(dresspack, "source", alone);
   copy(dresspack, "materials", alone);
+  if (const std::string left_out = left_out_of(dresspack, names[which]); !left_out.empty()) alone["estimates"] = scalar(left_out);
   if (is_hose(dresspack)) return alone;
   for (const char* key :
        {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N",
@@ -147,6 +156,7 @@ Node cable_alone(const Node& cable) {
   expand_data_sheets(holder);
   Node alone = around(holder.find("components")->items.front());
   copy(cable, "source", alone);
+  copy(holder, "estimates", alone);
   for (Node& component : alone["components"].items)
     std::erase_if(component.entries, [](const Entry& entry) { return entry.key == "source"; });
   return alone;

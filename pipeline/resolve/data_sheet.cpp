@@ -126,6 +126,23 @@ class Expansion {
     return fmt::format("{}", fmt::join(parts, ", "));
   }
 
+  /// All keys that the sheet leaves out and that a life depends on, with their values: "conductor_class 6, wire_diameter_mm 0.15".
+  std::string estimated_keys() const {
+    std::vector<std::string> keys;
+    if (!has_class_ && sheet_.conductor_class > 0) keys.push_back(fmt::format("conductor_class {}", sheet_.conductor_class));
+    const auto add = [&](const char* key, bool given, double value) {
+      if (!given) keys.push_back(fmt::format("{} {:.3g}", key, 1e3 * value));
+    };
+    add("wire_diameter_mm", sheet_.wire_diameter.has_value(), wire_);
+    add("core_diameter_mm", sheet_.core_diameter || sheet_.jacket_thickness, core_diameter_);
+    add("jacket_thickness_mm", sheet_.jacket_thickness || (sheet_.core_diameter && sheet_.outer_diameter), jacket_);
+    add("outer_diameter_mm", sheet_.outer_diameter.has_value(), outer_);
+    add("lay_length_mm", sheet_.lay_length || sheet_.cores == 1, usual_lay(sheet_.cores, group_diameter(core_diameter_)));
+    add("group_lay_length_mm", sheet_.group_lay_length || !grouped(), usual_lay(sheet_.cores_per_group, core_diameter_));
+    add("wire_lay_length_mm", sheet_.wire_lay_length || wire_count() == 1, wire_lay_);
+    return fmt::format("{}", fmt::join(keys, ", "));
+  }
+
   std::vector<Component> components() const {
     const std::vector<CoreRing> rings = cabled(core_diameter_);
     const double part = group_diameter(core_diameter_);
@@ -216,17 +233,17 @@ class Expansion {
 
   void pack_wires(int count) {
     const double straight = width_of(packed(count, wire_, infinite, Fillers::none, sheet_.where), wire_);
-    wire_rings_ = packed(count, wire_, sheet_.wire_lay_length.value_or(wire_lay_ratio * straight), Fillers::none,
-                         sheet_.where);
+    wire_lay_ = sheet_.wire_lay_length.value_or(wire_lay_ratio * straight);
+    wire_rings_ = packed(count, wire_, wire_lay_, Fillers::none, sheet_.where);
     conductor_ = width_of(wire_rings_, wire_);
   }
 
   std::vector<CoreRing> laid(int count, double diameter, const std::optional<double>& lay_length) const {
     if (count == 1) return packed(1, diameter, infinite, Fillers::none, sheet_.where);
-    const double straight =
-        width_of(packed(count, diameter, infinite, Fillers::allowed, sheet_.where), diameter);
-    return packed(count, diameter, lay_length.value_or(core_lay_ratio * straight), Fillers::allowed,
-                  sheet_.where);
+    return packed(count, diameter, lay_length.value_or(usual_lay(count, diameter)), Fillers::allowed, sheet_.where);
+  }
+  double usual_lay(int count, double diameter) const {
+    return core_lay_ratio * width_of(packed(count, diameter, infinite, Fillers::allowed, sheet_.where), diameter);
   }
   std::vector<CoreRing> twisted(double core) const {
     return laid(sheet_.cores_per_group, core, sheet_.group_lay_length);
@@ -360,7 +377,7 @@ class Expansion {
   double wire_, outer_ = 0, jacket_ = 0;  // [m]
   bool has_class_;                        // of its own
   std::vector<CoreRing> wire_rings_;
-  double conductor_ = 0, core_diameter_ = 0;  // [m]
+  double conductor_ = 0, core_diameter_ = 0, wire_lay_ = 0;  // [m]
 };
 
 struct Layers {
@@ -372,8 +389,13 @@ void describe(Fields& f, Layers& layers) {
   f.maybe_group("jacket", layers.jacket, "");
 }
 
-/// notes: gets what rules stand in for.
-void expand(Node& component, std::vector<std::string>& notes) {
+/// What the sheets of a dresspack leave out.
+struct LeftOut {
+  std::vector<std::string> by_rules;  ///< for the source of the dresspack
+  std::vector<std::string> keys;      ///< for dresspack.estimates
+};
+
+void expand(Node& component, LeftOut& left_out) {
   const Node* written = component.find("data_sheet");
   if (!written) return;
   for (const char* key : {"components", "material", "radius_mm"})
@@ -382,12 +404,16 @@ void expand(Node& component, std::vector<std::string>& notes) {
                        "keep one of the two");
   DataSheet sheet;
   sheet.where = written->where;
-  read_fields(written->is_scalar() ? sheet_from_line(*written) : *written, sheet);
+  const Node keys = written->is_scalar() ? sheet_from_line(*written) : *written;
+  read_fields(keys, sheet);
   const Expansion expansion(sheet);
-  if (const std::string estimates = expansion.estimates(); !estimates.empty()) {
-    const Node* name = component.find("name");
-    notes.push_back(fmt::format("{} {}", name ? name->text : "cable", estimates));
-  }
+  const Node* const named = component.find("name");
+  const std::string name = named ? named->text : "cable";
+  if (const std::string estimates = expansion.estimates(); !estimates.empty())
+    left_out.by_rules.push_back(fmt::format("{} {}", name, estimates));
+  std::string estimated = expansion.estimated_keys();
+  if (!keys.find("material")) estimated += (estimated.empty() ? "" : ", ") + ("material " + sheet.material);
+  if (!estimated.empty()) left_out.keys.push_back(fmt::format("data_sheet of {}: {}", name, estimated));
   Node made = echo_fields(Layers{expansion.components(), component.find("jacket") ? std::nullopt : expansion.jacket()});
   made["radius_mm"] = scalar(text_in_unit(expansion.radius(), unit_of_key("radius_mm")));
   place_at(made, sheet.where);
@@ -577,26 +603,32 @@ void expand_data_sheets(Node& dresspack) {
 
 namespace {
 
-void expand_all(Node& dresspack, const std::string& path, Problems& problems, std::vector<std::string>& notes) {
+void expand_all(Node& dresspack, const std::string& path, Problems& problems, LeftOut& left_out) {
   Node* components = dresspack.is_map() ? dresspack.find("components") : nullptr;
   if (!components || !components->is_list()) return;
   for (std::size_t i = 0; i < components->items.size(); ++i) {
     Node& component = components->items[i];
     if (!component.is_map()) continue;
     const std::string item = fmt::format("{}{}components[{}]", path, path.empty() ? "" : ".", i + 1);
-    if (problems.attempt(item, component.where, [&] { expand(component, notes); }))
-      expand_all(component, item, problems, notes);
+    if (problems.attempt(item, component.where, [&] { expand(component, left_out); }))
+      expand_all(component, item, problems, left_out);
   }
 }
 
 }  // namespace
 
 void expand_data_sheets(Node& dresspack, const std::string& path, Problems& problems) {
-  std::vector<std::string> notes;
-  expand_all(dresspack, path, problems, notes);
+  LeftOut left_out;
+  expand_all(dresspack, path, problems, left_out);
   Node* source = dresspack.is_map() ? dresspack.find("source") : nullptr;
-  if (source && source->is_scalar() && !notes.empty())
-    source->text += fmt::format("{}{} (by IEC 60228, EN 50525 and IEC 60502-1)", estimate_mark, fmt::join(notes, "; "));
+  if (source && source->is_scalar() && !left_out.by_rules.empty())
+    source->text += fmt::format("{}{} (by IEC 60228, EN 50525 and IEC 60502-1)", estimate_mark, fmt::join(left_out.by_rules, "; "));
+  if (left_out.keys.empty()) return;
+  const Where where = dresspack.where;
+  Node& estimates = dresspack["estimates"];
+  estimates.kind = Node::Kind::scalar;
+  estimates.text += fmt::format("{}{}", estimates.text.empty() ? "" : "; ", fmt::join(left_out.keys, "; "));
+  place_at(estimates, where);
 }
 
 }  // namespace dresslife::pipeline

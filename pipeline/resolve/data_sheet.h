@@ -77,7 +77,7 @@ std::vector<CoreRing> packed(int count, double diameter, double lay_length, Fill
 double width_of(const std::vector<CoreRing>& rings, double diameter);
 
 /// Replaces `data_sheet` in every component of a dresspack's tree by what it stands for: radius_mm and
-/// components; says in `source` what rules stood in for. Errors: InputError at the sheet, which says what does not fit into what.
+/// components; says in `source` what rules stood in for, and in `estimates` every key that was left out, with its value. Errors: InputError at the sheet, which says what does not fit into what.
 void expand_data_sheets(Node& dresspack);
 /// The same. Components that cannot be are added to the problems, under `path` and their number.
 void expand_data_sheets(Node& dresspack, const std::string& path, Problems& problems);

@@ -124,9 +124,10 @@ class RestTrials {
 std::string radius_words(double curvature) { return in_words(1 / curvature, "m"); }
 
 std::string no_other_words(const CheckedMotion& motion, const std::string& limit) {
-  return fmt::format("no length and no direction of these two clamps that was tried{} keeps the limit{}: `dresslife route` finds "
-                     "other clamps",
-                     motion.work > most_work ? " in the time of a check" : "", limit);
+  return fmt::format(
+      "`dresslife route` finds other clamps: no length and no direction of these two clamps that was tried{} keeps the "
+      "limit{}",
+      motion.work > most_work ? " in the time of a check" : "", limit);
 }
 
 using Kinds = std::vector<WarningKind>;
@@ -139,7 +140,8 @@ struct Trial {
   bool keeps = false;  ///< it keeps the limits of the kinds that were asked, and passes no other one than the job does now
   bool cured = false;  ///< the same with the margin
   double radius = 0;   ///< smallest bend radius in the short run [m]; 0: there was none
-  std::string other;   ///< name of a check whose limit is passed and which is none of the bend radius; empty: none
+  std::string other;    ///< name of a check whose limit is passed and which is none of the bend radius; empty: none
+  std::string refusal;  ///< why the short run ended; empty: it did not
 };
 
 /// Most that cure nothing are found with few segments.
@@ -148,9 +150,11 @@ Trial trial_of(const CheckedMotion& motion, const pipeline::Setup& changed, cons
   if (motion.work > most_work) return {};
   const QuickFindings found = quick_findings(changed, segments);
   motion.work += found.run.work;
-  if (!found.run.refusal.empty()) return {};
   Trial trial;
-  if (const Check* const bend = find(found.run.checks, check_name::bend_radius, dresspack)) trial.radius = bend->value;
+  trial.refusal = found.run.refusal;
+  if (!trial.refusal.empty()) return trial;
+  if (const Check* const bend = find(found.run.checks, check_name::bend_radius, dresspack))
+    trial.radius = bend->value;
   trial.keeps = std::all_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
     if (check.dresspack != dresspack) return true;
     return !check.warning || (!is_among(kinds, check) && std::any_of(now.begin(), now.end(), [&](const Check& before) {
@@ -192,16 +196,24 @@ class RemedySearch {
     if (known.empty()) known = found_words();
     return known;
   }
-  /// " (best of those tried: 1.250 m, 187.2 mm in a short run; asked are 200.0 mm)": least bent of those that
-  /// ran; where none did, at rest. now: smallest bend radius of the job [m]. Empty: none has a shape at rest.
+  /// " (best of those tried: 1.250 m, bend radius 210.3 mm at rest, 187.2 mm in a short run; asked are 200.0 mm)": least
+  /// bent of those that ran; where none did, at rest. now: smallest bend radius of the job [m]. Empty: none has a shape
+  /// at rest.
   std::string best_words(double now) const {
     const Trial& trial = best_.trial;
     if (trial.radius == 0 && std::isinf(best_.curvature)) return "";
-    if (trial.radius > 0 && trial.radius <= now) return " (none of those tried bends less than it does now)";
-    return fmt::format(" (best of those tried: {} m{}, {}; asked are {}{})", at_least_metres(best_.length),
+    const bool as_it_is = best_.length == routing().free_length && !best_.turned[0] && !best_.turned[1];
+    if (as_it_is || (trial.radius > 0 && trial.radius <= now))
+      return " (none of those tried bends less than it does now)";
+    const std::string in_run = trial.radius > 0         ? in_words(trial.radius, "m") + " in a short run"
+                               : !trial.refusal.empty() ? "and its short run ends: " + trial.refusal
+                               : best_.curvature * limit() > 1 ? "too little for a short run"
+                                                               : "not tried in a short run";
+    return fmt::format(" (best of those tried: {} m{}, bend radius {} at rest, {}; asked are {}{})",
+                       at_least_metres(best_.length),
                        best_.turned[0] || best_.turned[1] ? " with another direction of a clamp" : "",
-                       trial.radius > 0 ? in_words(trial.radius, "m") + " in a short run" : radius_words(best_.curvature) + " at rest",
-                       in_words(limit(), "m"), trial.other.empty() ? "" : "; it passes another limit: " + trial.other);
+                       radius_words(best_.curvature), in_run, in_words(limit(), "m"),
+                       trial.other.empty() ? "" : "; it passes another limit: " + trial.other);
   }
 
  private:
@@ -221,10 +233,12 @@ class RemedySearch {
       for (const double length : lengths(tried_lengths[turn])) {
         Change change{length, routing().pre_twist, turns[turn]};
         change.curvature = trials_.curvature(length, change.turned);
-        if (best_.trial.radius == 0 && change.curvature < best_.curvature) best_ = change;
+        const bool is_straightest = best_.trial.radius == 0 && change.curvature < best_.curvature;
+        if (is_straightest) best_ = change;
         if (change.curvature * limit() > 1 || tried == most_tried[turn]) continue;
         ++tried;
         change.trial = tried_with(change);
+        if (is_straightest) best_ = change;
         if (change.trial.cured) return words_of(change);
         if (change.trial.keeps && (!kept || change.trial.radius > kept->trial.radius)) kept = change;
         if (change.trial.radius > best_.trial.radius) best_ = change;
@@ -365,10 +379,11 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   if (remedy.empty()) {
     double least = broken.value;  // a limit that both the checks at rest and the short run keep
     for (const Check& check : checks)
-      if (check.kind == WarningKind::bend_radius && check.dresspack == broken.dresspack) least = std::min(least, check.value);
-    remedy = fmt::format("{}: {:.0f} if the maker allows it; {}",
-                         key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), std::floor(1e3 * least),
-                         no_other_words(motion, search.best_words(least)));
+      if (check.kind == WarningKind::bend_radius && check.dresspack == broken.dresspack)
+        least = std::min(least, check.value);
+    remedy = fmt::format(
+        "{}; or {}: {:.0f} if the maker allows it", no_other_words(motion, search.best_words(least)),
+        key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), std::floor(1e3 * least));
   }
   return {cause, remedy + remark};
 }

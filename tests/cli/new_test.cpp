@@ -67,6 +67,25 @@ TEST_CASE("new: proposed clamps pass check, and files are named from the job's f
   CHECK(has(check.out, "no warnings"));
 }
 
+TEST_CASE("new and check say of a dresspack what no routing cures, and list what its data sheet leaves out") {
+  Scratch scratch;
+  scratch.write("hose.yaml",
+                "name: hose\nsource: a catalogue\ndiameter_mm: 29\ninner_diameter_mm: 23\nhose_material: hose_polyamide\n"
+                "least_bend_radius_mm: 110\ncomponents:\n"
+                "  - {name: lead, helix_radius_mm: 0, data_sheet: '7 x 0.5 mm2, outer diameter 8.2 mm'}\n");
+  const std::string doubt = "hose.yaml:1:1: warning: the smooth wall of the hose (29 mm outside, 23 mm inside) has E I 34.6 N m2",
+                    estimate = "ESTIMATE, not in the dresspack: data_sheet of lead: conductor_class 6, wire_diameter_mm 0.15, ";
+  const Outcome made = make(scratch, "--robot kuka_kr16_2 --program easy --dresspack hose.yaml job.yaml");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  CHECK(has(made.out, doubt));
+  CHECK(has(made.out, estimate));
+  const Outcome check = run(scratch, "dresslife", "check job.yaml");
+  INFO(check.out << check.err);
+  CHECK(has(check.out, doubt));
+  CHECK(has(check.out, estimate));
+}
+
 TEST_CASE("new: what is missing is to be filled in, and check asks for it") {
   Scratch scratch;
   REQUIRE(make(scratch, "--robot abb_irb6640_185_280 job.yaml").status == 0);

@@ -2,6 +2,8 @@
 // makes of it.
 #include "pipeline/cable/stiffness.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -302,6 +304,37 @@ TEST_CASE("stiffness: what has none, and words that are none, are refused with a
   CHECK_THAT(refusal({"dresspack.construction_curvature_1_per_m=0"}),
              Contains("construction_curvature_1_per_m"));
   CHECK_THAT(refusal({"dresspack.construction_state=loose"}), Contains("sliding") && Contains("stuck"));
+}
+
+TEST_CASE("stiffness: a smooth wall that no hand bends is warned of with a profile that cures it, a pneumatic tube is not") {
+  const Scratch scratch;
+  const auto warnings = [&](double outer, double inner, const std::string& keys) {
+    const Dresspack dresspack = read_dresspack(scratch.write(
+        "hose.yaml", fmt::format("name: hose\nsource: a catalogue\nhose_material: hose_polyamide\ndiameter_mm: {}\n{}{}components:\n"
+                                 "  - {{name: lead, helix_radius_mm: 0, data_sheet: '2 x 0.25 mm2, outer diameter 4 mm'}}\n",
+                                 outer, inner > 0 ? fmt::format("inner_diameter_mm: {}\n", inner) : "", keys)));
+    std::string words;
+    for (const Warning& warning : stiffness_warnings(dresspack)) words += warning.line() + "\n";
+    return words;
+  };
+  const std::string doubt = "the smooth wall of the hose";
+  const std::string words = warnings(29, 23, "least_bend_radius_mm: 110\n");
+  INFO(words);
+  const double wall = 1.65e9 * pi / 64 * (std::pow(29e-3, 4) - std::pow(23e-3, 4));
+  CHECK_THAT(words, Contains("hose.yaml:1:1: warning: " + doubt) && Contains(fmt::format("E I {:.3g} N m2", wall)) &&
+                        Contains(fmt::format("takes {:.3g} N m (limit 10", wall / 0.11)) && Contains("strains its surface by 13 %"));
+  // The line of the remedy, as it stands, is the profile of a hose as soft as the wall that it names.
+  const std::size_t begin = words.find("Remedy: ") + 8, end = words.find('}', begin) + 1;
+  const std::string profile = words.substr(begin, end - begin) + "\n";
+  CHECK(warnings(29, 23, profile + "least_bend_radius_mm: 110\n") == "");
+  CHECK(warnings(29, 0, profile) == "");
+  // 11.6 N m of NW10, 13/10 mm, at ten diameters; 5.7 and 8 N m of tubes of 8/6 and 10/8 mm at makers' radii.
+  CHECK_THAT(warnings(13, 10, ""), Contains("ten diameters"));
+  CHECK(warnings(8, 6, "") == "");
+  CHECK(warnings(8, 6, "least_bend_radius_mm: 40\n") == "");
+  CHECK(warnings(10, 8, "least_bend_radius_mm: 60\n") == "");
+  // A given stiffness of a corrugated hose beside a smooth wall is no fault: the wall is.
+  CHECK_THAT(warnings(29, 23, "bending_stiffness_Nm2: 0.2\n"), Contains(doubt) && !Contains("bending_stiffness_Nm2 is 0.2"));
 }
 
 TEST_CASE("stiffness: a given one that its construction cannot have is warned of with what it has") {

@@ -240,6 +240,15 @@ TEST_CASE("a conductor's class stands in for what a sheet leaves out, and the so
                          "pack.yaml");
   expand_data_sheets(pack);
   CHECK_THAT(pack.find("source")->text, Catch::Contains("ESTIMATE by rules: lead conductor class 6, wire "));
+  CHECK_THAT(pack.find("estimates")->text, Catch::StartsWith("data_sheet of lead: conductor_class 6, wire_diameter_mm 0.1, ") &&
+                                               Catch::Contains("wire_lay_length_mm ") && Catch::EndsWith("material copper_halved"));
+  // A sheet that leaves nothing out has no estimates.
+  Node full = parse_yaml(
+      "components:\n  - {name: lead, helix_radius_mm: 0, data_sheet: {cores: 7, cross_section_mm2: 0.5, wire_diameter_mm: 0.1, "
+      "lay_length_mm: 60, wire_lay_length_mm: 15, outer_diameter_mm: 8.2, jacket_thickness_mm: 1.1, material: copper}}\n",
+      "pack.yaml");
+  expand_data_sheets(full);
+  CHECK_FALSE(full.find("estimates"));
 }
 
 TEST_CASE("sheets that cannot be are refused with what does not fit") {

@@ -56,7 +56,8 @@ TEST_CASE("parts room: a cable in the core, or outside of a dresspack without a 
 
 TEST_CASE("parts room: the bore of a hose is asked for, and that of cables in something is an ESTIMATE that is marked") {
   CHECK_THAT(refusal(pack("hose_material: hose_polyamide\n", 10)),
-             Contains("hose_material is given and the hose's bore is not") && Contains("inner_diameter_mm: 51 (ESTIMATE)"));
+             Contains("hose_material is given and the hose's bore is not") && Contains("usually hose_corrugation: {pitch_mm: 5.06, height_mm: 4.5, wall_mm: 0.787} (ESTIMATE). Of a smooth "
+                                                                                                 "pipe give inner_diameter_mm alone"));
   const Scratch scratch;
   const auto warnings_at = [&](double helix_radius_mm) {
     return overlap_warnings(read_dresspack(scratch.write("hose.yaml", pack("", helix_radius_mm))));

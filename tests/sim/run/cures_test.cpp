@@ -147,9 +147,31 @@ TEST_CASE("cures: a limit that no length and no direction keeps says so, with th
   job.dresspacks[0].dresspack.least_bend_radius = 30;  // of nearly straight hoses
   const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
   CHECK_THAT(words, Catch::Contains("no length and no direction of these two clamps that was tried") &&
-                        Catch::Contains(" mm at rest; asked are 30000.0 mm"));
+                        Catch::Contains("Remedy: `dresslife route` finds other clamps") &&
+                        Catch::Contains(" mm at rest, too little for a short run; asked are 30000.0 mm"));
   job.dresspacks[0].dresspack.least_bend_radius = value_of(words, "dresspack.least_bend_radius_mm") / 1000;
   CHECK(words_of(job, pipeline::WarningKind::bend_radius) == "");
+}
+
+TEST_CASE("cures: a limit that a length keeps at rest and none keeps in a run is given up with both radii") {
+  int both = 0;
+  for (const double limit : {0.26, 0.28}) {
+    pipeline::Job job = swinging_job(0.97);
+    job.robot.joints[0].speed = job.robot.joints[0].acceleration = 60;  // the hose swings out
+    job.dresspacks[0].dresspack.least_bend_radius = limit;
+    const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
+    CAPTURE(limit, words);
+    const std::size_t at = words.find(" m, bend radius ");
+    if (at == std::string::npos) continue;
+    CHECK_THAT(words, Catch::Contains("Remedy: `dresslife route` finds other clamps: no length and no direction"));
+    const double rest = std::stod(words.substr(at + 16));
+    const std::size_t run = words.find(" mm at rest, ");
+    REQUIRE(run != std::string::npos);
+    if (words.find(" mm in a short run; asked are ") == std::string::npos) continue;
+    CHECK(std::stod(words.substr(run + 13)) < 1e3 * limit);
+    both += rest > 1e3 * limit;
+  }
+  CHECK(both > 0);
 }
 
 TEST_CASE("cures: where a length keeps the limits, the length alone is named, once") {
