@@ -185,6 +185,7 @@ std::vector<Warning> overlap_warnings(const Dresspack& dresspack) {
 }
 
 void refuse_gross_overlap(const Dresspack& dresspack) {
+  if (crowd_in(dresspack)) return;  // check_dresspack() has said so
   Problems problems;
   for (const Component& component : dresspack.components) add_overlaps(component, problems, nullptr);
   add_overlaps_between(dresspack.components, problems, nullptr);

@@ -84,6 +84,7 @@ std::vector<KeyRow> keys_of(const std::string& wanted) {
   take([&](const KeyRow& row) { return path_of(row) == path; });
   take([&](const KeyRow& row) { return ("." + path_of(row)).ends_with("." + path); });
   take([&](const KeyRow& row) { return row.key == last; });
+  take([&](const KeyRow& row) { return ("." + row.map).ends_with("." + path); });  // all keys of a map that is no key itself
   if (!found.empty()) return found;
   std::vector<std::string> names;
   for (const KeyRow& row : all) names.push_back(row.key);

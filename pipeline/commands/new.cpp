@@ -105,26 +105,37 @@ std::string seen_from_job(const std::string& name, const fs::path& job) {
   return is_path ? seen : "./" + seen;
 }
 
-/// What dresslife check says of the draft with this routing. motion: YAML; empty: the draft's.
+/// Without the place of a file that is gone afterwards.
+std::string without_place(const std::string& words, const fs::path& file) {
+  std::string text = words;
+  for (std::size_t at = 0; (at = text.find(file.string(), at)) != std::string::npos;) {
+    std::size_t end = text.find_first_not_of(":0123456789", at + file.string().size());
+    if (text.compare(std::min(end, text.size()), 8, " error: ") == 0) end += 8;
+    text.replace(at, end - at, end == std::string::npos || text[end - 1] != ' ' ? "the job" : "");
+  }
+  return text;
+}
+
+/// What dresslife check says of the draft with this routing, with the places of the user's files. motion: YAML; empty: the draft's.
 void judge(const Draft& draft, const std::string& motion, Choice& choice) {
   const PassingFile file("job.yaml");
   write_text_if_changed(file.path(),
-                        with_mark(to_yaml(routed(draft, to_yaml(choice.routing), motion, 1)), Mark::yaml));
+                        with_mark(to_yaml(routed(draft, to_yaml(choice.routing), motion, 1, file.path().parent_path())), Mark::yaml));
   try {
     read_job(file.path(), {});
   } catch (const InputError& problem) {
     choice.refused = true;
-    choice.faults.emplace_back(problem.what());
+    choice.faults.push_back(without_place(problem.what(), file.path()));
     return;
   }
   const JobCheck check = check_of(file.path(), {});  // a full disk or a killed stage is no fault of the routing
   choice.refused = !check.refusal.empty();
   choice.estimates = check.estimates;
-  if (choice.refused) choice.faults.push_back(check.refusal);
+  if (choice.refused) choice.faults.push_back(without_place(check.refusal, file.path()));
   for (const Warning& warning : check.warnings) {
     const bool of_routing = warning.kind != WarningKind::program && warning.kind != WarningKind::motion &&
                             warning.kind != WarningKind::material && warning.kind != WarningKind::overlap;
-    (of_routing ? choice.faults : choice.doubts).push_back(warning.line());
+    (of_routing ? choice.faults : choice.doubts).push_back(without_place(warning.line(), file.path()));
   }
 }
 
@@ -216,9 +227,9 @@ std::string text_of(const Options& options, const Draft& draft, const Choice& ch
       job);
   if (accelerations > 0)
     text += fmt::format(
-        "# FILL IN beside urdf: accelerations_deg_per_s2: [{} numbers] (those of config/robots have some 300 to 3,000)\n"
+        "# FILL IN beside urdf: accelerations_deg_per_s2: [{} numbers] (those of config/robots have {})\n"
         "robot: {{urdf: {}}}\n",
-        accelerations, entry(options.robot));
+        accelerations, shipped_accelerations, entry(options.robot));
   else
     text += commented("robot", entry(options.robot), "a name of config/robots, or {urdf: FILE}");
   if (draft.exercise)
@@ -229,14 +240,14 @@ std::string text_of(const Options& options, const Draft& draft, const Choice& ch
   text +=
       commented("dresspack", entry(options.dresspack), options.dresspack_is_example ? "an EXAMPLE, 60 mm wide; name yours, or your own YAML file"
                                                                                 : "a name of config/dresspacks, or your own YAML file");
-  text += fmt::format("# Clamps: {}.\n", choice.source);
-  text +=
-      "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\nrouting:\n";
-  for (const Entry& key : choice.routing.entries) text += fmt::format("  {}: {}\n", key.key, flow(key.value));
-  if (choice.refused)
-    text += fmt::format(
-        "# FILL IN other clamps or another dresspack, or let dresslife route {} search. Now:\n# {}\n", job,
-        shown(choice.faults.front()));
+  text += choice.refused
+              ? fmt::format("# FILL IN clamps, or let dresslife route {} search. No routing that was tried runs. The last one:\n# {}\n",
+                            job, shown(choice.faults.front()))
+              : fmt::format("# Clamps: {}.\n", choice.source);
+  const char* const off = choice.refused ? "# " : "";
+  text += fmt::format(
+      "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\n{}routing:\n", off);
+  for (const Entry& key : choice.routing.entries) text += fmt::format("{}  {}: {}\n", off, key.key, flow(key.value));
   return text + commented("simulation", "{segments: 64}", "everything else has a default: config/README.md");
 }
 
@@ -275,7 +286,8 @@ int make(Options options) {
   if (accelerations > 0) print("Fill in the accelerations of its axes.\n");
   if (draft.exercise) print("Fill in its motion.\n");
   if (choice.refused)
-    print(shown("Fill in its clamps: " + choice.faults.front() + "\n"));
+    print(shown(fmt::format("Fill in its clamps, or let dresslife route {} search: no routing that was tried runs. {}\n", options.job,
+                            choice.faults.front())));
   else if (!choice.faults.empty())
     print(shown(
         fmt::format("No routing of those that were tried keeps all limits: dresslife check {0} warns {1}. dresslife route {0} "

@@ -367,11 +367,6 @@ void check_room(const Dresspack& dresspack) {
 void check_place(const Dresspack& dresspack, const Component& component) {
   if (!(dresspack.diameter > 0)) return;  // refused: a problem of its own
   const PartsRoom room = room_of_parts(dresspack);
-  if (inner_radius(dresspack) && !room.estimated && component.radius > room.bore)
-    throw InputError(component.where,
-                     fmt::format("'{}' is {:.4g} mm thick (the hose is {:.4g} mm wide inside)", component.name,
-                                 2e3 * component.radius, 2e3 * room.bore),
-                     "check the diameters of both, or take a wider hose");
   const bool has_core = room.core > 0 || dresspack.core_bending_stiffness.value_or(0) > 0;
   if (component.helix_radius == 0 && has_core && inner_radius(dresspack))
     throw InputError(
@@ -493,10 +488,12 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
     problems.add(dresspack.ratings.front().where, "ratings stand beside a hose (they are of a cable)",
                  "give them to the cable in dresspack.components");
   attempt(dresspack.where, [&] { check_ratings(dresspack.ratings, false); });
+  const auto crowd = dresspack.diameter > 0 ? crowd_in(dresspack) : std::nullopt;
+  if (crowd) problems.add(crowd->where, crowd->what, crowd->remedy);
   for (const Component& component : dresspack.components) {
     attempt(component.where, [&] { check_ratings(component, true); });
     attempt(component.where, [&] { check_laying(dresspack, component, true); });
-    attempt(component.where, [&] { check_place(dresspack, component); });
+    if (!crowd) attempt(component.where, [&] { check_place(dresspack, component); });
     if (component.laying.position == Position::loose && !slides(slip.front()))
       problems.add(component.where,
                    fmt::format("'{}' is loose, and sticks to the hose (strain.slip of its level is {})",

@@ -1,6 +1,7 @@
 // Where the parts of a dresspack must lie: inside its bore, outside what fills its middle.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "pipeline/job/dresspack.h"
@@ -32,5 +33,15 @@ inline constexpr double caliper_error = 0.02;
 /// or by no more than caliper_error.
 double outside_bore(const PartsRoom& room, const Component& component);
 double inside_core(const PartsRoom& room, const Component& component);
+
+/// Parts for which a hose of known bore has no room, wherever they are put.
+struct Crowd {
+  Where where;               ///< of the thickest
+  std::string what, remedy;  ///< in millimetres
+};
+/// A part thicker than the bore or than the gap between core and bore. Without a core: two parts of which one lies in the
+/// middle, because it is written so or because it is wider than half the bore, with less room around it than the other needs.
+/// Nothing: no such parts, or the bore is not given. Parts may still not fit: this compares two of them.
+std::optional<Crowd> crowd_in(const Dresspack& dresspack);
 
 }  // namespace dresslife::pipeline

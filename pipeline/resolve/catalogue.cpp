@@ -95,9 +95,8 @@ void check_accelerations(const Node& robot, const fs::path& urdf, const Where& a
       fmt::format("{} has no accelerations of {} (a URDF cannot hold any)", urdf.string(),
                   fmt::join(without, ", ")),
       fmt::format(
-          "give accelerations_deg_per_s2 beside 'urdf', {} numbers in the order of the axes (those of config/robots have "
-          "some 300 to 3,000)",
-          driven));
+          "give accelerations_deg_per_s2 beside 'urdf', {} numbers in the order of the axes (those of config/robots have {})",
+          driven, shipped_accelerations));
 }
 
 /// `urdf: FILE` and what else says how to read it; all other keys of the entry go over the robot in it.

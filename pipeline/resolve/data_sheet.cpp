@@ -12,6 +12,7 @@
 
 #include "pipeline/cable/overlap.h"
 #include "pipeline/resolve/cable_rules.h"
+#include "pipeline/resolve/placement.h"
 #include "pipeline/job/dresspack.h"
 #include "pipeline/resolve/estimates.h"
 #include "pipeline/settings/fields.h"
@@ -27,6 +28,7 @@ constexpr int closed_ring = 5;         // six parts that touch leave room for a 
 constexpr int filled_ring = 9;         // ten for two
 constexpr double wire_lay_ratio = 16;  // lay length over the conductor's width: stranding has 10 to 20
 constexpr double core_lay_ratio = 12;  // over the width of the cores: flexible cables have 8 to 16
+constexpr int fewest_wires = 7;         // of a flexible conductor; IEC 60228 has solid ones (class 1) and 7 thick wires (class 2) for fixed laying
 constexpr double section_tolerance = 0.25;  // a standard's nominal section is a rounded one: 0.22 for 7 x 0.2 mm
 constexpr double thickest_insulation = 5;  // core over conductor: control cables have 1.5 to 3, those for 1 kV up to 4
 constexpr double thinnest_insulation = 50e-6;  // [m]: signal cables have 0.15 mm and more
@@ -101,6 +103,15 @@ class Expansion {
                        fmt::format("{:.4g} mm2 are {:.3g} wires of {:.4g} mm (a whole number within {:g} %)",
                                    1e6 * sheet.cross_section, sheet.cross_section / section, 1e3 * wire_, 100 * section_tolerance),
                        "check cross_section_mm2, of one core, and wire_diameter_mm");
+    if (wires < fewest_wires)
+      throw InputError(sheet.where,
+                       fmt::format("{:.4g} mm2 are {:g} wire{} of {:.4g} mm (flexible conductors have {} and more)",
+                                   1e6 * sheet.cross_section, wires, wires == 1 ? "" : "s", 1e3 * wire_, fewest_wires),
+                       fmt::format("give the wire's diameter, not the conductor's{}",
+                                   thickest_wire(fine_class, sheet.cross_section) == 0
+                                       ? ""
+                                       : fmt::format("; class 6 has wire_diameter_mm: {:.3g}",
+                                                     1e3 * usual_wire(fine_class, sheet.cross_section))));
     pack_wires(static_cast<int>(wires));
     size_cores();
   }
@@ -413,6 +424,7 @@ void expand(Node& component, LeftOut& left_out) {
     left_out.by_rules.push_back(fmt::format("{} {}", name, estimates));
   std::string estimated = expansion.estimated_keys();
   if (!keys.find("material")) estimated += (estimated.empty() ? "" : ", ") + ("material " + sheet.material);
+  if (!sheet.unused.empty()) estimated += (estimated.empty() ? "" : ", ") + ("without effect: " + sheet.unused);
   if (!estimated.empty()) left_out.keys.push_back(fmt::format("data_sheet of {}: {}", name, estimated));
   Node made = echo_fields(Layers{expansion.components(), component.find("jacket") ? std::nullopt : expansion.jacket()});
   made["radius_mm"] = scalar(text_in_unit(expansion.radius(), unit_of_key("radius_mm")));
@@ -464,6 +476,37 @@ std::string with_points(const std::string& text) {
   return std::regex_replace(text, comma, "$1$2.$3");
 }
 
+/// Whether a phrase of shops and standards says nothing that a life here depends on. A screen's thickness belongs to the jacket's.
+bool changes_nothing(const std::string& phrase) {
+  static const std::vector<std::regex> words{
+      std::regex(R"((un)?(shielded|screened)|(braid|braided|copper|cu|overall|foil|tinned|aluminium|al)?[ -]*(shield|screen|braid)(ed|ing)?.*)"),
+      std::regex(R"((highly |extra |extremely |very |super )?flex(ible)?( cable)?|stranded|fine wire|tinned( copper)?|bare copper|copper|cu)"),
+      std::regex(R"((for )?(drag|energy|cable)[ -]?(chains?|tracks?|carriers?)( (cable|suitable|rated))?|robot(ic|ics)?( cable)?|torsion( cable)?|chainflex.*)"),
+      std::regex(R"((ul|csa|cul|vde|ce|din|iec|en|awm|dnv|rohs|reach)([ /-].*)?)"),
+      std::regex(R"((halogen|silicone|pvc|lsoh|lszh)[ -]?free|lszh|flame[ -]retardant|(oil|uv|abrasion|weld spatter)[ -]resistant)"),
+      std::regex(R"((rated )?(voltage )?[\d./ ]+ *k?v( ac| dc)?|-?\d+ *(\.\.|to|\+|/)+ *\+?-?\d+ *(deg|°)? *c|temperature.*)"),
+      std::regex(R"((insulation|core insulation|cores?) *:? *(pvc|tpe|pp|pe|pur|etfe|xlpe)|(black|grey|gray|orange|green|blue|yellow|colou?r.*|numbered.*))")};
+  return std::any_of(words.begin(), words.end(), [&](const std::regex& of) { return std::regex_match(phrase, of); });
+}
+
+/// The key outside a data sheet that a phrase belongs to: "leave it out and give least_bend_radius_mm: 80 of the dresspack"; else empty.
+std::string other_key(const std::string& phrase) {
+  static const std::regex bend(R"((min(imum)?\.? *)?bend(ing)? *radius.*)"),
+      number(R"((\d[\d.]*) *mm)"), mass(R"((mass|weight) *:? *([\d.]+) *kg */ *km|([\d.]+) *kg */ *km)"),
+      cycles(R"(.*(cycles|million|bends|strokes|torsion).*)");
+  std::smatch found;
+  if (std::regex_match(phrase, bend)) {
+    std::string radius = " in mm";
+    if (std::regex_search(phrase, found, number)) radius = ": " + found[1].str();
+    return fmt::format("leave it out and give the dresspack least_bend_radius_mm{} if no part needs a larger one", radius);
+  }
+  if (std::regex_match(phrase, found, mass))
+    return fmt::format("leave it out and give mass_kg_per_m: {:.4g} beside data_sheet",
+                       std::stod(found[2].matched ? found[2] : found[3]) / 1e3);
+  if (std::regex_match(phrase, cycles)) return "leave it out and give the maker's test as ratings beside data_sheet";
+  return "";
+}
+
 /// The keys that one phrase of a sheet's line stands for.
 std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase,
                                                                 const Where& where) {
@@ -493,12 +536,17 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
           if (const std::string material = jacket_material(phrase); !material.empty()) keys.emplace_back("jacket_material", material);
         return keys;
       }
-  const std::string meant = meant_section(phrase);
+  static const std::regex jacket(R"((outer |outside )?(jacket|sheath)( material)? *:? *[a-z -]+|[a-z-]+ (outer )?(jacket|sheath))");
+  if (const std::string material = jacket_material(phrase); std::regex_match(phrase, jacket))
+    return {{material.empty() ? "unused" : "jacket_material", material.empty() ? phrase : material}};
+  if (changes_nothing(phrase)) return {{"unused", phrase}};
+  const std::string meant = meant_section(phrase), other = other_key(phrase);
   throw InputError(
       where, fmt::format("'{}' of a data sheet is not understood", phrase),
-      meant.empty()
-          ? fmt::format("write phrases as in '{}', lengths in mm, or the keys of a data sheet", example_line)
-          : meant);
+      !meant.empty()   ? meant
+      : !other.empty() ? other
+                       : fmt::format("leave it out if it gives no length; lengths as in '{}' in mm, or as keys (dresslife manual data_sheet)",
+                                     example_line));
 }
 
 }  // namespace
@@ -515,6 +563,10 @@ Node sheet_from_line(const Node& line) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
     problems.attempt("", line.where, [&] {
       for (const auto& [key, value] : keys_of_phrase(phrase, line.where)) {
+        if (key == std::string_view("unused") && sheet.find(key)) {
+          sheet[key].text += ", " + value;
+          continue;
+        }
         if (sheet.find(key))
           throw InputError(line.where, fmt::format("'{}' tells {} a second time", phrase, key),
                            "keep one of the two");
@@ -563,6 +615,7 @@ void describe(Fields& f, DataSheet& sheet) {
          "The material of the wires: a name of config/materials.");
   f.maybe_number("friction_coefficient", sheet.friction, between(0, 1e6),
                  "The Coulomb friction of cores and wires. Default: 0.3, an ESTIMATE.");
+  f.text("unused", sheet.unused, Need::written, "The words of the sheet's line that change no result.");
   f.maybe_number("jacket_pressure_MPa", sheet.jacket_pressure, at_least(0),
                  "The pressure of the jacket on cores and wires. Default: 0.17, an ESTIMATE by the friction "
                  "of published cables. measured_bending_stiffness_Nm2 beside data_sheet sets its level.");
@@ -603,6 +656,23 @@ void expand_data_sheets(Node& dresspack) {
 
 namespace {
 
+/// A cable that no hose of this bore [mm] holds: its own description matters no more. 0: the bore is not known.
+void refuse_thicker_than(double bore, const Node& component) {
+  const Node* const written = component.find("data_sheet");
+  if (!(bore > 0) || !written) return;
+  Node keys;
+  try {
+    keys = written->is_scalar() ? sheet_from_line(*written) : *written;
+  } catch (const InputError&) {  // expand() says so
+    return;
+  }
+  const Node* const outer = keys.find("outer_diameter_mm");
+  const double diameter = outer ? std::strtod(outer->text.c_str(), nullptr) : 0;
+  if (diameter > bore)
+    throw InputError(outer->where, fmt::format("the cable is {:.4g} mm thick (the hose is {:.4g} mm wide inside)", diameter, bore),
+                     fmt::format("check outer_diameter_mm, or take a hose with inner_diameter_mm: {:.4g} or more", diameter));
+}
+
 void expand_all(Node& dresspack, const std::string& path, Problems& problems, LeftOut& left_out) {
   Node* components = dresspack.is_map() ? dresspack.find("components") : nullptr;
   if (!components || !components->is_list()) return;
@@ -610,7 +680,10 @@ void expand_all(Node& dresspack, const std::string& path, Problems& problems, Le
     Node& component = components->items[i];
     if (!component.is_map()) continue;
     const std::string item = fmt::format("{}{}components[{}]", path, path.empty() ? "" : ".", i + 1);
-    if (problems.attempt(item, component.where, [&] { expand(component, left_out); }))
+    if (problems.attempt(item, component.where, [&] {
+          if (path.find("components") == std::string::npos) refuse_thicker_than(bore_of(dresspack), component);
+          expand(component, left_out);
+        }))
       expand_all(component, item, problems, left_out);
   }
 }

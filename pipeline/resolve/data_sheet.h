@@ -42,6 +42,7 @@ struct DataSheet {
   std::string material = "copper_halved";  ///< of the wires
   std::optional<double> friction;          ///< Coulomb, of cores and wires; absent: an ESTIMATE (estimates.h)
   std::optional<double> jacket_pressure;   ///< on cores and wires [Pa]; absent: an ESTIMATE
+  std::string unused;                      ///< words of a sheet's line that change no result
   Where where;
 };
 
@@ -52,8 +53,10 @@ void describe(Fields& f, DataSheet& sheet);
 /// diameter 8.2 mm, jacket PUR 1.1 mm". Of pairs "4 x 2 x 0.25 mm2", "pair lay length 20 mm"; "core
 /// diameter 1.4 mm", "wire lay length 18 mm". The class may stand in for the lengths. A jacket's material (PUR,
 /// TPU, PVC, TPE) gives its wear rates; others give none.
+/// A jacket's material alone ("jacket PUR") leaves its thickness to the rules. Words that change nothing here ("shielded",
+/// "UL 20276", "drag chain") are noted under the key `unused`.
 /// Without the wire and the class, class 6 counts; with the wire alone, the jacket or core must be given. Decimal commas are
-/// accepted. Errors: InputErrors at the line, one for each phrase that is none of these.
+/// accepted. Errors: InputErrors at the line, one for each phrase that is none of these, with the key that takes it.
 Node sheet_from_line(const Node& line);
 
 enum class Fillers { none, allowed };

@@ -118,14 +118,6 @@ double number_of(const Node& map, const char* key) {
   return value ? std::strtod(value->text.c_str(), nullptr) : 0;
 }
 
-/// [mm]; 0: not known.
-double bore_of(const Node& dresspack) {
-  if (dresspack.find("inner_diameter_mm")) return number_of(dresspack, "inner_diameter_mm");
-  const Node* profile = dresspack.find("hose_corrugation");
-  if (!profile || !profile->is_map()) return 0;
-  return number_of(dresspack, "diameter_mm") - 2 * number_of(*profile, "height_mm");
-}
-
 std::string millimetres(double metres) { return shortest_text(std::round(1e6 * metres) / 1e3); }
 
 struct AutoPart {
@@ -187,6 +179,13 @@ bool even(const std::vector<PlacedPart>& places) {
 }
 
 }  // namespace
+
+double bore_of(const Node& dresspack) {
+  if (dresspack.find("inner_diameter_mm")) return number_of(dresspack, "inner_diameter_mm");
+  const Node* profile = dresspack.find("hose_corrugation");
+  if (!profile || !profile->is_map()) return 0;
+  return number_of(dresspack, "diameter_mm") - 2 * number_of(*profile, "height_mm");
+}
 
 std::optional<std::vector<PlacedPart>> pack_in_bore(const std::vector<double>& radii, double bore, double core) {
   std::vector<PlacedPart> places(radii.size());

@@ -16,6 +16,9 @@
 
 namespace dresslife::pipeline {
 
+/// Of a dresspack as it is written [mm]; 0: not known.
+double bore_of(const Node& dresspack);
+
 struct PlacedPart {
   double helix_radius = 0;  ///< [m]
   double phase = 0;         ///< [rad]

@@ -86,6 +86,23 @@ TEST_CASE("new and check say of a dresspack what no routing cures, and list what
   CHECK(has(check.out, estimate));
 }
 
+TEST_CASE("new: clamps of which none runs are left to be filled in, without a place in a file that is gone") {
+  Scratch scratch;
+  scratch.write("hose.yaml",
+                "name: hose\nsource: a guess\ndiameter_mm: 150\nmass_kg_per_m: 10\nbending_stiffness_Nm2: 400\n"
+                "torsional_stiffness_Nm2: 400\naxial_stiffness_N: 1e5\ndamping_time_ms: 20\ndamping_source: a guess\n");
+  const Outcome made = make(scratch, "--robot kuka_kr16_2 --program easy --dresspack hose.yaml mine.yaml");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  const std::string text = content(scratch / "mine.yaml");
+  INFO(text);
+  CHECK(has(made.out, "Fill in its clamps, or let dresslife route mine.yaml search"));
+  CHECK(has(text, "# FILL IN clamps, or let dresslife route mine.yaml search. No routing that was tried runs."));
+  CHECK(has(text, "\n# routing:\n#   base_clamp: "));
+  for (const std::string& words : {made.out, text}) CHECK_FALSE(has(words, "job.yaml"));
+  CHECK(has(run(scratch, "dresslife", "check mine.yaml").err, "routing is missing"));
+}
+
 TEST_CASE("new: what is missing is to be filled in, and check asks for it") {
   Scratch scratch;
   REQUIRE(make(scratch, "--robot abb_irb6640_185_280 job.yaml").status == 0);

@@ -169,7 +169,7 @@ const Wrong wrong[] = {
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 1,2", "hose.yaml:5:16: error: ", "'1,2' (must be a number", "write 1.2 with a point", draw},
     {"hose.yaml", "slack_percent: 1", "slack_percent: -1", "hose.yaml:16:20: error: ", "slack_percent is -1", "; ", draw},
     {"hose.yaml", "radius_mm: 4.1", "radius_mm: 8.2", "hose.yaml:12:5: error: ", "1.2 mm outside the hose's bore", "helix_radius_mm: 12.8 or less", draw},
-    {"hose.yaml", "radius_mm: 4.1", "radius_mm: 22", "hose.yaml:12:5: error: ", "'lead' is 44 mm thick (the hose is 42 mm wide inside)", "take a wider hose", draw},
+    {"hose.yaml", "radius_mm: 4.1", "radius_mm: 22", "hose.yaml:12:5: error: ", "'lead' is 44 mm thick (the hose is 42 mm wide inside)", "take a hose with inner_diameter_mm: 44 or more", draw},
     {"hose.yaml", "helix_radius_mm: 14", "helix_radius_mm: 0.014", "hose.yaml:12:5: error: ", "'lead' covers the axis by 4.09 mm", "give helix_radius_mm: 4.1 or more", draw},
     {"hose.yaml", "name: lead", "name: lead/1", "hose.yaml:12:5: error: ", "holds a '/'", "choose another name", draw},
     {"hose.yaml", "count: 19, radius_mm: 0.1", "count: 19, radius_mm: 1", "hose.yaml:18:101: error: ", "outside it", "check helix_radius_mm and radius_mm", draw},

@@ -160,17 +160,36 @@ TEST_CASE("a sheet's line is what its keys are") {
           "wire_lay_length_mm: 12, core_diameter_mm: 1.2, outer_diameter_mm: 9, jacket_thickness_mm: 0.9, "
           "jacket_material: polyurethane}"));
   const auto refusal = [&](const std::string& sheet) { return message_of([&] { expanded(sheet); }); };
-  CHECK_THAT(refusal("7 x 0.5 mm2, screen 85 %, wire 0.1 mm"),
-             Catch::Contains("'screen 85 %' of a data sheet is not understood") &&
-                 Catch::Contains("write phrases as in"));
+  CHECK_THAT(refusal("7 x 0.5 mm2, sausage, wire 0.1 mm"),
+             Catch::Contains("'sausage' of a data sheet is not understood") && Catch::Contains("dresslife manual data_sheet"));
+  // A jacket's material without its thickness, and words that change nothing.
+  const std::string by_rules = expanded("{cores: 7, cross_section_mm2: 0.5, outer_diameter_mm: 8.2, jacket_material: polyurethane}");
+  for (const char* jacket : {"jacket PUR", "PUR jacket", "outer sheath PUR"})
+    CHECK(expanded(std::string("7 x 0.5 mm2, OD 8.2 mm, ") + jacket) == by_rules);
+  Node shop = parse_yaml(
+      "components:\n  - {name: lead, helix_radius_mm: 0, data_sheet: '7 x 0.5 mm2, shielded, highly flexible, OD 8.2 mm, jacket PUR, "
+      "UL 20276, 300 V, drag chain, halogen-free, copper braid 85 %, -40 to 80 C, jacket rubber'}\n",
+      "pack.yaml");
+  expand_data_sheets(shop);
+  CHECK_THAT(shop.find("estimates")->text,
+             Catch::EndsWith(", without effect: shielded, highly flexible, ul 20276, 300 v, drag chain, halogen-free, copper braid 85 %, "
+                             "-40 to 80 c, jacket rubber"));
+  // Words that belong to other keys.
+  CHECK_THAT(refusal("7 x 0.5 mm2, min. bending radius 82 mm"), Catch::Contains("give the dresspack least_bend_radius_mm: 82 "));
+  CHECK_THAT(refusal("7 x 0.5 mm2, bend radius 10 x d"), Catch::Contains("give the dresspack least_bend_radius_mm in mm"));
+  CHECK_THAT(refusal("7 x 0.5 mm2, weight 65 kg/km"), Catch::Contains("give mass_kg_per_m: 0.065 beside data_sheet"));
+  CHECK_THAT(refusal("7 x 0.5 mm2, 5 million cycles"), Catch::Contains("as ratings beside data_sheet"));
+  // The conductor's diameter as the wire's.
+  CHECK_THAT(refusal("4 x 0.25 mm2, wire 0.5 mm, OD 5 mm, jacket 0.8 mm"),
+             Catch::Contains("0.25 mm2 are 1 wire of 0.5 mm (flexible conductors have 7 and more)") && Catch::Contains("wire_diameter_mm: 0.1"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, wires 0.1 mm"),
              Catch::Contains("tells wire_diameter_mm a second time"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, jacket 1 mm"),
              Catch::Contains("data_sheet has no outer_diameter_mm; give it, or conductor_class"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 1.2.3 mm, jacket 1 mm"), Catch::Contains("sheet:1:1: error: "));
   // All that is not understood at once.
-  CHECK_THAT(refusal("7 x 0.5, screen 85 %, wire 0.1 mm"),
-             Catch::Contains("write '7 x 0.5 mm2'") && Catch::Contains("'screen 85 %' of a data sheet is not understood"));
+  CHECK_THAT(refusal("7 x 0.5, sausage, wire 0.1 mm"),
+             Catch::Contains("write '7 x 0.5 mm2'") && Catch::Contains("'sausage' of a data sheet is not understood"));
 }
 
 TEST_CASE("a data sheet whose cores have no insulation is refused") {

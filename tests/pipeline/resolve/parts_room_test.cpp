@@ -54,6 +54,36 @@ TEST_CASE("parts room: a cable in the core, or outside of a dresspack without a 
              Contains("'core' reaches 5.5 mm from the axis, 0.5 mm outside the dresspack (radius 5 mm)"));
 }
 
+TEST_CASE("parts room: parts that have no room wherever they are put are refused at once, and the remedy is final") {
+  const auto two = [](const std::string& bore, const std::string& lead, const std::string& other) {
+    return refusal("name: hose\nsource: test\ndiameter_mm: 40\nhose_material: hose_polyamide\n" + bore +
+                   "\ncomponents:\n  - {name: lead, " + lead +
+                   ", data_sheet: '12 x 1.5 mm2, OD 14 mm'}\n"
+                   "  - {name: tube, radius_mm: 4, " +
+                   other + ", without_wires: {kind: hose, bore_mm: 5.5}}\n");
+  };
+  const std::string narrow = "inner_diameter_mm: 23";
+  for (const auto& [lead, tube] : {std::pair{"5", "7"}, {"0", "7"}, {"0", "11"}, {"7", "11"}}) {
+    CAPTURE(lead, tube);
+    const std::string words = two(narrow, "helix_radius_mm: " + std::string(lead), "phase_deg: 180, helix_radius_mm: " + std::string(tube));
+    CHECK_THAT(words, Contains("'lead' (14 mm) and 'tube' (8 mm) do not fit into the bore of 23 mm") &&
+                          Contains("around 'lead' in the middle are 4.5 mm") && Contains("inner_diameter_mm: 28.1 or more") &&
+                          !Contains("give helix_radius_mm"));
+  }
+  CHECK(two("inner_diameter_mm: 28.1", "place: auto", "place: auto") == "");
+  // As they lie they have no room, otherwise they have.
+  CHECK_THAT(two("inner_diameter_mm: 29", "helix_radius_mm: 0", "helix_radius_mm: 10"),
+             Contains("do not fit into the bore of 29 mm as they lie") && Contains("write place: auto for both"));
+  CHECK(two("inner_diameter_mm: 29", "place: auto", "place: auto") == "");
+  CHECK_THAT(two("inner_diameter_mm: 30\ncore_diameter_mm: 10\ncore_bending_stiffness_Nm2: 0.1", "helix_radius_mm: 8", "helix_radius_mm: 9"),
+             Contains("'lead' is 14 mm thick (between the core of 10 mm and the bore of 30 mm are 10 mm)") &&
+                 Contains("inner_diameter_mm: 38 or more"));
+  // A cable that is thicker than the bore is no matter of its cores.
+  const std::string thick = refusal("name: hose\nsource: test\ndiameter_mm: 29\nhose_material: hose_polyamide\n" + narrow +
+                                    "\ncomponents:\n  - {name: lead, helix_radius_mm: 0, data_sheet: '7 x 0.5 mm2, OD 25 mm'}\n");
+  CHECK_THAT(thick, Contains("the cable is 25 mm thick (the hose is 23 mm wide inside)") && !Contains("core"));
+}
+
 TEST_CASE("parts room: the bore of a hose is asked for, and that of cables in something is an ESTIMATE that is marked") {
   CHECK_THAT(refusal(pack("hose_material: hose_polyamide\n", 10)),
              Contains("hose_material is given and the hose's bore is not") && Contains("usually hose_corrugation: {pitch_mm: 5.06, height_mm: 4.5, wall_mm: 0.787} (ESTIMATE). Of a smooth "
