@@ -490,7 +490,7 @@ Node sheet_from_line(const Node& line) {
     problems.attempt("", line.where, [&] {
       for (const auto& [key, value] : keys_of_phrase(phrase, line.where)) {
         if (sheet.find(key))
-          throw InputError(line.where, fmt::format("'{}' tells {} a second time", phrase, key),
+          throw InputError(line.where, fmt::format("'{}' gives {} a second time", phrase, key),
                            "keep one of the two");
         sheet[key] = scalar(value);
       }
