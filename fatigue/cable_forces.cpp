@@ -171,8 +171,8 @@ pipeline::Warning force_warning(const CableFacts& facts, const pipeline::CableFo
   const Cure cure = cure_of(facts, cable, sticks, tension < 0, acceleration);
   return pipeline::warning_of(
       pipeline::WarningKind::force, "",
-      fmt::format("'{}' is {} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %) {}; no cable in a dresspack "
-                  "bears that, so that the hours are not believable",
+      fmt::format("'{}' is {} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %) {}; that is unrealistic: "
+                  "do not plan with the hours",
                   facts.name, tension < 0 ? "compressed" : "pulled", 100 * std::abs(tension) / cable.strength(),
                   pipeline::readable(std::abs(tension)), pipeline::readable(cable.strength()),
                   100 * pipeline::believable_share, moment),

@@ -288,7 +288,7 @@ int main(int argc, char** argv) {
         if (!request.ways.empty()) return note_ways(request, call);
         if (!request.log.empty()) return note_log(request, call, progress);
         if (call.output.empty() && !request.explain)
-          throw pipeline::InputError({call.input.string()}, "would be read for nothing",
+          throw pipeline::InputError({call.input.string()}, "has no output",
                                      "name a file with -o, or ask for --explain");
         const pipeline::Motion asked = motion_asked_for(request, call.input);
         const sim::Program program = program_of(asked, request.answers);

@@ -19,21 +19,37 @@ std::string lower(std::string text) {
   return text;
 }
 
+std::string stem_of(const fs::path& file) { return lower(file.stem().string()); }
+
+bool is_krl(const fs::path& file) {
+  const std::string end = lower(file.extension().string());
+  return end == ".src" || end == ".dat" || end == ".sub";
+}
+
+std::string without_comments(const std::string& text) {
+  std::string kept;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    kept += text.substr(begin, std::min(text.find(';', begin), end) - begin) + '\n';
+    begin = end + 1;
+  }
+  return kept;
+}
+
 /// Nothing of a file that cannot be read, or is written in letters of two bytes.
 std::optional<std::string> text_of(const fs::path& file) {
   try {
     std::string text = lower(read_text(file));
-    return text.find('\0') == std::string::npos ? std::optional(std::move(text)) : std::nullopt;
+    if (text.find('\0') != std::string::npos) return std::nullopt;
+    return is_krl(file) ? without_comments(text) : text;
   } catch (const InputError&) {
     return std::nullopt;
   }
 }
 
-/// What is called like a file belongs to it: weld.dat to weld.src.
-std::string with_name(const fs::path& file, std::string text) { return std::move(text) + '\n' + lower(file.stem().string()); }
-
 bool is_name_letter(char letter) {
-  return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '_' || letter == '$';
+  return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '_' ||
+         letter == '$';
 }
 
 std::vector<std::string> words_of(std::string_view line) {
@@ -62,27 +78,52 @@ std::string without_contents(std::string_view line) {
   return names;
 }
 
-/// What others can call or read of a KRL file: its routines, and what is declared as global.
-std::vector<std::string> names_declared(const fs::path& file, const std::string& text) {
-  std::vector<std::string> names{lower(file.stem().string())};
+/// The words of each line, in brackets and behind '=' excepted.
+std::vector<std::vector<std::string>> declarations(const std::string& text) {
+  std::vector<std::vector<std::string>> lines;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::vector<std::string> words = words_of(without_contents(std::string_view(text).substr(begin, end - begin)));
-    const bool declares = std::any_of(words.begin(), words.end(), [](const std::string& word) {
-      return word == "def" || word == "deffct" || word == "global";
-    });
-    if (declares) names.insert(names.end(), words.begin(), words.end());
+    lines.push_back(words_of(without_contents(std::string_view(text).substr(begin, end - begin))));
     begin = end + 1;
   }
-  for (const char* own : {"def", "deffct", "global", "public", "decl", "const", "signal", "to", "struc", "enum", "in", "out", "int", "real",
-                          "bool", "char", "axis", "pos", "frame", "e6axis", "e6pos"})
+  return lines;
+}
+
+bool has(const std::vector<std::string>& words, const char* word) {
+  return std::ranges::find(words, word) != words.end();
+}
+bool begins_a_routine(const std::vector<std::string>& words) {
+  return has(words, "def") || has(words, "deffct");
+}
+
+/// The routines that a KRL file defines.
+std::set<std::string> routines_of(const std::string& text) {
+  std::set<std::string> names;
+  for (const std::vector<std::string>& words : declarations(text))
+    if (begins_a_routine(words)) names.insert(words.back());
+  return names;
+}
+
+/// What others can call or read of a file: its first routine, and what it declares as global.
+std::vector<std::string> names_declared(const fs::path& file, const std::string& text) {
+  std::vector<std::string> names{stem_of(file)};
+  bool first = true;
+  for (const std::vector<std::string>& words : declarations(text)) {
+    const bool routine = begins_a_routine(words);
+    if (has(words, "global") || (routine && first)) names.insert(names.end(), words.begin(), words.end());
+    first = first && !routine;
+  }
+  for (const char* own :
+       {"def", "deffct", "global", "public", "decl", "const", "signal", "to",    "struc",  "enum", "in",
+        "out", "int",    "real",   "bool",   "char", "axis",  "pos",    "frame", "e6axis", "e6pos"})
     std::erase(names, own);
   return names;
 }
 
-/// Whether it belongs to all programs in its folder: registers (.va) and KUKA's own files ($config.dat).
-bool is_of_the_controller(const fs::path& file) {
-  return lower(file.extension().string()) == ".va" || file.filename().string().starts_with('$');
+/// Whether it belongs to all programs in its folder: registers (.va) and KUKA's own data lists ($config.dat).
+bool is_of_the_controller(const fs::path& file, const std::string& text) {
+  return lower(file.extension().string()) == ".va" || file.filename().string().starts_with('$') ||
+         text.find("defdat $") != std::string::npos;
 }
 
 struct Candidate {
@@ -91,44 +132,52 @@ struct Candidate {
   std::vector<std::string> names;
 };
 
+/// A text that may name others.
+struct Open {
+  std::string stem, text;
+  std::set<std::string> own{};  ///< names in it that mean its own routines
+};
+
 }  // namespace
 
 std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::vector<fs::path> beside) {
   std::vector<fs::path> related;
-  std::vector<std::string> open;  // texts that may name others
+  std::vector<Open> open;
   std::vector<Candidate> candidates;
   bool all = false;
   for (const fs::path& program : programs) {
     std::optional<std::string> text = program.empty() ? std::string() : text_of(program);
     all |= !text || lower(program.extension().string()) == ".pgf";
-    open.push_back(with_name(program, std::move(text).value_or("")));
+    open.push_back({stem_of(program), std::move(text).value_or("")});
   }
+  // Other files may define routines of the same names: those of the first program count (first_file_counts in sim/program/program.h).
+  if (!programs.empty() && is_krl(programs.front())) open.front().own = routines_of(open.front().text);
   for (fs::path& file : beside) {
     std::optional<std::string> text = all ? std::nullopt : text_of(file);
-    if (text && !is_of_the_controller(file)) {
+    if (text && !is_of_the_controller(file, *text)) {
       std::vector<std::string> names = names_declared(file, *text);
       candidates.push_back({std::move(file), std::move(*text), std::move(names)});
     } else {
+      open.push_back({stem_of(file), std::move(text).value_or("")});
       related.push_back(std::move(file));
-      open.push_back(std::move(text).value_or(""));
     }
   }
   while (!open.empty()) {
-    const std::string text = std::move(open.back());
+    const Open of = std::move(open.back());
     open.pop_back();
-    const std::vector<std::string> list = words_of(text);
+    const std::vector<std::string> list = words_of(of.text);
     const std::set<std::string> words(list.begin(), list.end());
     // A name with other letters than those of words may stand in several: it is looked for as it is.
     const auto stands_in_text = [&](const std::string& name) {
-      return std::ranges::all_of(name, is_name_letter) ? words.contains(name) : text.find(name) != std::string::npos;
+      return std::ranges::all_of(name, is_name_letter) ? words.contains(name) && !of.own.contains(name)
+                                                       : of.text.find(name) != std::string::npos;
     };
     std::erase_if(candidates, [&](Candidate& candidate) {
-      const bool named = std::any_of(candidate.names.begin(), candidate.names.end(), [&](const std::string& name) {
-        return stands_in_text(name);
-      });
-      if (!named) return false;
+      // What is called like a file belongs to it: weld.dat to weld.src.
+      if (stem_of(candidate.file) != of.stem && std::ranges::none_of(candidate.names, stands_in_text))
+        return false;
+      open.push_back({stem_of(candidate.file), std::move(candidate.text)});
       related.push_back(std::move(candidate.file));
-      open.push_back(with_name(related.back(), std::move(candidate.text)));
       return true;
     });
   }

@@ -72,8 +72,8 @@ int calibrate(const Options& options) {
 Command calibrate_command() {
   const auto options = std::make_shared<Options>();
   return {"calibrate",
-          "learn what is not known of cables from lives that were observed, or from a maintenance system's table of dresspacks; "
-          "a job that names the result starts from it",
+          "narrow the uncertain parameters by observed lives or by a maintenance system's table of dresspacks; "
+          "a job names the result as its calibration",
           joined({{{"observations", "", "OBSERVATIONS.yaml or RECORDS.csv", &options->study, {.required = true}},
                    {"--job", "JOB.yaml", "of the dresspacks in the table, unless its column job names one", &options->job},
                    {"--records-since", "DATE",

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "pipeline/advise/improve/draft.h"
 #include "pipeline/advise/improve/finals.h"
 #include "pipeline/advise/improve/improvement.h"
 #include "pipeline/advise/improve/story.h"
@@ -15,6 +16,7 @@
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
+#include "pipeline/resolve/sources.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/folder_source.h"
 
@@ -32,14 +34,72 @@ struct Options : RunOptions {
 /// Short runs come before the first trial. The remaining time is that of the short runs, then that of the trials.
 void show(Progress& progress, const Improvement& so_far, int trials) {
   const std::optional<std::size_t> best = so_far.best();
-  const std::string best_words = best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits";
+  const std::string best_words =
+      best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits";
   const std::size_t done = so_far.trials.size();
   if (done <= 1 && so_far.rehearsals < so_far.most_rehearsals)
     progress.show(static_cast<double>(so_far.rehearsals) / so_far.most_rehearsals,
                   fmt::format("short run {} of about {} before the first of {} trials", so_far.rehearsals,
                               so_far.most_rehearsals, trials));
   else
-    progress.show(static_cast<double>(done) / trials, fmt::format("trial {} of {}, best {}", done, trials, best_words));
+    progress.show(static_cast<double>(done) / trials,
+                  fmt::format("trial {} of {}, best {}", done, trials, best_words));
+}
+
+FilesAtStart files_of(const Study& study) {
+  std::vector<std::shared_ptr<const Job>> jobs;
+  for (const StudyJob& job : study.jobs)
+    if (job.job) jobs.push_back(job.job);
+  return FilesAtStart(std::move(jobs));
+}
+
+/// Of a search whose files changed: its trials so far are of the files as they were.
+int end_early(const Improvement& found, const StudyPlaces& places) {
+  tell(shown(found.ended) + "\n");
+  print(shown(unfinished_words(found)));
+  print(shown(fmt::format("Trials: {}\n", (places.folder / "improve.csv").string())));
+  return 1;
+}
+
+/// The best of one job as a job of a few lines, here; nothing where no trial is better, and of jobs without a robot.
+void write_short_job(const ImproveRequest& request, const Improvement& found, const Finals& finals,
+                     const fs::path& job) {
+  const Final* const best = finals.best();
+  const Node document = read_document(request.file);
+  if (!best || best->hours <= finals.of.front().hours || !document.find("robot") || !document.find("routing"))
+    return;
+  RouteRequest route{.of = request.file.string()};
+  route.sets = request.sets;
+  const std::vector<std::string>& sets = found.trials[best->trial].sets;
+  route.sets.insert(route.sets.end(), sets.begin(), sets.end());
+  const Draft draft = draft_of(route);
+  const Node whole = routed(draft, to_yaml(*draft.document.find("routing")), "", 1, ".");
+  write_text_if_changed(job, with_mark(fmt::format("# Proposed by dresslife improve {}\n{}",
+                                                   shown(request.file.string()), to_yaml(whole)),
+                                       Mark::yaml));
+  print(shown(fmt::format("Short job: {}\n", job.string())));
+}
+
+/// Runs the best again, in full and with clamps and length off, and writes the results.
+int judge_the_best(const Options& options, const StudyPlaces& places, const Improvement& found,
+                   const MakeRows& make_rows, const fs::path& job) {
+  Finals finals = finals_of(found, options.request, make_rows);
+  const bool all_written = write_results(finals.study, places, finals.rows).empty();
+  const double off = options.off_mm / 1000;
+  if (off > 0 && !options.quiet)
+    tell(shown(fmt::format(
+        "The trials are done; the jobs of the best are in {}. Next the best three are tried with each clamp and the "
+        "length off by {:g} mm. --off 0 leaves that out.\n",
+        places.folder.string(), options.off_mm)));
+  if (off > 0) judge(finals, found, options.request, off, places, make_rows);
+  const ImprovementStory story = story_of(found, finals, options.request.second, places);
+  write_text_if_changed(places.folder / "improve.html", with_mark(improvement_page(story), Mark::page));
+  print(shown(improvement_words(found, finals, story, options.request.second, off, places)));
+  write_short_job(options.request, found, finals, job);
+  print(shown(fmt::format("Trials: {}\nReport: {}\n", (places.folder / "improve.csv").string(),
+                          (places.folder / "improve.html").string())));
+  const int failed = say_failures(options.study, finals.rows);
+  return failed != 0 || finals.of.size() == 1 || !all_written ? 1 : 0;
 }
 
 int improve_study(Options options) {
@@ -50,31 +110,27 @@ int improve_study(Options options) {
   const StudyPlaces places{fs::path(options.out) / (name + "_improve"), program_folder()};
   const FolderLock lock(places.folder);
   claim_folder(places.folder, options.request.file);
+  const fs::path job = name + "_improved.yaml";
+  check_replaceable(job);
   RunOptions quiet = options;
-  quiet.quiet = options.quiet || ::isatty(STDERR_FILENO);  // a terminal has one line, and that shows the search
+  quiet.quiet =
+      options.quiet || ::isatty(STDERR_FILENO);  // a terminal has one line, and that shows the search
   Progress progress(name, options.quiet);
+  const FilesAtStart files = files_of(read_study(options.request.file, options.sets));
   const TrialMakers makers{
-      [&](const Study& study) { return made_rows(study, places, quiet); },
+      [&](const Study& study) { return made_rows(study, places, quiet, files); },
       [&](const Improvement& so_far) { show(progress, so_far, options.request.trials); }};
-  const Improvement found = improve(options.request, places, makers);
+  Improvement found = improve(options.request, places, makers);
   progress.clear();
   write_text_if_changed(places.folder / "improve.csv", improvement_csv(found));
-  const MakeRows make_rows = [&](const Study& study) { return made_rows(study, places, options); };
-  Finals finals = finals_of(found, options.request, make_rows);
-  const bool all_written = write_results(finals.study, places, finals.rows).empty();
-  const double off = options.off_mm / 1000;
-  if (off > 0 && !options.quiet)
-    tell(shown(fmt::format("The trials are done; the jobs of the best are in {}. Next the best three are tried with each clamp and the "
-                           "length off by {:g} mm. --off 0 leaves that out.\n",
-                           places.folder.string(), options.off_mm)));
-  if (off > 0) judge(finals, found, options.request, off, places, make_rows);
-  const ImprovementStory story = story_of(found, finals, options.request.second, places);
-  write_text_if_changed(places.folder / "improve.html", with_mark(improvement_page(story), Mark::page));
-  print(shown(improvement_words(found, finals, story, options.request.second, off, places)));
-  print(shown(fmt::format("Trials: {}\nReport: {}\n", (places.folder / "improve.csv").string(),
-                          (places.folder / "improve.html").string())));
-  const int failed = say_failures(options.study, finals.rows);
-  return failed != 0 || finals.of.size() == 1 || !all_written ? 1 : 0;
+  if (!found.ended.empty()) return end_early(found, places);
+  const MakeRows make_rows = [&](const Study& study) { return made_rows(study, places, options, files); };
+  try {
+    return judge_the_best(options, places, found, make_rows, job);
+  } catch (const FilesChanged& change) {
+    found.ended = change.what();
+    return end_early(found, places);
+  }
 }
 
 }  // namespace
@@ -83,7 +139,7 @@ Command improve_command() {
   const auto options = std::make_shared<Options>();
   ImproveRequest& request = options->request;
   return {
-      "improve", "search for jobs that live longer: keys that are freed, under the limits of the checks",
+      "improve", "search values of free keys, such as clamps and length, for a longer life within the limits",
       joined(
           {{{"study",
              "",
@@ -101,23 +157,23 @@ Command improve_command() {
              {.range = {{2, 100'000}}}},
             {"--at-a-time",
              "COUNT",
-             "trials that are thought of together; another number, another search",
+             "trials proposed together; the search depends on it",
              &request.at_a_time,
              {.range = {{1, 1024}}}},
-            {"--seed", "NUMBER", "of the search's chances", &request.seed, {.range = {{0, 1'000'000'000}}}},
+            {"--seed", "NUMBER", "start of the random numbers", &request.seed, {.range = {{0, 1'000'000'000}}}},
             {"--rehearsals",
              "COUNT",
              "short runs before the first trial, at most; each trial adds a few; 0: none; -1: 40 for each "
              "variable",
              &request.rehearsals,
              {.range = {{-1, 100'000}}}},
-            choice_option("--method", "models of lives and limits, or chance alone to hold against it",
+            choice_option("--method", "models of lives and limits, or random trials for comparison",
                           request.method, {SearchMethod::surrogate, SearchMethod::random}),
             choice_option("--second", "a second aim, to be small: the answer is the front of both",
                           request.second, {SecondAim::none, SecondAim::hose_length, SecondAim::cycle_time}),
             {"--off",
              "MM",
-             "mounting tolerance of clamps and length: that job wins which lives longest within it; 0: not asked",
+             "mounting tolerance of clamps and length; the job with the longest life within it wins; 0: none",
              &options->off_mm,
              {.range = {{0, 1000}}}},
             {"--bracket",

@@ -69,25 +69,26 @@ class Unkept {
 
 /// Runs the graph that was written. left: jobs in it. Returns how many stages were started.
 int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& options, std::size_t left,
-               std::vector<JobState>& states, Progress& progress) {
+               std::vector<JobState>& states, const Digests& before, Progress& progress) {
   share_cores(options, left);
   Unkept unkept(study, places, states);
   const BuildResult built = run_build_graph(places, options.jobs, [&](const BuildEvent& event) {
-    progress.show(event.total > 0 ? static_cast<double>(event.finished) / static_cast<double>(event.total) : 0,
-                  fmt::format("{}/{}  {}", event.finished, event.total, event.what));
+    progress.show(
+        event.total > 0 ? static_cast<double>(event.finished) / static_cast<double>(event.total) : 0,
+        fmt::format("{}/{}  {}", event.finished, event.total, event.what));
     unkept.ended(event.what);
   });
   progress.clear();
   if (!built.words.empty())
     tell(fmt::format("{}: error: {}; run again\n", places.folder.string(), built.words));
-  close_run(study, places, built, states);
+  close_run(study, places, built, states, before);
   return built.executed;
 }
 
 /// Of jobs with the same recipes the first one runs, and the others take its results: robots that do the same are made once.
 /// Jobs without others like them wait for the next graph. Returns how many stages were started.
 int make_first_of_likes(const Study& study, const StudyPlaces& places, const RunOptions& options,
-                        std::vector<JobState>& states, Progress& progress) {
+                        std::vector<JobState>& states, const Digests& before, Progress& progress) {
   if (study.keep == Keep::lives) return 0;  // the first one would keep nothing to take
   std::map<std::array<std::string, stage_count>, std::vector<std::size_t>> likes;
   for (std::size_t k = 0; k < states.size(); ++k)
@@ -100,7 +101,7 @@ int make_first_of_likes(const Study& study, const StudyPlaces& places, const Run
   std::vector<JobState> of_first;
   for (const std::size_t k : jobs) first.jobs.push_back(study.jobs[k]), of_first.push_back(states[k]);
   write_build_graph(first, places, of_first, options.limits, options.launcher);
-  const int started = build_rest(first, places, options, jobs.size(), of_first, progress);
+  const int started = build_rest(first, places, options, jobs.size(), of_first, before, progress);
   for (std::size_t i = 0; i < jobs.size(); ++i) states[jobs[i]] = of_first[i];
   share_stages(study, places, states);
   return started;
@@ -122,7 +123,7 @@ int make_rest(const StudyRequest& request, StudyState& standing, const RunOption
   }
   int started = 0;
   if (!remembered && left > 1) {
-    started = make_first_of_likes(study, places, options, standing.states, progress);
+    started = make_first_of_likes(study, places, options, standing.states, digests, progress);
     left = static_cast<std::size_t>(std::count_if(states.begin(), states.end(), [&](const JobState& state) {
       return study.jobs[static_cast<std::size_t>(&state - states.data())].failure.empty() && !state.done();
     }));
@@ -132,11 +133,13 @@ int make_rest(const StudyRequest& request, StudyState& standing, const RunOption
   else
     write_build_graph(study, places, states, options.limits, options.launcher);
   if (!remembered && places.shard.empty()) remember(request, standing);
-  return left == 0 ? started : started + build_rest(study, places, options, left, standing.states, progress);
+  return left == 0 ? started
+                   : started + build_rest(study, places, options, left, standing.states, digests, progress);
 }
 
 std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options) {
-  std::vector<JobState> states = states_of(study, places);
+  Digests before;
+  std::vector<JobState> states = states_of(study, places, before);
   share_stages(study, places, states);
   Progress progress(study.name, options.quiet);
   std::size_t left = 0;
@@ -146,8 +149,16 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
     remove_unkept(states[k], places.job(study.jobs[k].name));
   }
   write_build_graph(study, places, states, options.limits, options.launcher);
-  if (left > 0) build_rest(study, places, options, left, states, progress);
+  if (left > 0) build_rest(study, places, options, left, states, before, progress);
   return ranking_of(study, places, states);
+}
+
+std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options,
+                                  const FilesAtStart& files) {
+  files.check();
+  std::vector<RankingRow> rows = made_rows(study, places, options);
+  files.check();
+  return rows;
 }
 
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,
@@ -157,8 +168,8 @@ void add_relative_lives(const Study& study, const StudyPlaces& of_study, const R
   };
   if (study.keep == Keep::lives && std::any_of(study.jobs.begin(), study.jobs.end(), is_rated))
     tell(
-        "note: no life is told in rated cycles (keep: lives leaves no damage of single places); keep: "
-        "histories tells them\n");
+        "note: no life in rated cycles, because keep: lives keeps no damage of single places. Remedy: "
+        "keep: histories\n");
   const RatedStudy rated = rated_study(study);
   if (rated.cables.empty()) return;
   const StudyPlaces places{of_study.folder / ".rigs", of_study.programs};

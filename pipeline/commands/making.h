@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pipeline/commands/options.h"
+#include "pipeline/study/changes.h"
 #include "pipeline/study/ranking.h"
 
 namespace dresslife::pipeline {
@@ -13,6 +14,10 @@ int make_rest(const StudyRequest& request, StudyState& standing, const RunOption
 
 /// Runs what is not up to date of a study that no file of its own tells. Returns its rows.
 std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options);
+
+/// The same in a search. Errors: FilesChanged when a file is not as it was at its start.
+std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options,
+                                  const FilesAtStart& files);
 
 /// What the ratings of its cables say of each row; to_run: lets their rigs run first, and says with which
 /// options.

@@ -35,7 +35,7 @@ int rate(const RunOptions& options) {
 Command rate_command() {
   const auto options = std::make_shared<RunOptions>();
   return {"rate",
-          "tell how many cycles a cable, or each of a dresspack's, lives in the standard test rigs, beside its "
+          "print how many cycles a cable, or each of a dresspack's, lives in the standard test rigs, beside its "
           "ratings",
           joined({{{"cable", "", "DRESSPACK.yaml", &options->study, {.required = true}}}, run_options(*options),
                   study_options(*options)}),

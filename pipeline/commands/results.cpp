@@ -4,9 +4,9 @@
 
 #include <functional>
 
+#include "pipeline/base/digest.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/whole_file.h"
-#include "pipeline/base/digest.h"
 #include "pipeline/report/job_page.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
@@ -18,7 +18,7 @@ namespace dresslife::pipeline {
 namespace fs = std::filesystem;
 
 int tell_preview(const fs::path& job, const std::vector<std::string>& sets, const StageLimits& limits,
-                 const fs::path& told) {
+                 const fs::path& told, StageWords said) {
   std::vector<std::string> arguments{job.string(),
                                      "--preview",
                                      "-o",
@@ -29,7 +29,7 @@ int tell_preview(const fs::path& job, const std::vector<std::string>& sets, cons
                                      "--job-memory",
                                      std::to_string(limits.megabytes)};
   for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
-  return run_stage_program("dresslife-sim", arguments);
+  return run_stage_program("dresslife-sim", arguments, said);
 }
 
 namespace {
@@ -38,12 +38,13 @@ namespace {
 /// changed.
 bool refresh_preview(const fs::path& job, const fs::path& page, const JobState& state,
                      const std::string& name) {
-  constexpr StageLimits limits{20, 4000};  // a preview takes one second and little memory
+  constexpr StageLimits limits{
+      20, 4000};  // a preview takes one second and little memory; the table says why the job failed
   const std::string made_from = xxh3(shell_digest() + state.recipes[0] + state.failure + name);
   if (made_from_of(page) == made_from) return true;
   const bool on_its_way = state.failure.find("is drawn taut") != std::string::npos;
   const PassingFile told("preview.h5");
-  if (tell_preview(job, {}, limits, told.path()) != 0) return false;
+  if (tell_preview(job, {}, limits, told.path(), StageWords::dropped) != 0) return false;
   if (!on_its_way && refusal_of(told.path()).empty()) return false;
   write_text_if_changed(page, preview_page(told.path(), name, made_from, state.failure), Sync::never);
   return true;
@@ -81,7 +82,7 @@ std::string why_old(const RankingRow& row) {
   if (row.stale) return stale_words(row);
   if (!row.done()) return "the job has no result now: " + row.failure;
   return row.life_file.empty()
-             ? "ranking.csv tells the result of now; its files, of which this would tell, are not kept"
+             ? "ranking.csv has the present result; the files for this page are not kept"
              : "";
 }
 

@@ -10,6 +10,7 @@
 #include "pipeline/base/limits.h"
 #include "pipeline/study/build_graph.h"
 #include "pipeline/study/ranking.h"
+#include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {
 
@@ -25,6 +26,7 @@ std::vector<std::filesystem::path> refresh_previews(const Study& study, const St
 
 /// Lets dresslife-sim tell into a file what stands where. Returns its exit status.
 int tell_preview(const std::filesystem::path& job, const std::vector<std::string>& sets,
-                 const StageLimits& limits, const std::filesystem::path& told);
+                 const StageLimits& limits, const std::filesystem::path& told,
+                 StageWords said = StageWords::shown);
 
 }  // namespace dresslife::pipeline

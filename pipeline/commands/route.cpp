@@ -31,6 +31,7 @@
 #include "pipeline/report/preview_page.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/study/changes.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/folder_source.h"
 #include "pipeline/study/job_folder.h"
@@ -43,8 +44,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int trials = 3;    // routings of one search that are run through the whole chain
-constexpr int further = 40;  // short runs for less bending and twisting: a third as long again as a usual search
+constexpr int trials = 3;  // routings of one search that are run through the whole chain
+constexpr int further =
+    40;  // short runs for less bending and twisting: a third as long again as a usual search
 
 struct Options : RunOptions {
   RouteRequest request;
@@ -65,6 +67,7 @@ struct Trial {
       best;  // that ran: feasible and of the longest life within the tolerance, else least beyond its limits
   std::vector<ImprovementStory::Nudge> nudges{};  // of the best
   std::optional<std::size_t> start{};             // the job's own routing, if it has one
+  std::string ended{};  // message: a file changed, which ended the search; empty: none did
 
   bool feasible() const { return best && outcomes[*best].feasible(); }
 };
@@ -105,31 +108,35 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
 /// Runs a routing through the whole chain.
 /// which: "run 2 of 4", for the progress.
 void run(Trial& trial, std::size_t k, const std::string& which, const Draft& draft, const Options& options,
-         const StudyPlaces& places) {
+         const StudyPlaces& places, const FilesAtStart& files) {
   const ScreenedCandidate& candidate = trial.proposals.candidates[k];
   const Node document = routed(draft, candidate.changes, trial.proposals.motion, trial.factor);
   Study study{fmt::format("{} at {:.0f} %, {}", draft.name, 100 * trial.factor, which), {}};
   study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * trial.factor, k + 1),
                         std::make_shared<const Job>(job_from(document)), ""});
-  const RankingRow& row = trial.rows[k] = made_rows(study, places, options).front();
+  const RankingRow& row = trial.rows[k] = made_rows(study, places, options, files).front();
   trial.outcomes[k] = outcome_of(row, places.job(row.job));
   if (!trial.outcomes[k].failure.empty()) return;
   if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best])) trial.best = k;
 }
 
 /// The feasible ones judged by their life with a clamp or the length off.
-void judge(Trial& trial, const Draft& draft, const Options& options, const StudyPlaces& places) {
+void judge(Trial& trial, const Draft& draft, const Options& options, const StudyPlaces& places,
+           const FilesAtStart& files) {
   std::vector<std::size_t> by_life;
   for (std::size_t k = 0; k < trial.outcomes.size(); ++k)
     if (!trial.rows[k].job.empty() && trial.outcomes[k].feasible()) by_life.push_back(k);
-  std::stable_sort(by_life.begin(), by_life.end(),
-                   [&](std::size_t a, std::size_t b) { return trial.outcomes[a].hours > trial.outcomes[b].hours; });
+  std::stable_sort(by_life.begin(), by_life.end(), [&](std::size_t a, std::size_t b) {
+    return trial.outcomes[a].hours > trial.outcomes[b].hours;
+  });
   std::vector<Finalist> finalists;
   for (const std::size_t k : by_life) {
-    const Node document = routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
-    Finalist finalist{trial.outcomes[k].hours,
-                      nudges_of({{"place", std::make_shared<const Job>(job_from(document)), ""}}, options.off_mm / 1000),
-                      {}};
+    const Node document =
+        routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
+    Finalist finalist{
+        trial.outcomes[k].hours,
+        nudges_of({{"place", std::make_shared<const Job>(job_from(document)), ""}}, options.off_mm / 1000),
+        {}};
     finalist.run = [&, k, document, nudges = finalist.nudges](std::size_t first, std::size_t count) {
       Study study{draft.name, {}, Keep::lives};
       for (std::size_t j = first; j < first + count; ++j) {
@@ -138,7 +145,7 @@ void judge(Trial& trial, const Draft& draft, const Options& options, const Study
         study.jobs.push_back({fmt::format("{}_off_{:02}", trial.rows[k].job, j + 1),
                               std::make_shared<const Job>(job_from(off)), ""});
       }
-      const std::vector<RankingRow> rows = made_rows(study, places, options);
+      const std::vector<RankingRow> rows = made_rows(study, places, options, files);
       std::vector<Outcome> outcomes;
       for (const StudyJob& job : study.jobs)
         for (const RankingRow& row : rows)
@@ -167,7 +174,8 @@ std::optional<std::string> own_routing(const Draft& draft) {
 
 /// Those that kept all limits in their rehearsal, and the job's own; with a tolerance all of them, as it decides, else until one keeps all
 /// limits in the whole chain.
-Trial tried(const Draft& draft, const Options& options, double factor, const StudyPlaces& places) {
+Trial tried(const Draft& draft, const Options& options, double factor, const StudyPlaces& places,
+            const FilesAtStart& files) {
   Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}, {}};
   if (const std::optional<std::string> own = own_routing(draft); own && factor == 1) {
     trial.start = trial.proposals.candidates.size();
@@ -184,11 +192,16 @@ Trial tried(const Draft& draft, const Options& options, double factor, const Stu
     if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
       to_run.push_back(k);
   if (trial.start) to_run.push_back(*trial.start);
-  for (std::size_t n = 0; n < to_run.size(); ++n) {
-    if (to_run[n] != trial.start && !tolerance && trial.feasible()) continue;
-    run(trial, to_run[n], fmt::format("run {} of {}{}", n + 1, tolerance ? "" : "at most ", to_run.size()), draft, options, places);
+  try {
+    for (std::size_t n = 0; n < to_run.size(); ++n) {
+      if (to_run[n] != trial.start && !tolerance && trial.feasible()) continue;
+      run(trial, to_run[n], fmt::format("run {} of {}{}", n + 1, tolerance ? "" : "at most ", to_run.size()),
+          draft, options, places, files);
+    }
+    if (tolerance && trial.feasible()) judge(trial, draft, options, places, files);
+  } catch (const FilesChanged& change) {
+    trial.ended = change.what();
   }
-  if (tolerance && trial.feasible()) judge(trial, draft, options, places);
   return trial;
 }
 
@@ -282,7 +295,8 @@ std::string comparison_words(const Trial& trial) {
   if (*trial.best == *trial.start) return "It is the job's own routing: none that was found is better.\n";
   if (!own.failure.empty()) return fmt::format("The job's own routing does not run: {}\n", own.failure);
   const std::string limits = own.feasible() ? "keeps all limits" : own.words();
-  return fmt::format("p10: {} (job's own routing: {}; {})\n", hours_text(best.hours), hours_text(own.hours), limits);
+  return fmt::format("p10: {} (job's own routing: {}; {})\n", hours_text(best.hours), hours_text(own.hours),
+                     limits);
 }
 
 std::string words_of(const Trial& trial, const Draft& draft, double off) {
@@ -329,38 +343,51 @@ int route(const Options& options) {
   const StudyPlaces places{fs::path(options.out) / (draft.name + "_route"), program_folder()};
   const FolderLock lock(places.folder);
   if (kind_of(options.request.of) == FileKind::file) claim_folder(places.folder, options.request.of);
+  const FilesAtStart files({std::make_shared<const Job>(draft.job)});
   std::optional<Trial> chosen, nearest;
+  std::string ended;
   for (const double factor : factors_of(options)) {
-    Trial trial = tried(draft, options, factor, places);
+    Trial trial = tried(draft, options, factor, places, files);
     const bool feasible = trial.feasible();
-    if (!feasible)
+    ended = trial.ended;
+    if (!ended.empty())
+      tell(shown(ended) + "\n");
+    else if (!feasible)
       tell(fmt::format("note: at {:.0f} % of the dresspack's size: {}\n", 100 * factor, obstacle(trial)));
     const bool nearer = !nearest || violation(trial) < violation(*nearest);
     if (trial.best && (!chosen || better(trial.outcomes[*trial.best], chosen->outcomes[*chosen->best])))
       chosen = std::move(trial);
     else if (nearer)
       nearest = std::move(trial);
-    if (feasible) break;
+    if (feasible || !ended.empty()) break;
   }
-  if (!chosen && std::isfinite(violation(*nearest))) {
-    run(*nearest, 0, "run of the nearest", draft, options, places);
+  const bool may_run = !chosen && std::isfinite(violation(*nearest));
+  if (may_run && ended.empty()) {
+    try {
+      run(*nearest, 0, "run of the nearest", draft, options, places, files);
+    } catch (const FilesChanged& change) {
+      ended = change.what();
+      tell(shown(ended) + "\n");
+    }
     if (nearest->best) chosen = std::move(nearest);
   }
-  if (!chosen) {
+  if (!chosen && (ended.empty() || !may_run)) {
     const DecidingLimit by = decided(*nearest, draft);
     throw InputError({options.request.of}, "no routing was found that runs; " + by.by, by.remedy);
   }
-  const std::string& routing = chosen->proposals.candidates[*chosen->best].changes;
-  const Node document = routed(draft, routing, chosen->proposals.motion, chosen->factor,
+  const Trial& of = chosen ? *chosen : *nearest;
+  const std::string& routing = of.proposals.candidates[of.best.value_or(0)].changes;
+  const Node document = routed(draft, routing, of.proposals.motion, of.factor,
                                job.has_parent_path() ? job.parent_path() : fs::path("."));
   const std::string text =
       fmt::format("# Proposed by dresslife route {}\n{}", shown(options.request.of), to_yaml(document));
   write_text_if_changed(job, with_mark(text, Mark::yaml));
   write_page(job, page);
-  if (!options.keep) remove_others(places.folder, chosen->rows[*chosen->best].job);
-  print(shown(words_of(*chosen, draft, options.off_mm / 1000)));
+  if (of.best && !options.keep) remove_others(places.folder, of.rows[*of.best].job);
+  print(
+      shown(of.best ? words_of(of, draft, options.off_mm / 1000) : routing + "Only short runs tried it.\n"));
   print(shown(fmt::format("Job: {}\nPreview: {}\n", job.string(), page.string())));
-  return chosen->feasible() ? 0 : 1;
+  return of.feasible() && ended.empty() ? 0 : 1;
 }
 
 }  // namespace
@@ -373,11 +400,11 @@ Command route_command() {
       "propose a routing from nothing: clamps on two links and a length, tried in a run, as a job with its "
       "preview",
       joined(
-          {{{"of", "", "JOB.yaml whose routing does not count, or a ROBOT", &request.of, {.required = true}},
+          {{{"of", "", "JOB.yaml, or a ROBOT", &request.of, {.required = true}},
             {"--dresspack", "NAME", "instead of the job's; of a robot spot_welding", &request.dresspack},
-            {"--motion", "NAME", "instead of the job's; of a robot one that moves its wrist about",
+            {"--motion", "NAME", "instead of the job's; for a robot alone: a motion of its wrist",
              &request.motion},
-            {"--from", "LINK", "link of the base clamp; else the job's, or that which axis 3 moves",
+            {"--from", "LINK", "link of the base clamp; else the job's, or the one that axis 3 moves",
              &request.base_link},
             {"--to", "LINK", "link of the tool clamp; else the job's, or the last", &request.tool_link},
             {"--ring", "LINK", "also a guide ring on this link", &options->ring},
@@ -385,15 +412,15 @@ Command route_command() {
              &options->scale},
             {"--tried",
              "COUNT",
-             "routings that geometry looks at, of each size",
+             "routings to check by geometry, for each size",
              &options->tried,
              {.range = {{1, 1'000'000}}}},
             {"--rehearsals",
              "COUNT",
-             "short runs that the best of them are tried in and changed by, of each size",
+             "short runs that improve the best of them, for each size",
              &options->rehearsals,
              {.range = {{1, 100'000}}}},
-            {"--seed", "NUMBER", "of the search's chances", &options->seed, {.range = {{0, 1'000'000'000}}}},
+            {"--seed", "NUMBER", "start of the random numbers", &options->seed, {.range = {{0, 1'000'000'000}}}},
             {"--bracket",
              "MM",
              "longest bracket, written into the job as routing.longest_bracket_mm; else the job's",
@@ -401,11 +428,10 @@ Command route_command() {
              {.range = {{0, 10'000}}}},
             {"--off",
              "MM",
-             "mounting tolerance of clamps and length: that routing wins which lives longest within it; 0: not "
-             "asked",
+             "mounting tolerance of clamps and length; the routing with the longest life within it wins; 0: none",
              &options->off_mm,
              {.range = {{0, 1000}}}},
-            {"--keep", "", "keep the runs of all routings that were tried, not the best alone",
+            {"--keep", "", "keep the runs of all routings, not only of the best",
              &options->keep},
             {"--job", "FILE.yaml", "job to write; else NAME_routed.yaml here", &options->job},
             {"-o,--output", "DIR", "folder of the runs that try it", &options->out}},

@@ -21,6 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string ran_words(int stages) {
+  return fmt::format("{} {} ran", stages, stages == 1 ? "stage" : "stages");
+}
+
 /// Makes a shard's jobs beside other shards' runs, and leaves ranking and report to a run of the whole.
 int run_shard(const RunOptions& options) {
   const Shard shard = shard_from(options.shard, "--shard");
@@ -34,7 +38,7 @@ int run_shard(const RunOptions& options) {
   look_again(standing);
   const int executed = make_rest(request, standing, options);
   if (!options.quiet)
-    tell(fmt::format("{} {}: {} stages ran\n", standing.study.name, options.shard, executed));
+    tell(fmt::format("{} {}: {}\n", standing.study.name, options.shard, ran_words(executed)));
   return say_failures(options.study, ranking_of(standing.study, standing.places, standing.states));
 }
 
@@ -94,16 +98,15 @@ int run(const Options& options) {
   const bool any = std::any_of(study.jobs.begin(), study.jobs.end(),
                                [](const StudyJob& job) { return job.failure.empty(); });
   if (!options.quiet && any)
-    tell(executed ? fmt::format("{}: {} stages ran\n", study.name, executed)
-                  : fmt::format("{}: nothing to do\n", study.name));
+    tell(fmt::format("{}: {}\n", study.name, executed == 0 ? "nothing to do" : ran_words(executed)));
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, &options, rows);
   const std::vector<fs::path> previews = refresh_previews(study, places, states);
   const std::set<std::string> not_shown = write_results(study, places, rows);
   for (const std::string& job : not_shown) forget_damaged(places.job(job));
-  print(options.json
-            ? json_of_csv(ranking_csv(rows)).text + "\n"
-            : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows), (places.folder / "report.html").string())));
+  print(options.json ? json_of_csv(ranking_csv(rows)).text + "\n"
+                     : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows),
+                                         (places.folder / "report.html").string())));
   tell(warning_lines(rows));
   const int failed = count_failed(rows);
   if (failed == 0) return not_shown.empty() ? 0 : 1;
@@ -122,21 +125,25 @@ int run(const Options& options) {
 
 Command run_command() {
   const auto options = std::make_shared<Options>();
-  return {"run", "run what is not up to date in a study, then rank and report",
-          joined({{study_or_job(*options)},
-                  run_options(*options),
-                  {{"-n,--dry-run", "", "print what would be made and why, and run nothing", &options->dry_run},
-                   json_option(options->json)},
-                  {{"--job-time", "SECONDS", "let no stage of a job take longer; 0: no limit",
-                    &options->limits.seconds},
-                   {"--job-memory", "MB", "let no stage of a job take more memory; 0: no limit",
-                    &options->limits.megabytes, {.shown_default = "all of the machine's"}},
-                   launcher_option(*options),
-                   {"--shard", "K/N",
-                    "make only the Kth of N parts of the study, beside runs of the others, and rank nothing",
-                    &options->shard}},
-                  study_options(*options)}),
-          [options] { return run(*options); }};
+  return {
+      "run", "run what is not up to date in a study, then rank and report",
+      joined({{study_or_job(*options)},
+              run_options(*options),
+              {{"-n,--dry-run", "", "print what would be made and why, and run nothing", &options->dry_run},
+               json_option(options->json)},
+              {{"--job-time", "SECONDS", "let no stage of a job take longer; 0: no limit",
+                &options->limits.seconds},
+               {"--job-memory",
+                "MB",
+                "let no stage of a job take more memory; 0: no limit",
+                &options->limits.megabytes,
+                {.shown_default = "all of the machine's"}},
+               launcher_option(*options),
+               {"--shard", "K/N",
+                "make only the Kth of N parts of the study, beside runs of the others, and rank nothing",
+                &options->shard}},
+              study_options(*options)}),
+      [options] { return run(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -38,8 +38,7 @@ int show(const Options& options) {
 Command show_command() {
   const auto options = std::make_shared<Options>();
   return {"show",
-          "print a job with its catalogue entries and defaults written out, or what lies in an .h5 file, of a "
-          "job's folder its life.h5",
+          "print a job with all its settings, or the content of an .h5 file (of a job's folder: life.h5)",
           {{"job", "", "JOB.yaml, FILE.h5, or a job's folder", &options->file, {.required = true}},
            {"--json", "", "print a job as JSON for other programs", &options->json},
            sets_option("override a key", options->sets)},

@@ -43,7 +43,7 @@ int status(const StudyOptions& options) {
 
 Command status_command() {
   const auto options = std::make_shared<StudyOptions>();
-  return {"status", "tell which jobs of a study are done, stale, failed or to do",
+  return {"status", "print which jobs of a study are done, stale, failed or to do",
           joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}, json_option(options->json)},
                   study_options(*options)}),
           [options] { return status(*options); }};

@@ -81,7 +81,7 @@ int submit(const SubmitOptions& options) {
   check_source(request.out / study_name(request.file), request.file);
   const StudyState standing = standing_of(request);
   if (standing.all_done()) {
-    print(shown(fmt::format("{}: nothing to do; dresslife report tells of it\n", standing.study.name)));
+    print(shown(fmt::format("{}: nothing to do; see dresslife report\n", standing.study.name)));
     return 0;
   }
   const int shards = shards_needed(standing, cluster.most_stages);

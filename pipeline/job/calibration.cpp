@@ -88,7 +88,7 @@ void describe(Fields& f, Calibration& calibration) {
   f.list("parameters", calibration.parameters, Need::required, "what was learned");
   f.group("under", calibration.under, Need::optional, "what the tests were computed with");
   f.group("within", calibration.within, Need::optional,
-          "what the tests went through; outside nobody has looked");
+          "the range of the tests; outside it nothing was tested");
   f.list("observations", calibration.observations, Need::optional, "from what it was learned");
 }
 

@@ -177,7 +177,7 @@ void check_rings(const Routing& routing, double diameter, const Robot& robot, Pr
     for (const GuideRing& ring : routing.rings)
       if (!ring.at_length)
         problems.add(ring.where,
-                     "a ring beside routing.clamps has no at_length_m (it tells between which clamps)",
+                     "a ring beside routing.clamps has no at_length_m (its place between the clamps)",
                      "give the length of dresspack from the base clamp to the ring");
 }
 

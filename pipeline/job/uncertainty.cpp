@@ -26,15 +26,15 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
   static const std::array<UncertainParameter, uncertain_count> parameters{{
       {"friction_inside", "strain.friction_factor", true, 2.2, true, SharedBy::construction,
        "ESTIMATE, from the friction moment over diameter cubed of seven published jacketed cables: median 16 kPa, 7 to 52 kPa "
-       "for 10 to 90 %. A jacket of 2 MPa hoop stress presses 4 to 12 times as hard as the shipped ones: 0.1 to 3 % of draws "
+       "for 10 to 90 %. A jacket of 2 MPa hoop stress presses 4 to 12 times as hard as the shipped ones: 0.1 to 3 % of samples "
        "exceed that",
        "a cable's bending moment at 1 1/m: measured_bending_stiffness_Nm2", "the friction inside the cables",
        "One bending test of a cable (one hour)",
        0.26},  // a factor of 1.3: a moment read to 15 %, about half of which is friction
       {"friction_hose", "strain.hose_friction_factor", true, 2, true, SharedBy::construction,
        "ESTIMATE: polymer on polymer 0.15 to 0.6, and what presses is the cable's own weight",
-       "the force that draws one cable through its hose", "the friction of the cables on their hose",
-       "One cable drawn through its hose with a spring scale (one hour)", 0.2},  // a force read to 20 %
+       "the force that pulls one cable through its hose", "the friction of the cables on their hose",
+       "One cable pulled through its hose with a spring scale (one hour)", 0.2},  // a force read to 20 %
       {"slack", "strain.slack_factor", true, 1.5, true, SharedBy::installation,
        "ESTIMATE: 2 cm in 2 m, mounted by hand to within about 1 cm",
        "the length of each cable between the clamps against the hose's: slack_percent",
@@ -47,9 +47,9 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        "The diameters of hose and cables measured with a caliper (half an hour)", 0.1},  // 0.5 mm of 5 mm
       {"grip", "strain.grip_factor", true, 2, true, SharedBy::installation,
        "ESTIMATE: a clamp's screw and rubber by hand; without effect where no grip is given",
-       "the force that draws a cable out of its clamp: tool_grip_N",
+       "the force that pulls a cable out of its clamp: tool_grip_N",
        "the force at which a clamp lets a cable slip",
-       "One cable drawn out of its clamp with a spring scale (one hour)", 0.2},  // a force read to 20 %
+       "One cable pulled out of its clamp with a spring scale (one hour)", 0.2},  // a force read to 20 %
       {"rest", "strain.rest", false, 1, true, SharedBy::installation,
        "the places of rest to which several starts of the cables lead (/start/rest of strain.h5). Without a ring of loose "
        "cables there is one",

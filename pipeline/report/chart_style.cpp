@@ -123,7 +123,7 @@ std::string png_of(const std::string& svg) {
   std::rewind(in.get());
   const int status = run_converter(in.get(), out.get());
   if (status == 127)
-    throw InputError({"rsvg-convert"}, "cannot be started (it draws pictures as PNG)",
+    throw InputError({"rsvg-convert"}, "cannot be started (it makes PNG pictures)",
                      "install the Debian package librsvg2-bin, or name a file .svg");
   std::string bytes;
   char block[65536];

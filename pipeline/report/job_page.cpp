@@ -37,7 +37,7 @@ using Reader = std::unique_ptr<const FileReader>;
 Reader opened(const std::filesystem::path& file, const Format& format, std::vector<std::string>& notes) {
   if (kind_of(file) != FileKind::absent) return std::make_unique<FileReader>(file, format);
   notes.push_back(
-      fmt::format("{} is not there (run the job again to see what it tells)", file.filename().string()));
+      fmt::format("{} is not there (run the job again)", file.filename().string()));
   return nullptr;
 }
 

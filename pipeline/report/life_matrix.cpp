@@ -147,7 +147,7 @@ std::string life_matrix(const std::vector<RankingRow>& rows,
   }
   return fmt::format(
       "<h3>{0} by {1}</h3>\n<p class=\"soft\">p10 life in hours of motion, orange the shortest, blue the longest (by its "
-      "logarithm); \u26a0 has warnings, which the ranking tells.</p>\n<div class=\"wide\"><table id=\"matrix\">\n<thead><tr><th "
+      "logarithm); \u26a0 has warnings (in the ranking).</p>\n<div class=\"wide\"><table id=\"matrix\">\n<thead><tr><th "
       "scope=\"col\">{0} \\ {1}</th>{2}</tr></thead>\n<tbody>\n{3}</tbody></table></div>\n",
       escaped(names[down.index].first), escaped(names[across.index].first), head, body);
 }

@@ -135,7 +135,7 @@ std::string scan_table(const std::vector<SpanPreview>& spans) {
   if (rows.empty()) return "";
   return "<h2>Other lengths at rest</h2>\n<p class=\"soft\">Least bend radius in eight poses of the program, "
          "with the dresspack's "
-         "weight, free of twist, without contact and speed. Where no rest was found in one of them this quick look tells nothing: "
+         "weight, free of twist, without contact and speed. Without a position of rest in one of them nothing is shown: "
          "a run may find one.</p>\n<div "
          "class=\"wide\"><table>\n<thead><tr><th>what</th><th "
          "class=\"number\">length</th><th class=\"number\">least bend radius</th><th "

@@ -185,7 +185,7 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
               {"", 0, 1}};
   Picture picture(
       width, panel.bottom() + 44, "Lives compared",
-      "Life in hours with the bounds of cables stuck and free inside, and what 10 to 90 percent of dresspacks reach.");
+      "Life in hours with everything in the cables glued and free, and the range of 10 to 90 percent of dresspacks.");
   for (const Tick& tick : panel.x.ticks(8)) {
     picture.line(panel.across(tick.value), panel.top, panel.across(tick.value), panel.bottom(), "grid");
     picture.text(panel.across(tick.value), panel.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
@@ -325,8 +325,8 @@ std::string facts(const RankingRow& row) {
                      *row.clamp_moment_share,
                      row.force_ok()
                          ? ""
-                         : ". <b>Above a fifth of either, strains rest on forces that nobody sees in "
-                           "a dresspack: check slack, play and grips</b>"));
+                         : ". <b>Above a fifth of either, the forces are unrealistic: "
+                           "check slack, play and grips</b>"));
   }
   if (row.strain_relief_share)
     fact("pull at clamps", fmt::format("{:.2g} of what a strain relief of type A has to hold (EN 50262){}", *row.strain_relief_share,

@@ -47,7 +47,7 @@ class Rows {
     picture_.text(
         left, 18,
         "bar: predicted, 10 .. 90 % over all that is not known; lines in it: medians of the variants; thin: all "
-        "stuck .. all free inside",
+        "glued .. all free inside",
         "tick");
     picture_.text(left, 34, "dot: observed; arrow to the right: at least, to the left: at most", "tick");
   }

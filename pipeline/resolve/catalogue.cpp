@@ -129,7 +129,8 @@ bool is_program_file(const fs::path& file) {
   std::string end = file.extension();
   std::transform(end.begin(), end.end(), end.begin(),
                  [](unsigned char letter) { return std::tolower(letter); });
-  static const std::set<std::string> ends{".mod", ".modx", ".prg", ".pgf", ".src", ".ls", ".jbi", ".script", ".urscript", ".csv"};
+  static const std::set<std::string> ends{".mod", ".modx", ".prg",    ".pgf",      ".src",
+                                          ".ls",  ".jbi",  ".script", ".urscript", ".csv"};
   return ends.contains(end) && is_file(file);
 }
 
@@ -343,13 +344,24 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   names.erase(std::unique(names.begin(), names.end()), names.end());
   const std::string near = nearest_entry(name, names);
   const bool may_be_file = folder == "programs" && fs::path(name).has_extension();
-  if (may_be_file && kind_of(beside) != FileKind::absent) PlainFile{beside};  // refuses it
+  if (may_be_file && kind_of(beside) != FileKind::absent) {
+    PlainFile{beside};  // refuses what cannot be read
+    throw InputError(
+        named_at,
+        fmt::format("the file '{}' is no robot program by its name ('{}')", beside.string(),
+                    beside.extension().string()),
+        fmt::format(
+            "rename it by its language: RAPID .mod, .modx, .prg or .pgf, KRL .src, Fanuc .ls, INFORM .jbi, URScript "
+            ".script, joint angles .csv. For KRL: mv {} {}",
+            beside.string(), fs::path(beside).replace_extension(".src").string()));
+  }
   throw InputError(
       named_at,
       fmt::format("'{}' is not in the catalogue (config/{}){}", name, folder,
                   may_be_file ? fmt::format(", and there is no file '{}'", beside.string()) : ""),
       names.empty() ? "write the entry itself or a path to a .yaml file"
-                    : fmt::format("{}one of: {}", near.empty() ? "" : "did you mean '" + near + "'? ", fmt::join(names, ", ")));
+                    : fmt::format("{}one of: {}", near.empty() ? "" : "did you mean '" + near + "'? ",
+                                  fmt::join(names, ", ")));
 }
 
 void apply_lines(Node& job) {

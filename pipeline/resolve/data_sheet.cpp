@@ -568,7 +568,7 @@ Node sheet_from_line(const Node& line) {
           continue;
         }
         if (sheet.find(key))
-          throw InputError(line.where, fmt::format("'{}' tells {} a second time", phrase, key),
+          throw InputError(line.where, fmt::format("'{}' gives {} a second time", phrase, key),
                            "keep one of the two");
         sheet[key] = scalar(value);
       }

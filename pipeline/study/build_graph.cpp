@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <sstream>
 #include <system_error>
 #include <unordered_map>
@@ -113,7 +114,8 @@ void find_last(JobState& state, const fs::path& folder) {
   const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(last));
   if (!receipt) {
     // A user's file of that name has no checksum, and is no result.
-    state.has_last = there && begins_with_checksum(folder / last.output) && checksum_of(folder / last.output).has_value();
+    state.has_last =
+        there && begins_with_checksum(folder / last.output) && checksum_of(folder / last.output).has_value();
     return;
   }
   state.has_last = there ? is_as_noted(*receipt, folder / last.output)
@@ -201,15 +203,40 @@ std::string error_line(const fs::path& log) {
   return "";
 }
 
+/// What a stage was made with that was otherwise when the run began: "cell.src was new".
+std::string changed_since(const Receipt& receipt, const fs::path& folder, const Digests& before) {
+  const auto whole = [](const fs::path& file) { return fs::absolute(file).lexically_normal(); };
+  std::map<fs::path, std::string> digests, programs;
+  for (const auto& [file, digest] : before.all()) {
+    if (file.empty()) continue;  // of settings alone
+    digests[whole(file)] = digest;
+    programs[file.filename()] = digest;
+  }
+  for (const auto& [what, digest] : receipt.made_with) {
+    if (what.starts_with("dresslife-")) {
+      if (const auto was = programs.find(what); was != programs.end() && was->second != digest)
+        return what + " was replaced by another program";
+      continue;
+    }
+    const auto was = digests.find(whole(folder / what));
+    const std::string name = (folder / what).lexically_normal().string();
+    if (was == digests.end()) return name + " came beside the program";
+    if (was->second != digest) return name + " has changed";
+  }
+  return "a file that the program reads was removed";
+}
+
 /// Why a job is not done after a run.
-std::string reason_of(const JobState& state, const fs::path& folder, const BuildResult& result) {
+std::string reason_of(const JobState& state, const fs::path& folder, const BuildResult& result,
+                      const Digests& before) {
   const Stage& stage = stages[state.next];
   bool begun = false;
   for (const fs::path& log : {log_file(stage), launcher_log(stage)}) {
     if (!state_of(folder / log).exists()) continue;
     begun = true;
     const std::string line = error_line(folder / log);
-    if (!line.empty()) return log == log_file(stage) ? line : line + then_run_again;  // a launcher knows nothing of jobs
+    if (!line.empty())
+      return log == log_file(stage) ? line : line + then_run_again;  // a launcher knows nothing of jobs
   }
   if (!begun)
     return result.words.empty() ? "it was not reached"
@@ -219,9 +246,9 @@ std::string reason_of(const JobState& state, const fs::path& folder, const Build
     return fmt::format("{} was broken off: {}; run again", program_name(stage), result.words);
   const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
   if (receipt && receipt->recipe != state.recipes[state.next])
-    return fmt::format("{}: error: its files or programs changed while the study ran; let nothing change them{}",
-                       stage.output, then_run_again);
-  return fmt::format("{} ended without a word (killed, or out of memory?)", program_name(stage));
+    return fmt::format("{}: error: {} while the study ran; let nothing change it meanwhile{}", stage.output,
+                       changed_since(*receipt, folder, before), then_run_again);
+  return fmt::format("{} ended without a message (killed, or out of memory?)", program_name(stage));
 }
 
 /// What a stage said is said to all for whom it worked.
@@ -234,8 +261,7 @@ void join_logs(const fs::path& folder) {
   for (const Stage& stage : stages) {
     if (state_of(folder / log_file(stage)).exists())
       text += fmt::format("== {}\n{}", program_name(stage), read_text(folder / log_file(stage)));
-    if (state_of(folder / launcher_log(stage)).exists())
-      text += read_text(folder / launcher_log(stage));
+    if (state_of(folder / launcher_log(stage)).exists()) text += read_text(folder / launcher_log(stage));
   }
   write_text_if_changed(folder / "log", text, Sync::never);
 }
@@ -291,7 +317,7 @@ class Ninja {
   [[noreturn]] static void become_ninja(const StudyPlaces& places, int parallel, const std::string& digests,
                                         int said) {
     const pid_t runner = ::getppid();
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // by which it ends its stages and waits for them
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);      // by which it ends its stages and waits for them
     if (::getppid() != runner) ::_exit(1);   // it died before that was said
     ::setenv("NINJA_STATUS", "@%f/%t ", 1);  // a line "@finished/total description" per stage
     // Through the environment goes whatever a folder may be named.
@@ -319,7 +345,8 @@ std::string JobState::words() const {
   if (done()) return "done";
   if (!failure.empty()) return "failed   " + failure;
   if (!damaged.empty() && foreign)
-    return fmt::format("foreign  {} was not written by dresslife; move it away, or run with --force", damaged);
+    return fmt::format("foreign  {} was not written by dresslife; move it away, or run with --force",
+                       damaged);
   if (!damaged.empty())
     return fmt::format("damaged  {} is not what its stage wrote; run makes it again", damaged);
   if (!has_results) return "to do";
@@ -453,7 +480,8 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     const fs::path folder = places.job(job.name);
     const bool is_new = fs::create_directory(folder);
     make_notes(folder / ".stage");
-    write_text_if_changed(folder / "job.yaml", with_mark(stored_job_text(*job.job, folder), Mark::yaml), Sync::never);
+    write_text_if_changed(folder / "job.yaml", with_mark(stored_job_text(*job.job, folder), Mark::yaml),
+                          Sync::never);
     if (states[k].done()) continue;
     check_notes(folder / ".stage");
     for (const char* result : {"log", "page.html", "preview.html"}) check_replaceable(folder / result);
@@ -488,12 +516,12 @@ BuildResult run_build_graph(const StudyPlaces& places, int parallel,
   if (WEXITSTATUS(status) == not_installed)
     throw InputError({"ninja"}, "is not installed", "install it: apt-get install ninja-build");
   if (WEXITSTATUS(status) != done && (WEXITSTATUS(status) != some_failed || result.executed == 0))
-    result.words = fmt::format("ninja stopped ({})", said.empty() ? "no reason told" : said);
+    result.words = fmt::format("ninja stopped ({})", said.empty() ? "no reason given" : said);
   return result;
 }
 
 void close_run(const Study& study, const StudyPlaces& places, const BuildResult& result,
-               std::vector<JobState>& states) {
+               std::vector<JobState>& states, const Digests& before) {
   const std::vector<Makers> makers = makers_of(study, states);
   std::vector<std::size_t> unfinished;
   for (std::size_t k = 0; k < states.size(); ++k)
@@ -513,7 +541,7 @@ void close_run(const Study& study, const StudyPlaces& places, const BuildResult&
     const fs::path folder = places.job(study.jobs[k].name);
     remove_unkept(states[k], folder);
     if (states[k].done()) continue;
-    states[k].failure = reason_of(states[k], folder, result);
+    states[k].failure = reason_of(states[k], folder, result, before);
     write_text_if_changed(folder / failure_file, failure_key(states[k]) + "\n" + states[k].failure + "\n",
                           Sync::never);
   }

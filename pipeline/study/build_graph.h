@@ -111,8 +111,8 @@ BuildResult run_build_graph(const StudyPlaces& places, int parallel,
                             const std::function<void(const BuildEvent&)>& on_event);
 
 /// Updates `states` after a run. A job that is still not done keeps the reason in its `failure`,
-/// here and in its folder; its logs are joined into `log`.
+/// here and in its folder; its logs are joined into `log`. before: digests of the files and programs when the run began.
 void close_run(const Study& study, const StudyPlaces& places, const BuildResult& result,
-               std::vector<JobState>& states);
+               std::vector<JobState>& states, const Digests& before);
 
 }  // namespace dresslife::pipeline

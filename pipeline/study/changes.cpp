@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
 #include "pipeline/resolve/job_text.h"
@@ -25,7 +26,8 @@ std::string value_words(const Node* value) {
   constexpr std::size_t longest = 40;
   if (!value || value->kind == Node::Kind::null) return "nothing";
   if (value->is_scalar())
-    return value->text.size() <= longest ? value->text : fmt::format("a text of {} letters", value->text.size());
+    return value->text.size() <= longest ? value->text
+                                         : fmt::format("a text of {} letters", value->text.size());
   if (value->is_map()) return fmt::format("{} keys", value->entries.size());
   if (!is_plain(*value)) return fmt::format("{} entries", value->items.size());
   std::vector<std::string> items;
@@ -74,7 +76,8 @@ std::vector<std::string> changed_settings(const StudyJob& job, const StudyPlaces
 
 /// Programs and files that are not those of which the last result was made. A stage that ran again since has
 /// a receipt of another result.
-std::vector<std::string> changed_files(const fs::path& folder, const StudyPlaces& places, Digests& digests) {
+std::vector<std::string> changed_files(const StudyJob& job, const StudyPlaces& places, Digests& digests) {
+  const fs::path folder = places.job(job.name);
   std::vector<std::string> changed;
   std::optional<Receipt> later;
   for (std::size_t stage = stage_count; stage-- > 0;) {
@@ -88,6 +91,12 @@ std::vector<std::string> changed_files(const fs::path& folder, const StudyPlaces
       const char* how = program ? "is another program" : now == "absent" ? "is gone" : "has changed";
       changed.push_back(fmt::format("{} {}", program ? what : file.string(), how));
     }
+    // The files beside a job are of its first stage.
+    for (const fs::path& file : stage == 0 && job.job ? files_beside(*job.job) : std::vector<fs::path>{})
+      if (const std::string seen = as_seen_from(folder, file).string();
+          std::ranges::none_of(receipt->made_with, [&](const auto& noted) { return noted.first == seen; }))
+        changed.push_back(
+            fmt::format("{} is new beside the program", (folder / seen).lexically_normal().string()));
     later = receipt;
   }
   std::reverse(changed.begin(), changed.end());
@@ -100,17 +109,40 @@ bool is_prose(const std::string& change) {
   return key.ends_with("source") || key.ends_with(".name");
 }
 
+/// changed: at least one.
 std::string words_of(std::vector<std::string> changed) {
   constexpr std::size_t named = 3;
   std::stable_partition(changed.begin(), changed.end(),
                         [](const std::string& change) { return !is_prose(change); });
-  if (changed.empty()) return "what it was made of is not noted any more";
   const std::size_t more = changed.size() - std::min(changed.size(), named);
   changed.resize(changed.size() - more);
   return fmt::format("{}{}", fmt::join(changed, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
 }
 
 }  // namespace
+
+FilesAtStart::FilesAtStart(std::vector<std::shared_ptr<const Job>> jobs) : jobs_(std::move(jobs)) {
+  for (const auto& job : jobs_)
+    for (const fs::path& file : files_beside(*job)) {
+      const FileState state = state_of(file);
+      files_.try_emplace(file, state, Digests().of(file));
+    }
+}
+
+void FilesAtStart::check() const {
+  const auto changed = [](const fs::path& file, const char* how) {
+    throw FilesChanged({file.string()}, fmt::format("{} during the search", how),
+                       "let nothing change it meanwhile");
+  };
+  for (const auto& [file, was] : files_) {
+    if (state_of(file) == was.first) continue;
+    const std::string now = Digests().of(file);
+    if (now != was.second) changed(file, now == "absent" ? "was removed" : "has changed");
+  }
+  for (const auto& job : jobs_)
+    for (const fs::path& file : files_beside(*job))
+      if (!files_.contains(file)) changed(file, "came beside the program");
+}
 
 std::vector<std::string> changed_keys(const Node& was, const Node& now) {
   Comparison comparison;
@@ -128,8 +160,11 @@ void tell_changes(const Study& study, const StudyPlaces& places, std::vector<Job
     ++told;
     try {
       std::vector<std::string> changed = changed_settings(job, places);
-      for (std::string& file : changed_files(places.job(job.name), places, digests))
-        changed.push_back(std::move(file));
+      for (std::string& file : changed_files(job, places, digests)) changed.push_back(std::move(file));
+      if (changed.empty())  // neither a key of the old settings nor a file
+        changed.push_back(state_of(places.life(job.name)).exists()
+                              ? "its last run did not end"
+                              : "its settings have changed (keep: lives keeps no old ones)");
       states[k].changed = words_of(std::move(changed));
     } catch (const InputError& problem) {
       states[k].changed = problem.what();

@@ -1,14 +1,37 @@
 // Why a result is stale: the keys, files or programs that changed since it was made.
 #pragma once
 
+#include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "pipeline/base/errors.h"
 #include "pipeline/study/build_graph.h"
 
 namespace dresslife::pipeline {
 
 struct Node;
+
+/// A file that a search needs changed while it ran: lives before and after it are not comparable.
+class FilesChanged : public MachineFault {
+ public:
+  using MachineFault::MachineFault;
+};
+
+/// The robot programs, meshes and recorded poses of a search's jobs, as they were at its start.
+class FilesAtStart {
+ public:
+  explicit FilesAtStart(std::vector<std::shared_ptr<const Job>> jobs);
+  /// Errors: FilesChanged, which names the file; DiskError.
+  void check() const;
+
+ private:
+  std::vector<std::shared_ptr<const Job>> jobs_;
+  std::map<std::filesystem::path, std::pair<FileState, std::string>> files_;  ///< state, digest
+};
 
 /// The keys whose values differ between two documents, in the order of the first:
 /// "routing.free_length_m 2.035 -> 2.1". Lists of one length are compared item by item

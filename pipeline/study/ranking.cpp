@@ -391,7 +391,7 @@ std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places
 std::string stale_words(const RankingRow& row) {
   if (row.waits())
     return "stale: since this result " + (row.changed.empty() ? "its settings, a file or a program changed" : row.changed);
-  return fmt::format("stale: with the settings of now it failed: {}{}", row.failure,
+  return fmt::format("stale: with the present settings it failed: {}{}", row.failure,
                      row.changed.empty() ? "" : "; since this result " + row.changed);
 }
 

@@ -177,7 +177,7 @@ std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& ro
     if (test.cable != cable) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", test.cable);
     if (test.cable != cable)
       text += fmt::format("  {:<{}} {:>12} {:>27} {:>27}  {}\n", "rig", wide, "cycles", "10 .. 90 %",
-                          "inside stuck .. free", "maker");
+                          "inside glued .. free", "maker");
     cable = test.cable;
     const RankingRow* row = row_of(rows, test.job);
     if (!row || !row->done()) {

@@ -133,7 +133,7 @@ std::string relate_one(const RatedCable& rated, const RankingRow& rig, RankingRo
   if (!rig.done()) return rig.failure;
   const double program = place_life(row.life_file, rated), cycles = place_life(rig.life_file, {});
   if (std::isnan(program) || std::isnan(cycles))
-    return "life.h5 does not tell when conductors fail at one place";
+    return "life.h5 does not say when conductors fail at one place";
   if (std::isinf(cycles)) return "the model sees no damage in its rig, to which a program could be related";
   const double per_hour = 3600 / row.repeat_seconds * (cycles / program);
   const RelativeLife relative{rated.name, rated.rig, per_hour, rated.rated_cycles};

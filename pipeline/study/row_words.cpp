@@ -133,8 +133,8 @@ std::string unvalidated_note(const std::vector<RankingRow>& rows) {
   std::vector<std::string> jobs;
   for (const RankingRow& row : rows)
     if (const UnvalidatedMode* const mode = row.has_result() ? earlier_unvalidated(row) : nullptr)
-      jobs.push_back(fmt::format("{}{}: after {}", rows.size() > 1 ? row.job + ", " : "", mode->mode, hours_text(mode->early_hours())));
-  return jobs.empty() ? "" : fmt::format("* A mode that is not validated may come before. {}.", fmt::join(jobs, "; "));
+      jobs.push_back(fmt::format("{}{}: from {}", rows.size() > 1 ? row.job + ", " : "", mode->mode, hours_text(mode->early_hours())));
+  return jobs.empty() ? "" : fmt::format("* Plan with this number, and inspect for modes that are not validated. {}.", fmt::join(jobs, "; "));
 }
 
 bool is_credible(const UnvalidatedMode& mode) { return too_short_wall(mode).empty(); }
@@ -268,8 +268,7 @@ std::string unvalidated_words(const UnvalidatedMode& mode) {
   std::string text = fmt::format("{}, {:.2f} m from the tool, most at {:.1f} s{}.", what, mode.position_from_tool, mode.time,
                                  mode.step.empty() ? "" : ", during '" + mode.step + "'");
   if (mode.first_share >= 0.01)
-    text += fmt::format(" It comes before the wires in {:.0f} % of the samples; with it 1 of 10 has failed after {}.",
-                        100 * mode.first_share, hours_text(mode.together_p10));
+    text += fmt::format(" It comes before the wires in {:.0f} % of the samples.", 100 * mode.first_share);
   return joined_words({text, mode.note});
 }
 

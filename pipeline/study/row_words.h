@@ -19,7 +19,7 @@ std::string action_words(const RankingRow& row);
 /// no test validates are not in the headline, and a reader must not take it alone. Of the wall the median counts, unless
 /// its law contradicts a published test. Null: none.
 const UnvalidatedMode* earlier_unvalidated(const RankingRow& row);
-/// "* A mode that is not validated may come before. hard, abrasion: after 1,080 h." Of the rows that are marked with * in a
+/// "* Plan with this number, and inspect for modes that are not validated. hard, abrasion: from 1,080 h." Of the rows that are marked with * in a
 /// table. Empty: none.
 std::string unvalidated_note(const std::vector<RankingRow>& rows);
 

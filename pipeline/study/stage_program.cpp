@@ -1,5 +1,6 @@
 #include "pipeline/study/stage_program.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -14,14 +15,15 @@
 #include <system_error>
 #include <utility>
 
-#include "pipeline/base/ownership.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/ownership.h"
 #include "pipeline/base/whole_file.h"
 
 namespace dresslife::pipeline {
 
-int run_stage_program(const std::string& program, const std::vector<std::string>& arguments) {
+int run_stage_program(const std::string& program, const std::vector<std::string>& arguments,
+                      StageWords said) {
   const std::string file = (program_folder() / program).string();
   std::vector<char*> words{const_cast<char*>(file.c_str())};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
@@ -34,6 +36,8 @@ int run_stage_program(const std::string& program, const std::vector<std::string>
   if (child == 0) {
     release_signals();
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (const int nowhere = said == StageWords::dropped ? ::open("/dev/null", O_WRONLY) : -1; nowhere >= 0)
+      ::dup2(nowhere, STDERR_FILENO);
     if (::getppid() == parent) ::execv(file.c_str(), words.data());
     ::_exit(not_there);
   }

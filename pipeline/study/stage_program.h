@@ -10,9 +10,13 @@
 
 namespace dresslife::pipeline {
 
+enum class StageWords { shown, dropped };
+
 /// Runs the program of this name in the folder of this one, with the same streams. It ends with this program.
-/// Returns its exit status. Errors: InputError when it cannot be started or is killed.
-int run_stage_program(const std::string& program, const std::vector<std::string>& arguments);
+/// dropped: its standard error goes nowhere. Returns its exit status. Errors: InputError when it cannot be started or
+/// is killed.
+int run_stage_program(const std::string& program, const std::vector<std::string>& arguments,
+                      StageWords said = StageWords::shown);
 
 /// A temporary file in its own folder (below TMPDIR, or /tmp) for the results of a program, removed with this object.
 /// Errors: InputError when it cannot be made.

@@ -16,7 +16,7 @@ std::string first_problem(const StudyJob& job) {
   const std::vector<std::string> lines = problem_lines(job.failure);
   return lines.size() == 1
              ? job.failure
-             : fmt::format("{} (and {} more problems, told below the jobs)", lines.front(), lines.size() - 1);
+             : fmt::format("{} (and {} more problems, listed below the jobs)", lines.front(), lines.size() - 1);
 }
 
 std::string problem_words(const Study& study) {

@@ -285,7 +285,7 @@ class Inform final : public Dialect {
     ask("pulses_per_degree", place,
         "moves to a position in pulses, and no file says how many pulses a degree of each axis has",
         "give --value 'pulses_per_degree=[S,L,U,R,B,T]' (motion.values), counts with their signs: two positions of "
-        "the pendant, shown once in pulses and once in degrees, tell them",
+        "the pendant, shown once in pulses and once in degrees, give them",
         "[S, L, U, R, B, T], counts of a degree with their signs");
     return {};
   }

@@ -221,7 +221,7 @@ bool Krl::keeps_orientation(const Place& place, bool unknown, Interpreter& run) 
   if (unknown)
     run.note(
         place,
-        "keeps the orientation ($ORI_TYPE #CONSTANT) of a place that nobody knows: the target's is taken",
+        "keeps the orientation ($ORI_TYPE #CONSTANT) of an unknown place: the target's is taken",
         true);
   return !unknown;
 }
@@ -407,7 +407,7 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
     else if (!number)
       run.note(statement.place,
                fmt::format(
-                   "approximates without a known {0}: the robot stops at the target (give --value '{0}=...')",
+                   "approximation by {0}: no file sets it, so that the robot stops at the target (give --value '{0}=...')",
                    written),
                true);
     return number;
@@ -430,7 +430,7 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
     const double share = std::clamp(known("cvel", "$APO.CVEL").value_or(0), 0.0, 100.0) / 100;
     move.zone.percent = 100 * share * share;
   } else if (has(statement, "c_ori")) {
-    run.note(statement.place, "approximates by an angle (C_ORI): the robot stops at the target", true);
+    run.note(statement.place, "approximation by an angle (C_ORI): the robot stops at the target", true);
   }
 }
 

@@ -148,7 +148,7 @@ const std::vector<std::string>& harmless_rapid_instructions() {
 
 const char* rapid_told_effect(const std::string& instruction) {
   static const std::map<std::string, const char*> effects{
-      {unwritten_statement, "nobody wrote a statement in this place: the controller stops here"},
+      {unwritten_statement, "no statement is written in this place: the controller stops here"},
       {"raise", "an error of the program's own: the motion goes on behind it, handlers are not followed"},
       {"syncmoveon", "several robots or positioners move together from here on (MultiMove), only this one is read"},
       {"syncmoveoff", "the end of moves of several robots together (MultiMove), of which only this one is read"},

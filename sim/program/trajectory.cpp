@@ -145,7 +145,7 @@ class Columns {
     const auto order = order_of_axes(axes, wanted);
     if (!order)
       return refuse(
-          fmt::format("names axes whose order it does not tell ({})", fmt::join(axes, ", ")),
+          fmt::format("names axes without their order ({})", fmt::join(axes, ", ")),
           "number them in their names (joint_1 ...), or give --value joints=NAME,NAME,... in the order of "
           "the robot's axes");
     for (std::size_t axis : *order) axes_.push_back(at[axis]);
@@ -368,7 +368,7 @@ void read_ros_trajectory(const SourceFile& file, const ImportOptions& options, P
   if (!order)
     return problems.add(
         names->where,
-        fmt::format("names joints whose order on the robot it does not tell ({})", fmt::join(joints, ", ")),
+        fmt::format("names joints without their order on the robot ({})", fmt::join(joints, ", ")),
         "give --value joints=NAME,NAME,... in the order of the robot's axes");
   Rows rows(program, problems);
   for (const Node& point : points->items)

@@ -302,7 +302,7 @@ class Pass {
     if (!order)
       throw InputError(
           log_.where(row[columns_.names.front()]),
-          "the names of the joints do not tell their order on the robot",
+          "the names of the joints do not give their order on the robot",
           "give --value joints=NAME,NAME,.. with the columns of the positions in the order of the robot's axes");
     std::vector<std::size_t> axes;
     for (const std::size_t k : *order) axes.push_back(columns_.axes[k]);

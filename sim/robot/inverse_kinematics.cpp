@@ -399,7 +399,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
     }
     if (different > 1 && !open_.empty() && !chosen && configuration.kind != ArmConfiguration::Kind::any) {
       reason =
-          fmt::format("is reached by {} arms of configuration {}: {}, and only joint angles tell them apart",
+          fmt::format("is reached by {} arms of configuration {}: {}; only joint angles distinguish them",
                       different, configuration.text(), open_);
       return {};
     }

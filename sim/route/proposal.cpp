@@ -170,7 +170,7 @@ class Search {
           limits += fmt::format("{}{} by {:.2f} at {:.3f} s", limits.empty() ? "" : ", ",
                                 word(static_cast<ScreenedLimit>(k)), g, candidate.screening.time[k]);
       candidate.rehearsal.refusal =
-          fmt::format("geometry excludes all {} routings that were looked at; the nearest is {}",
+          fmt::format("geometry excludes all {} routings that were checked; the nearest is {}",
                       settings_.tried, limits);
     }
     return all;

@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
   processor = processor_seconds(RUSAGE_CHILDREN, [&] {
     wall = seconds([&] {
       built = run_build_graph(standing.places, 2, {});
-      close_run(standing.study, standing.places, built, standing.states);
+      close_run(standing.study, standing.places, built, standing.states, standing.digests);
     });
   });
   if (built.executed != 3 * jobs) return 1;

@@ -1,5 +1,6 @@
 // dresslife improve: jobs that live longer, and a search that is killed.
 #include <map>
+#include <regex>
 
 #include "tests/catch.h"
 #include "tests/cli/process.h"
@@ -104,6 +105,40 @@ TEST_CASE("a search that is killed ends where it would have ended") {
   must_run(scratch, "dresslife", line + "killed");
   CHECK(content(scratch / "killed/better_improve/improve.csv") ==
         content(scratch / "whole/better_improve/improve.csv"));
+}
+
+TEST_CASE("a search whose file changes ends with what it found, and names the file") {
+  Scratch scratch;
+  write_small_study(scratch);
+  const Outcome ended = run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' improve better.yaml --trials 200 --quiet -j 2 &\n"
+                                           "pid=$!\n"
+                                           "for k in $(seq 600); do\n"
+                                           "  [ -e runs/better_improve/trial_0006/.stage/fatigue.receipt ] && break\n"
+                                           "  sleep 0.1\n"
+                                           "done\n"
+                                           "echo '# of another day' >> poses.csv; wait $pid");
+  INFO(ended.out << ended.err);
+  CHECK(ended.status == 1);
+  CHECK(ended.err.find("poses.csv: error: has changed during the search; let nothing change it meanwhile, then run again\n") !=
+        std::string::npos);
+  CHECK(std::regex_search(ended.out, std::regex("^The best of the [0-9]+ trials before is trial [0-9]+: [^\n]* all limits kept;")));
+  CHECK(ended.out.find("\n    --set 'routing.free_length_m=0.") != std::string::npos);
+  CHECK(lines_of(content(scratch / "runs/better_improve/improve.csv")) > 5);
+}
+
+TEST_CASE("improve and route keep the results of jobs of one name in two folders apart") {
+  Scratch scratch;
+  for (const char* folder : {"a", "b"})
+    scratch.write(std::string(folder) + "/job.yaml", "robot: abb_irb6640_185_280\ndresspack: sensor_cable\nmotion: easy\n");
+  for (const std::string command : {"improve", "route"}) {
+    const std::string few = command == "route" ? " --tried 1 --off 0" : "";
+    run(scratch, "dresslife", command + " a/job.yaml --quiet --rehearsals 1" + few);  // whatever it finds
+    const Outcome refused = run(scratch, "dresslife", command + " b/job.yaml --quiet --rehearsals 1" + few);
+    CHECK(refused.status == 1);
+    CHECK_THAT(refused.err, Catch::Contains("runs/job_" + command +
+                                            ": error: holds the results of another file, a/job.yaml, not of b/job.yaml; choose another "
+                                            "folder with -o FOLDER; to replace those results, run with --force\n"));
+  }
 }
 
 TEST_CASE("improve tells the front of two aims, of which the jobs as they are may be one") {

@@ -180,7 +180,7 @@ const Wrong wrong[] = {
     {"cable.yaml", "7 x 0.5 mm2", "7G0.5", "cable.yaml:6:17: error: ", "'7g0.5' of a data sheet is not understood", "write '7 x 0.5 mm2'", "dresslife draw cable.yaml"},
     {"hose.yaml", "diameter_mm: 50\ninner", "diameter_m: 0.05\ninner", "hose.yaml:3:1: error: ", "unknown key 'dresspack.diameter_m'", "its unit is mm, write 'diameter_mm: 50'"},
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_g_per_m: 1200", "hose.yaml:5:1: error: ", "unknown key 'dresspack.mass_g_per_m'", "write 'mass_kg_per_m: 1.2'"},
-    {"axes.csv", "", "t,a,b,c,d,e,f" + axes.substr(axes.find('\n')), "axes.csv:1:1: error: ", "names axes whose order it does not tell", "motion.values: [{name: joints, value: 'NAME,NAME,...'}]", "dresslife check axes.yaml"},
+    {"axes.csv", "", "t,a,b,c,d,e,f" + axes.substr(axes.find('\n')), "axes.csv:1:1: error: ", "names axes without their order", "motion.values: [{name: joints, value: 'NAME,NAME,...'}]", "dresslife check axes.yaml"},
     {"spot.mod", "MoveAbsJ a", "MoveAbsJ b", "spot.mod:4:", "'b'", "motion.values: [{name: b, value: VALUE}]", "dresslife check module.yaml"},
     {"cable.yaml", "wire 0.1 mm", "wire 1 mm", "cable.yaml:6:17: error: ", "0.5 mm2 are 0.637 wires of 1 mm", "check cross_section_mm2", "dresslife draw cable.yaml"},
     {"cable.yaml", "wire 0.1 mm", "wire 0.001 mm", "cable.yaml:6:17: error: ", "wires of 0.001 mm", "check cross_section_mm2", "dresslife draw cable.yaml"},

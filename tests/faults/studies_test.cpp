@@ -199,7 +199,7 @@ TEST_CASE(
 
   scratch.write("study.yaml", std::string("keep: lives\n") + study_text);
   REQUIRE(run_study(scratch).status == 0);
-  CHECK(content(page).find("id=\"stale\">ranking.csv tells the result of now; its files") !=
+  CHECK(content(page).find("id=\"stale\">ranking.csv has the present result; the files") !=
         std::string::npos);
   scratch.write("study.yaml", study_text);
   REQUIRE(run_study(scratch).status == 0);

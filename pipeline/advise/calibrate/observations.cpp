@@ -352,7 +352,7 @@ std::string observed_text(const Observation& observation) {
 
 std::string validation_table(const ValidationStudy& validation, const std::vector<RankingRow>& rows) {
   std::string text =
-      "| observation | what | observed | predicted, medians of the variants | 10 .. 90 % over all | inside stuck .. free | |\n"
+      "| observation | what | observed | predicted, medians of the variants | 10 .. 90 % over all | inside glued .. free | |\n"
       "|---|---|---|---|---|---|---|\n";
   for (const Observation& observation : validation.observations) {
     const Prediction prediction = predicted(observation, validation.study, rows);

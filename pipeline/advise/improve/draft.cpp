@@ -100,10 +100,26 @@ Node links_only(const RouteRequest& request, const Robot& robot, const Node* giv
   return routing;
 }
 
-/// A file that an entry names, as it is named from another folder; a null node: it names none.
+/// From which the names in an entry count.
+fs::path folder_of(const Node& entry) {
+  return entry.where.file == command_line ? fs::path() : fs::path(entry.where.file).parent_path();
+}
+
+/// Whether all names in an entry mean the same in a job in that folder.
+bool counts_from(const Node& entry, const fs::path& folder) {
+  const auto within = [&](const Node& node) { return counts_from(node, folder); };
+  return inode_of(folder / ".") == inode_of(folder_of(entry) / ".") &&
+         std::ranges::all_of(entry.items, within) &&
+         std::ranges::all_of(entry.entries, [&](const Entry& one) { return within(one.value); });
+}
+
+/// An entry as it can stand in a job in another folder: a file by its path from there; a null node: by nothing shorter
+/// than what it names.
 Node reference(const Node& entry, const std::optional<fs::path>& folder) {
-  if (!folder || !entry.is_scalar() || !fs::path(entry.text).has_extension()) return {};
-  const fs::path beside = entry.where.file == command_line ? fs::path() : fs::path(entry.where.file).parent_path();
+  if (!folder) return {};
+  if (counts_from(entry, *folder)) return entry;
+  if (!entry.is_scalar() || !fs::path(entry.text).has_extension()) return {};
+  const fs::path beside = folder_of(entry);
   if (kind_of(beside / entry.text) != FileKind::file) return {};
   Node named = scalar((fs::path(".") / as_seen_from(*folder, beside / entry.text)).string());
   place_at(named, entry.where);
@@ -157,7 +173,7 @@ Node routed(const Draft& draft, const std::string& routing, const std::string& m
     const Node& entry = *document.find(key);
     if (is_shipped(shelf, entry)) return;
     const Node named = reference(entry, folder);
-    document[key] = named.is_scalar() ? named : *resolved.find(key);
+    document[key] = named.kind != Node::Kind::null ? named : *resolved.find(key);
   };
   replace("robots", "robot");
   if (draft.exercise)
@@ -168,7 +184,7 @@ Node routed(const Draft& draft, const std::string& routing, const std::string& m
     document["dresspack"] = echo_fields(scaled(draft.job.dresspacks.front().dresspack, factor));
   else
     replace("dresspacks", "dresspack");
-  if (document.find("cell")) document["cell"] = *resolved.find("cell");
+  if (document.find("cell")) replace("cells", "cell");
   Node found = parse_yaml(routing, std::string(command_line));
   keep_settings(found, document.find("routing"));
   document["routing"] = std::move(found);

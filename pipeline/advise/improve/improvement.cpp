@@ -14,10 +14,12 @@
 #include "pipeline/advise/search/surrogate_search.h"
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/limits.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
+#include "pipeline/study/changes.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -115,9 +117,26 @@ class Improver {
     }
     done_.trials.push_back(std::move(as_it_is));
     makers_.tell(done_);
+    try {
+      try_others(*search);
+    } catch (const FilesChanged& change) {
+      done_.ended = change.what();
+    }
+    done_.front = best_trials();
+    if (done_.front.empty()) done_.obstacle = obstacle_words(done_.trials, freedom_);
+    if (done_.ended.empty() && static_cast<int>(done_.trials.size()) < request_.trials)
+      done_.obstacle.insert(
+          done_.obstacle.begin(),
+          fmt::format("The search stopped early: of {} short runs the nearest to the limits: {}",
+                      done_.rehearsals, nearest_words_));
+    return std::move(done_);
+  }
+
+ private:
+  void try_others(Search& search) {
     while (static_cast<int>(done_.trials.size()) < request_.trials) {
       const int left = request_.trials - static_cast<int>(done_.trials.size());
-      const std::vector<VectorXd> asked = search->ask(std::min(left, request_.at_a_time));
+      const std::vector<VectorXd> asked = search.ask(std::min(left, request_.at_a_time));
       if (asked.empty()) break;  // it has given up
       std::vector<std::vector<std::string>> sets;
       for (const VectorXd& place : asked) sets.push_back(freedom_.sets_at(place));
@@ -127,20 +146,11 @@ class Improver {
         looks.push_back(look_of(trial, trial.place));
         done_.trials.push_back(std::move(trial));
       }
-      search->tell(looks);
+      search.tell(looks);
       makers_.tell(done_);
     }
-    done_.front = best_trials();
-    if (done_.front.empty()) done_.obstacle = obstacle_words(done_.trials, freedom_);
-    if (static_cast<int>(done_.trials.size()) < request_.trials)
-      done_.obstacle.insert(
-          done_.obstacle.begin(),
-          fmt::format("The search stopped early: of {} short runs the nearest to the limits: {}",
-                      done_.rehearsals, nearest_words_));
-    return std::move(done_);
   }
 
- private:
   std::size_t aims() const { return request_.second == SecondAim::none ? 1 : 2; }
 
   std::unique_ptr<Search> made_search() {
@@ -369,6 +379,19 @@ std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vec
 
 Improvement improve(const ImproveRequest& request, const StudyPlaces& places, const TrialMakers& makers) {
   return Improver(request, places, makers).run();
+}
+
+std::string unfinished_words(const Improvement& improvement) {
+  const std::optional<std::size_t> best = improvement.best();
+  if (!best)
+    return fmt::format("None of the {} trials before keeps all limits.\n", improvement.trials.size());
+  const Trial& trial = improvement.trials[*best];
+  std::string text = fmt::format(
+      "The best of the {} trials before is {}: {}, all limits kept; no mounting tolerance was tried.\n",
+      improvement.trials.size(), *best == 0 ? "the job as it is" : fmt::format("trial {}", *best),
+      hours_text(trial.worst.hours));
+  for (const std::string& set : trial.sets) text += fmt::format("    --set '{}'\n", set);
+  return text;
 }
 
 std::string improvement_csv(const Improvement& improvement) {

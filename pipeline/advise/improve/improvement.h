@@ -71,6 +71,7 @@ struct Improvement {
   int rehearsals = 0;                 ///< short runs
   int most_rehearsals = 0;            ///< before the first trial
   std::vector<std::string> obstacle;  ///< lines: why no trial is feasible; empty: some are
+  std::string ended;                  ///< message: a file changed, which ended the search early; empty: none did
   std::optional<std::size_t> best() const;  ///< longest life of the feasible; absent: none is
 };
 
@@ -86,6 +87,9 @@ Improvement improve(const ImproveRequest& request, const StudyPlaces& places, co
 /// The study's jobs with changes, named PREFIX, or PREFIX_JOB of several.
 std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vector<std::string>& sets,
                                    const std::string& prefix);
+
+/// The best trial of a search that ended early, and its keys.
+std::string unfinished_words(const Improvement& improvement);
 
 /// improve.csv: a row per trial: number, feasible, life of the worst job, violated limits, and the value of
 /// each free key.

@@ -30,7 +30,7 @@ ImprovementStory::Lives lives_of(const Finals& finals, const Final& of, const Ou
 std::string other_words(const Finals& finals) {
   const Final &best = *finals.best(), &longest = *finals.longest();
   if (best.trial == longest.trial || !longest.tolerance) return "";
-  return fmt::format("Trial {} lives longer as it is drawn ({}), but at most {} within that tolerance\n", longest.trial,
+  return fmt::format("Trial {} lives longer without mounting errors ({}), but at most {} within that tolerance\n", longest.trial,
                      hours_text(longest.hours), hours_text(longest.tolerance->least_hours));
 }
 

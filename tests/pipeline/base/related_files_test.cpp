@@ -23,3 +23,17 @@ TEST_CASE("related files: what a program names in whole words, what those name, 
   std::sort(expected.begin(), expected.end());
   CHECK(found == expected);
 }
+
+TEST_CASE("related files: copies of the program, its comments and routines of other files alone reach nothing") {
+  const Scratch scratch;
+  const auto file = [&](const std::string& name, const std::string& text) { return scratch.write(name, text); };
+  const auto program = file("weld.src", "DEF weld()\n; after it: clean\n grip()\nEND\nDEF grip()\nPTP home\nEND\n");
+  const auto copy = file("weld_old.src", "DEF weld()\n grip()\nEND\nDEF grip()\nEND\n");
+  const auto in_comment = file("clean.src", "DEF clean()\nEND\n");
+  const auto local = file("cell.src", "DEF cell()\nEND\nDEF home()\nEND\n");  // a file's second routine is its own
+  CHECK(related_files({program}, {copy, in_comment, local}).empty());
+  // The first program's names are its own, those of a module may be in two files.
+  CHECK(related_files({in_comment, program}, {copy}) == std::vector{copy});
+  const auto system = file("more.dat", "DEFDAT $more\nDECL E6POS anywhere\nENDDAT\n");
+  CHECK(related_files({program}, {system}) == std::vector{system});
+}

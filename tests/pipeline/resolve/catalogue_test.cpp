@@ -265,5 +265,15 @@ TEST_CASE("set: mistakes are shown as they were typed") {
   CHECK(set_error("simulation.segments=[1").find("--set simulation.segments=[1") == 0);
 }
 
+TEST_CASE("catalogue: a program whose extension is none of a program is refused with those that are read") {
+  const Scratch scratch;
+  scratch.write("weld.txt", "DEF weld()\nEND\n");
+  const auto job = scratch.write("job.yaml", "robot: kuka_kr16_2\nmotion: weld.txt\ndresspack: sensor_cable\n");
+  CHECK_THROWS_WITH(read_job(job), Catch::Contains("weld.txt' is no robot program by its name ('.txt'); rename it by its language: RAPID .mod") &&
+                                       Catch::Contains("KRL .src") && !Catch::Contains("there is no file"));
+  std::filesystem::remove(scratch / "weld.txt");
+  CHECK_THROWS_WITH(read_job(job), Catch::Contains("there is no file '"));
+}
+
 }  // namespace
 }  // namespace dresslife::pipeline

@@ -49,12 +49,15 @@ class Bench {
     }
     return made;
   }
-  BuildResult run(const Study& of) {
-    states_ = states_of(of, places_);
+  /// between: after the states were read, before a stage runs.
+  BuildResult run(const Study& of, const std::function<void()>& between = {}) {
+    Digests before;
+    states_ = states_of(of, places_, before);
+    if (between) between();
     write_build_graph(of, places_, states_);
     const BuildResult result =
         run_build_graph(places_, 2, [this](const BuildEvent& event) { events_.push_back(event.what); });
-    close_run(of, places_, result, states_);
+    close_run(of, places_, result, states_, before);
     return result;
   }
   /// The same with what lies in other jobs' folders.
@@ -207,7 +210,7 @@ TEST_CASE("build graph: a launcher starts every stage, and its exit status is th
       study, bench.places(), states, {},
       "sh -c 'echo \"${DRESSLIFE_PARENT-none} $1\" >> launched; echo launcher: error: exit >&2; exec \"$@\"' --");
   const BuildResult result = run_build_graph(bench.places(), 1, {});
-  close_run(study, bench.places(), result, states);
+  close_run(study, bench.places(), result, states, {});
   CHECK(states[0].done());
   CHECK(states[1].failure.find("strain broke") !=
         std::string::npos);  // not the launcher's word that comes first
@@ -463,6 +466,11 @@ TEST_CASE("build graph: a file beside the job counts by its content") {
   CHECK_FALSE(bench.states()[0].done());
   CHECK(bench.states()[0].failure.find(
             "poses.csv: error: has changed while dresslife-sim ran; let nothing change it meanwhile, then run again") != std::string::npos);
+  // Edited before it began, and after the run had looked.
+  bench.run(study, [&] { bench.scratch().write("poses.csv", "0, 5\n"); });
+  CHECK_FALSE(bench.states()[0].done());
+  CHECK(bench.states()[0].failure ==
+        "motion.h5: error: " + poses.string() + " has changed while the study ran; let nothing change it meanwhile, then run again");
   bench.run(study);
   CHECK(bench.words(study) == Words{"done"});
 }
@@ -493,11 +501,11 @@ TEST_CASE("build graph: a stage that is killed or ends without a word is told") 
   const Study study = bench.study({{"one", "simulation.segments=20"}});
   bench.write_script("sim", "#!/bin/sh\nkill -9 $$\n");
   bench.run(study);
-  CHECK(bench.states()[0].failure == "dresslife-sim ended without a word (killed, or out of memory?)");
+  CHECK(bench.states()[0].failure == "dresslife-sim ended without a message (killed, or out of memory?)");
   bench.write_stage("sim");
   bench.tell_stage("one", "silent-sim");
   bench.run(study);
-  CHECK(bench.states()[0].failure == "dresslife-sim ended without a word (killed, or out of memory?)");
+  CHECK(bench.states()[0].failure == "dresslife-sim ended without a message (killed, or out of memory?)");
 }
 
 TEST_CASE("build graph: a stage that claims success and makes nothing is not believed") {

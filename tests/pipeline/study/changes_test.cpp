@@ -1,10 +1,14 @@
 #include "pipeline/study/changes.h"
 
+#include "pipeline/job/job.h"
 #include "pipeline/settings/document.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::vector<std::string> between(const std::string& was, const std::string& now) {
   return changed_keys(parse_yaml(was, "was"), parse_yaml(now, "now"));
@@ -30,6 +34,33 @@ TEST_CASE("changes: of lists their items where there are as many, else their len
         Lines{"steps[2].dwell_s 0 -> 2"});
   CHECK(between("steps: [{a: 0}, {a: 0}]\n", "steps: [{a: 0}]\n") == Lines{"steps 2 entries -> 1 entries"});
   CHECK(between("wires: [[1, 2], [3]]\n", "wires: [[1, 2], [4]]\n") == Lines{"wires[2] [3] -> [4]"});
+}
+
+TEST_CASE("changes: a search ends when a file that its jobs read changes, goes or comes, and names it") {
+  const Scratch scratch;
+  Job job;
+  job.motion.program = scratch.write("weld.src", "DEF weld()\n grip()\nEND\n");
+  scratch.write("weld.dat", "DEFDAT weld\nENDDAT\n");
+  const FilesAtStart files({std::make_shared<const Job>(job)});
+  const auto ended = [&]() -> std::string {
+    try {
+      files.check();
+    } catch (const FilesChanged& change) {
+      return change.what();
+    }
+    return "";
+  };
+  const std::string mend = " during the search; let nothing change it meanwhile, then run again";
+  scratch.write("other.src", "DEF other()\nEND\n");  // which it does not call
+  CHECK(ended().empty());
+  scratch.write("grip.src", "DEF grip()\nEND\n");
+  CHECK(ended() == (scratch / "grip.src").string() + ": error: came beside the program" + mend);
+  fs::remove(scratch / "grip.src");
+  CHECK(ended().empty());
+  scratch.write("weld.dat", "DEFDAT weld\n;other\nENDDAT\n");
+  CHECK(ended() == (scratch / "weld.dat").string() + ": error: has changed" + mend);
+  fs::remove(scratch / "weld.dat");
+  CHECK(ended() == (scratch / "weld.dat").string() + ": error: was removed" + mend);
 }
 
 }  // namespace

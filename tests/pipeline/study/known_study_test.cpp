@@ -33,7 +33,7 @@ class Bench {
     write_build_graph(standing.study, standing.places, standing.states);
     remember(request_, standing);
     const BuildResult built = run_build_graph(standing.places, 2, {});
-    close_run(standing.study, standing.places, built, standing.states);
+    close_run(standing.study, standing.places, built, standing.states, standing.digests);
     return built.executed;
   }
   StudyState standing() const { return standing_of(request_); }

@@ -257,7 +257,7 @@ TEST_CASE("ranking: last results of stale jobs stand behind those of now, marked
   CHECK(table[2][12] == "stale");
   CHECK(
       table[2][13] ==
-      "stale: with the settings of now it failed: too short; since this result routing.free_length_m 2 -> 2.1");
+      "stale: with the present settings it failed: too short; since this result routing.free_length_m 2 -> 2.1");
   CHECK(table[3][1] == "900");
   CHECK(table[3][13] == "stale: since this result routing.free_length_m 2 -> 2.1");
   CHECK(table[4][12] == "failed");
@@ -357,14 +357,14 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
         "The wires last longer than the robot (40,000 h). The hose may wear through on link_4, 0.13 m from the tool, after 300 .. "
         "51,000 h (10 .. 90 %, not validated): inspect it there. Not evaluated: water hose, kinks.");
   const std::string both = ranking_table(rows, 200);
-  CHECK_THAT(both, Catch::Contains("*over 40,000") && Catch::Contains("* A mode that is not validated may come before. rubs, abrasion: after 300 h."));
+  CHECK_THAT(both, Catch::Contains("*over 40,000") && Catch::Contains("* Plan with this number, and inspect for modes that are not validated. rubs, abrasion: from 300 h."));
   CHECK(std::count(both.begin(), both.end(), '*') == 2);  // of the row that rubs, and of the note
   CHECK(action_words(rows[1]) ==
         "The evaluated parts last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   CHECK(unvalidated_words(rows[0]) ==
         "Abrasion is not validated and not in the hours above. By the model it wears through after 300 .. 51,000 h (10 .. 90 %), on "
-        "link_4, 0.13 m from the tool, most at 2.5 s, during 'weld spot'. It comes before the wires in 43 % of the samples; with "
-        "it 1 of 10 has failed after 280 h. A check finds it.");
+        "link_4, 0.13 m from the tool, most at 2.5 s, during 'weld spot'. It comes before the wires in 43 % of the samples. "
+        "A check finds it.");
   CHECK(unvalidated_words(rows[1]) == "Abrasion: nothing rubs on the dresspack.");
   const auto table = read_csv(ranking_csv(rows));
   const auto column = [&](const std::string& name) {
@@ -397,7 +397,7 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   CHECK(unvalidated_words(rows[0]) ==
         "Jacket wear is not validated and not in the hours above. By the model the jacket of signal cable 3 wears through in the "
         "hose after 300 .. 51,000 h (10 .. 90 %), 0.13 m from the tool, most at 2.5 s, during 'weld'. It comes before the wires in "
-        "43 % of the samples; with it 1 of 10 has failed after 280 h.");
+        "43 % of the samples.");
   CHECK(unvalidated_words(still) == "Jacket wear: no cable rubs in the hose.");
   const auto table = read_csv(ranking_csv(rows));
   const auto cell = [&](const std::string& name) {

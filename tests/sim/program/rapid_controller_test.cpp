@@ -312,7 +312,7 @@ TEST_CASE("rapid controller: a mistake counts where it runs") {
 TEST_CASE("rapid controller: a statement that nobody wrote stops the program where it stands") {
   const Reading called = run(go(1) + "unused;\n" + go(2), "PROC unused()\n<SMT>\nENDPROC\n");
   CHECK(first_axes(called) == Angles{1});
-  CHECK(skips(called, "<SMT>: nobody wrote a statement", true));
+  CHECK(skips(called, "<SMT>: no statement is written", true));
   const Reading behind = run(go(1) + go(2) + "<SMT>\n");
   CHECK(first_axes(behind) == Angles{1, 2});
   CHECK(skips(behind, "<SMT>", true));

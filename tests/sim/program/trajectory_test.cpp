@@ -58,7 +58,7 @@ TEST_CASE("columns: the axes stand in the order of their names") {
           .target.joints[0] == Approx(10 * degree).epsilon(rounding));
   const Reading unknown = columns("time,hip,knee\n0,30,20\n");
   CHECK(unknown.problem() ==
-        "j.csv:1:1: error: names axes whose order it does not tell (hip, knee); number them in their names "
+        "j.csv:1:1: error: names axes without their order (hip, knee); number them in their names "
         "(joint_1 ...), or give --value joints=NAME,NAME,... in the order of the robot's axes");
   CHECK(columns("time,hip,knee\n0,30,20\n", {{"joints", "knee, hip"}}).move(0).target.joints ==
         std::vector<double>{20 * degree, 30 * degree});

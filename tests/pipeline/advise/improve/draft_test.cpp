@@ -11,6 +11,7 @@
 #include "pipeline/files/check_names.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/sources.h"
 #include "pipeline/study/build_graph.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
@@ -20,7 +21,8 @@ namespace {
 
 /// The folder of a job whose simulation noted these lines of checks.
 std::filesystem::path job_with(const Scratch& scratch, const std::string& checks) {
-  const std::filesystem::path output = scratch.write("job/motion.h5", "what the receipt is of"), folder = output.parent_path();
+  const std::filesystem::path output = scratch.write("job/motion.h5", "what the receipt is of"),
+                              folder = output.parent_path();
   const std::filesystem::path receipt = folder / files_of_stage(0).receipt;
   std::filesystem::create_directories(receipt.parent_path());
   Receipt made;
@@ -81,6 +83,37 @@ TEST_CASE("of a job all but the routing is kept, and what cannot be routed is re
   CHECK_THROWS_WITH(draft_of({.of = "side_panel", .tool_link = "link_9"}), Catch::Contains("link_9"));
 }
 
+TEST_CASE("entries of a job stay references in its own folder, and in another one as far as they are files") {
+  const Scratch scratch;
+  const std::string source = DRESSLIFE_SOURCE_DIR;
+  const auto copy = [&](const std::string& name, const std::string& of) {
+    std::filesystem::create_directories((scratch / name).parent_path());
+    std::filesystem::copy_file(source + "/config/" + of, scratch / name);
+  };
+  copy("robots/mine.yaml", "robots/kuka_kr16_2.yaml");
+  copy("hose.yaml", "dresspacks/sensor_cable.yaml");
+  copy("weld.src", "programs/pick_and_place.src");
+  const auto job = scratch.write(
+      "job.yaml", "robot: mine\nmotion: {program: weld.src, passes: 1}\ndresspack: hose.yaml\nrouting: {" +
+                      std::string("base_clamp: {link: link_3}}\n"));
+  const Draft draft = draft_of({.of = job.string()});
+  const Node beside = routed(draft, found_routing, "", 1, scratch / ".");
+  CHECK(beside.find("robot")->text == "mine");
+  CHECK(beside.find("motion")->find("program")->text == "weld.src");
+  CHECK(beside.find("motion")->entries.size() == 2);
+  CHECK(beside.find("dresspack")->text == "hose.yaml");
+  const auto lines = to_yaml(beside);
+  CHECK(std::count(lines.begin(), lines.end(), '\n') <= 10);
+  const auto found = scratch.write("found.yaml", lines);
+  CHECK(job_text(read_job(found)) == job_text(job_from(routed(draft, found_routing, "", 1))));
+  // Elsewhere a name of this folder means nothing.
+  const auto other =
+      scratch.write("other/found.yaml", to_yaml(routed(draft, found_routing, "", 1, scratch / "other")));
+  CHECK(read_document(other).find("dresspack")->text == "./../hose.yaml");
+  CHECK(read_document(other).find("robot")->find("joints"));
+  CHECK(part_text(read_job(other), JobPart::sim) == part_text(read_job(found), JobPart::sim));
+}
+
 TEST_CASE("the worst of several jobs has the least life and the most of each limit") {
   Outcome good, tight;
   good.hours = std::numeric_limits<double>::infinity();
@@ -97,8 +130,9 @@ TEST_CASE("the worst of several jobs has the least life and the most of each lim
   RankingRow failed;
   failed.failure = "job.yaml: error: routing.free_length_m is too short; make it longer";
   CHECK_FALSE(outcome_of(failed, "nowhere").feasible());
-  for (const std::string other : {"motion.h5: error: cannot be written (No space left on device); free space, then run again",
-                                  "dresslife-sim ended without a word (killed, or out of memory?)"}) {
+  for (const std::string other :
+       {"motion.h5: error: cannot be written (No space left on device); free space, then run again",
+        "dresslife-sim ended without a message (killed, or out of memory?)"}) {
     failed.failure = other;
     CHECK_THROWS_AS(outcome_of(failed, "nowhere"), MachineFault);
   }
@@ -112,11 +146,16 @@ TEST_CASE("a check counts as passed on the far side of its limit, and as kept on
     const char* name;
     double value, limit, beyond;  // its limit alone is passed by that much; 0: kept
   } const cases[] = {
-      {check_name::bend_radius, 0.2, 0.25, std::log(1.25)}, {check_name::bend_radius, 0.3, 0.25, 0},
-      {check_name::twist, 3.6, 3, 0.2},                     {check_name::twist, -3.6, 3, 0.2},
-      {check_name::twist, -2.4, 3, 0},                      {check_name::tension, 50, 40, std::log(1.25)},
-      {check_name::tension, 30, 40, 0},                     {check_name::contact_force, 50, 40, std::log(50 / 45.0)},
-      {check_name::contact_force, 43, 40, 0},               {check_name::travel, 0.5, 0.4, 0.25},
+      {check_name::bend_radius, 0.2, 0.25, std::log(1.25)},
+      {check_name::bend_radius, 0.3, 0.25, 0},
+      {check_name::twist, 3.6, 3, 0.2},
+      {check_name::twist, -3.6, 3, 0.2},
+      {check_name::twist, -2.4, 3, 0},
+      {check_name::tension, 50, 40, std::log(1.25)},
+      {check_name::tension, 30, 40, 0},
+      {check_name::contact_force, 50, 40, std::log(50 / 45.0)},
+      {check_name::contact_force, 43, 40, 0},
+      {check_name::travel, 0.5, 0.4, 0.25},
       {check_name::travel, 0.39, 0.4, 0},
   };
   const RankingRow done = [] {
@@ -129,13 +168,15 @@ TEST_CASE("a check counts as passed on the far side of its limit, and as kept on
     const Scratch scratch;
     AskedLimits asked;
     asked.contact_force = 45;
-    const Outcome outcome = outcome_of(done, job_with(scratch, fmt::format("{} {} {}\n", one.value, one.limit, one.name)), asked);
+    const Outcome outcome =
+        outcome_of(done, job_with(scratch, fmt::format("{} {} {}\n", one.value, one.limit, one.name)), asked);
     CHECK(outcome.failure == "");
     CHECK(outcome.violation() == Approx(one.beyond).margin(1e-8));  // a full stroke counts by 1e-9
   }
 }
 
-TEST_CASE("modes beside the wires have limits in hours, and a limit of what a job does not evaluate is refused at its place") {
+TEST_CASE(
+    "modes beside the wires have limits in hours, and a limit of what a job does not evaluate is refused at its place") {
   constexpr double endless = std::numeric_limits<double>::infinity();
   const auto mode = [](const char* name, double early, double median) {
     UnvalidatedMode of;
@@ -169,9 +210,11 @@ TEST_CASE("modes beside the wires have limits in hours, and a limit of what a jo
   CHECK(outcome_of(row, folder, asked).violation() == 0);
   CHECK_NOTHROW(check_evaluated(asked, row));
   asked.abrasion = 1000;
-  CHECK_THROWS_WITH(check_evaluated(asked, row),
-                    Catch::StartsWith("study.yaml:7: error: abrasion_life_h is a limit of 'abrasion', which is not evaluated") &&
-                        Catch::Contains("abrasion, kinks"));
+  CHECK_THROWS_WITH(
+      check_evaluated(asked, row),
+      Catch::StartsWith(
+          "study.yaml:7: error: abrasion_life_h is a limit of 'abrasion', which is not evaluated") &&
+          Catch::Contains("abrasion, kinks"));
   row.failure = "too short";  // its own reason is told instead
   CHECK_NOTHROW(check_evaluated(asked, row));
 }
