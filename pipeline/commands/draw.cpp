@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "pipeline/base/ownership.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/pictures.h"

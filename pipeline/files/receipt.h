@@ -24,7 +24,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/base/whole_file.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 

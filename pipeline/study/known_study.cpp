@@ -13,6 +13,7 @@
 
 #include "pipeline/base/installation.h"
 #include "pipeline/base/digest.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/files/words.h"
 #include "pipeline/study/relative_life.h"
 

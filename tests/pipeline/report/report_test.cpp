@@ -6,6 +6,7 @@
 #include <regex>
 #include <set>
 
+#include "pipeline/base/ownership.h"
 #include "pipeline/report/life_charts.h"
 #include "pipeline/report/plot.h"
 #include "tests/catch.h"

@@ -22,7 +22,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Least room between any two parts, and between them and the bore and the core [m].
-double least_room(const std::vector<double>& radii, const std::vector<PlacedPart>& places, double bore, double core) {
+double least_room(const std::vector<double>& radii, const std::vector<PlacedPart>& places, double bore,
+                  double core) {
   double least = HUGE_VAL;
   for (std::size_t a = 0; a < radii.size(); ++a) {
     least = std::min(least, bore - places[a].helix_radius - radii[a]);
@@ -37,17 +38,21 @@ double least_room(const std::vector<double>& radii, const std::vector<PlacedPart
 }
 
 std::string hose_text(const std::string& bore, const std::string& parts) {
-  return "name: hose\nsource: made up\ndiameter_mm: 60\nbending_stiffness_Nm2: 10\n" + bore + "components:\n" + parts;
+  return "name: hose\nsource: made up\ndiameter_mm: 60\nbending_stiffness_Nm2: 10\n" + bore +
+         "components:\n" + parts;
 }
-std::string cable(const std::string& name, int count, double radius_mm, const std::string& keys = "place: auto") {
-  return fmt::format("  - {{name: {}, count: {}, radius_mm: {}, {}, components: [{{name: wire, count: 6, radius_mm: 0.2, "
-                     "helix_radius_mm: 1, lay_angle_deg: 5, material: copper}}]}}\n",
-                     name, count, radius_mm, keys);
+std::string cable(const std::string& name, int count, double radius_mm,
+                  const std::string& keys = "place: auto") {
+  return fmt::format(
+      "  - {{name: {}, count: {}, radius_mm: {}, {}, components: [{{name: wire, count: 6, radius_mm: 0.2, "
+      "helix_radius_mm: 1, lay_angle_deg: 5, material: copper}}]}}\n",
+      name, count, radius_mm, keys);
 }
 
 }  // namespace
 
-TEST_CASE("placement: parts never overlap, leave the bore or enter the core, and what does not fit is refused") {
+TEST_CASE(
+    "placement: parts never overlap, leave the bore or enter the core, and what does not fit is refused") {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> radius(2e-3, 9e-3), share(0, 0.4);
   int placed = 0;
@@ -80,7 +85,8 @@ TEST_CASE("placement: closed forms of one, two, six and seven parts") {
   // Seven in the same bore: one goes to the middle.
   const auto seven = pack_in_bore(std::vector<double>(7, 4e-3), 0.012 + 1e-12, 0);
   REQUIRE(seven);
-  CHECK(std::count_if(seven->begin(), seven->end(), [](const PlacedPart& part) { return part.helix_radius == 0; }) == 1);
+  CHECK(std::count_if(seven->begin(), seven->end(),
+                      [](const PlacedPart& part) { return part.helix_radius == 0; }) == 1);
   // Room to the wall is half of a gap to each other: bore - R - r = R (pi - 2 asin(r / R)) / 2 of two parts.
   const auto two = pack_in_bore({3e-3, 3e-3}, 0.02, 0);
   REQUIRE(two);
@@ -105,12 +111,18 @@ TEST_CASE("placement: a dresspack's parts get their places, and a job reads it")
   CHECK(mixed.components[4].name == "bus b");
   CHECK(overlap_warnings(mixed).empty());
   // A part in the middle with a place of its own stays there.
-  const Dresspack around = read(hose_text(bore, cable("power", 1, 8, "helix_radius_mm: 0") + cable("lead", 6, 5)));
+  const Dresspack around =
+      read(hose_text(bore, cable("power", 1, 8, "helix_radius_mm: 0") + cable("lead", 6, 5)));
   CHECK(around.components[1].helix_radius >= 0.0129);
+  // Also where the other would lie in the middle itself.
+  const Dresspack beside =
+      read(hose_text(bore, cable("power", 1, 8, "helix_radius_mm: 0") + cable("lead", 1, 5)));
+  CHECK(beside.components[1].helix_radius >= 0.0129);
   // A data sheet gives the radius.
-  const Dresspack sheet = read(hose_text(bore,
-                                         "  - {name: lead, count: 4, place: auto, data_sheet: '7 x 0.5 mm2, wire 0.1 mm, outer "
-                                         "diameter 8.2 mm, jacket 1.1 mm'}\n"));
+  const Dresspack sheet =
+      read(hose_text(bore,
+                     "  - {name: lead, count: 4, place: auto, data_sheet: '7 x 0.5 mm2, wire 0.1 mm, outer "
+                     "diameter 8.2 mm, jacket 1.1 mm'}\n"));
   CHECK(sheet.components[0].radius == Approx(4.1e-3));
   CHECK(sheet.components[0].helix_radius > 5e-3);
 }
@@ -121,18 +133,21 @@ TEST_CASE("placement: what cannot be placed is refused with what would do") {
     return message_of([&] { read_dresspack(scratch.write("hose.yaml", text)); });
   };
   const std::string full = refusal(hose_text("inner_diameter_mm: 30\n", cable("lead", 12, 5)));
-  CHECK_THAT(full, Contains("12 parts with place: auto do not fit into the bore of 30 mm") && Contains("hose.yaml:7:"));
+  CHECK_THAT(full, Contains("12 parts with place: auto do not fit into the bore of 30 mm") &&
+                       Contains("hose.yaml:7:"));
   const double enough = std::stod(full.substr(full.find("inner_diameter_mm: ") + 19));
   CHECK(refusal(hose_text(fmt::format("inner_diameter_mm: {}\n", enough), cable("lead", 12, 5))) == "");
-  CHECK_THAT(refusal(hose_text("", cable("lead", 3, 5))),
-             Contains("place: auto is given, and the hose's bore is not") && Contains("give inner_diameter_mm"));
+  CHECK_THAT(
+      refusal(hose_text("", cable("lead", 3, 5))),
+      Contains("place: auto is given, and the hose's bore is not") && Contains("give inner_diameter_mm"));
   CHECK_THAT(refusal(hose_text("inner_diameter_mm: 70\n", cable("lead", 3, 5))),
              Contains("inner_diameter_mm is 70 (diameter_mm is 60)"));
   const std::string wide_core = "inner_diameter_mm: 50\ncore_diameter_mm: 52\n";
   CHECK_THAT(refusal(hose_text(wide_core, cable("lead", 1, 3, "helix_radius_mm: 12"))),
              Contains("core_diameter_mm is 52 (the hose is 50 wide inside)"));
-  CHECK_THAT(refusal(hose_text("inner_diameter_mm: 50\n", cable("lead", 3, 5, "place: auto, helix_radius_mm: 10"))),
-             Contains("both place and helix_radius_mm are given"));
+  CHECK_THAT(
+      refusal(hose_text("inner_diameter_mm: 50\n", cable("lead", 3, 5, "place: auto, helix_radius_mm: 10"))),
+      Contains("both place and helix_radius_mm are given"));
   CHECK_THAT(refusal(hose_text("inner_diameter_mm: 50\n", cable("lead", 3, 5, "place: middle"))),
              Contains("place is 'middle' (must be auto)"));
   CHECK_THAT(refusal(hose_text("inner_diameter_mm: 50\n",

@@ -2,10 +2,12 @@
 
 #include <unistd.h>
 
+#include <csignal>
+#include "pipeline/base/progress.h"
 #include "pipeline/files/files.h"
+#include "pipeline/stage/stage.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
-#include <csignal>
 
 namespace dresslife::pipeline {
 
@@ -22,7 +24,10 @@ TEST_CASE("memory: needs add up, and the largest that a key can change is named"
 }
 
 TEST_CASE("memory: a file's buffers are its data, or the library's cache where that is smaller") {
-  const Format format{"f", 1, "p", "t",
+  const Format format{"f",
+                      1,
+                      "p",
+                      "t",
                       {{"/few", Type::f64, {"row", "2"}, "m", ""},
                        {"/many", Type::f64, {"sample", "row"}, "m", ""},
                        {"/absent", Type::f64, {"other"}, "m", ""}},
@@ -37,7 +42,26 @@ TEST_CASE("memory: what the machine has free is told and is not more than it has
   const std::optional<double> free = free_memory_mb();
   if (!free) return;
   CHECK(*free > 0);
-  CHECK(*free <= static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20));
+  CHECK(*free <= static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+                     static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20));
+}
+
+TEST_CASE("memory: a job runs that is within the limit and what is free, and no other") {
+  StageCall call;
+  call.input = "motion.h5";
+  const auto refusal = [&](double megabytes) {
+    MemoryNeed need;
+    need.add(megabytes * (1 << 20), "sites", "fewer wires");
+    Progress quiet("stage", true);
+    return message_of([&] { require_memory(call, need, quiet); });
+  };
+  CHECK(refusal(1) == "");
+  if (const std::optional<double> free = free_memory_mb())  // a hundred times that is free at no time
+    CHECK_THAT(refusal(100 * *free), Catch::StartsWith("motion.h5: error: takes about") &&
+                                         Catch::Contains("are free") &&
+                                         Catch::Contains("choose fewer wires"));
+  call.limits.megabytes = 1;  // a need within it would limit this program
+  CHECK_THAT(refusal(1.5), Catch::Contains("--job-memory allows 1 MB") && Catch::Contains("or allow more"));
 }
 
 }  // namespace dresslife::pipeline

@@ -4,11 +4,12 @@
 
 #include <functional>
 
-#include "pipeline/base/installation.h"
 #include "pipeline/base/digest.h"
+#include "pipeline/base/installation.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
+#include "tests/pipeline/files/still_motion.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -168,7 +169,8 @@ TEST_CASE("stage: the user's mistakes end with 1, ours with 3, each in one line"
                                             std::make_error_code(std::errc::permission_denied));
   });
   CHECK(disk.status == 1);
-  CHECK(disk.errors == "out.h5.part: error: Permission denied; check the folder and its permissions, then run again\n");
+  CHECK(disk.errors ==
+        "out.h5.part: error: Permission denied; check the folder and its permissions, then run again\n");
 }
 
 TEST_CASE("stage: an output that cannot be is refused before any work") {
@@ -181,7 +183,8 @@ TEST_CASE("stage: an output that cannot be is refused before any work") {
         (scratch / ".").string() +
             ": error: is a folder (a result only replaces a plain file); name a file of its own\n");
   const Outcome same = run({input, "-o", input});
-  CHECK(same.errors == input.string() + ": error: is one of the files that are read; name another place with -o\n");
+  CHECK(same.errors ==
+        input.string() + ": error: is one of the files that are read; name another place with -o\n");
   const std::string lost = (scratch / "none/out.h5").string();
   CHECK(run({input, "-o", lost}).errors == lost + ": error: lies in a folder that does not exist; make " +
                                                (scratch / "none").string() + " first\n");
@@ -239,6 +242,30 @@ TEST_CASE("stage: settings come from the input's job, from --job and --set, and 
           job_of(later, input, before);
         }).find("other settings of dresspack.components or strain than") != std::string::npos);
   CHECK(job_of(later, input, {JobPart::sim}).strain.gate == 0.01);
+}
+
+TEST_CASE("stage: the warnings of an output that is kept are printed again") {
+  const Scratch scratch;
+  const auto job = scratch.write("job.yaml", sample_job).string();
+  const Warning warning{WarningKind::motion, "job.yaml", "the hose swings"};
+  StageInfo sim = info;
+  sim.input_is_job = true;
+  sim.part = JobPart::sim;
+  const auto motion = (scratch / "motion.h5").string(), note = (scratch / "sim.receipt").string();
+  const auto run_sim = [&] {
+    return run(
+        {job, "-o", motion, "--receipt", note},
+        [&](const StageCall& call) {
+          write_still_motion(call.output, 2, 2,
+                             [&](FileWriter& file) { file.attribute("warnings", warnings_text({warning})); });
+        },
+        sim);
+  };
+  const Outcome first = run_sim(), second = run_sim();
+  CHECK(first.ran);
+  CHECK(second.status == 0);
+  CHECK_FALSE(second.ran);
+  CHECK_THAT(second.errors, Catch::Contains("the hose swings"));
 }
 
 TEST_CASE("stage: progress stays off what is no terminal, notes do not unless quiet") {

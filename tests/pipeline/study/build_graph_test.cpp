@@ -6,6 +6,7 @@
 #include <sstream>
 #include <thread>
 
+#include "pipeline/base/ownership.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"

@@ -99,6 +99,21 @@ TEST_CASE("urdf: a joint that mimics another by a factor bounds its range and it
   }
 }
 
+TEST_CASE("urdf: a joint that follows with factor 0 keeps its place and bounds nothing") {
+  // It stays at 0.1, outside its own range: no angle of j2 changes that.
+  const Robot robot = robot_of(edited(changed("multiplier=\"-1\"", "multiplier=\"0\""),
+                                      "lower=\"-3\" upper=\"0.8\"", "lower=\"0.5\" upper=\"0.8\""));
+  CHECK(robot.joints[3].ratio == 0);
+  CHECK(robot.joints[3].offset == Approx(0.1));
+  CHECK(robot.joints[1].lower == Approx(-1));
+  CHECK(robot.joints[1].upper == Approx(1.5));
+}
+
+TEST_CASE("urdf: an element in a comment does not count, also where it ends the comment") {
+  CHECK(robot_of(changed("<link name=\"turret\"/>", "<!-- <a>--><link name=\"turret\"/>")).joints.size() ==
+        5);
+}
+
 TEST_CASE("urdf: turns of fixed joints are kept as three angles, also at a right angle") {
   for (const Vector3d& angles :
        {Vector3d(0.3, 0.4, 0.5), Vector3d(-2, 1, 3), Vector3d(0.3, std::numbers::pi / 2, 0.5),
@@ -213,8 +228,9 @@ TEST_CASE("urdf: what is wrong is told with its line") {
   refused("lower=\"-6\" upper=\"6\" effort=\"0\" velocity=\"6\"",
           "lower=\"-6\" upper=\"6\" effort=\"0\" velocity=\"0\"", "<joint name=\"j4\"",
           "joints[5].speed_deg_per_s is 0 (must be > 0 deg/s); give the highest speed");
-  refused("<link name=\"turret\"/>", "<xacro:arm name=\"turret\"/>", "<xacro:arm",
-          "is xacro, from which a URDF is made (<xacro:arm>); run xacro first: xacro palletizer.urdf > robot.urdf");
+  refused(
+      "<link name=\"turret\"/>", "<xacro:arm name=\"turret\"/>", "<xacro:arm",
+      "is xacro, from which a URDF is made (<xacro:arm>); run xacro first: xacro palletizer.urdf > robot.urdf");
   UrdfRequest slow = request();
   slow.accelerations.pop_back();
   told(palletizer, "<joint name=\"j4\"", "joints[5].acceleration_deg_per_s2 is missing", slow);

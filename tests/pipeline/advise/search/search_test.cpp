@@ -34,7 +34,10 @@ VectorXd vector_of(std::initializer_list<double> values) {
 
 /// The example of NLopt's tutorial: its COBYLA takes 31 evaluations to 0.5443.
 Problem tutorial() {
-  return {"NLopt's tutorial", vector_of({-2, 0}), vector_of({2, 3}), std::sqrt(8.0 / 27),
+  return {"NLopt's tutorial",
+          vector_of({-2, 0}),
+          vector_of({2, 3}),
+          std::sqrt(8.0 / 27),
           [](const VectorXd& x) { return std::sqrt(x[1]); },
           [](const VectorXd& x) {
             return std::vector<double>{std::pow(2 * x[0], 3) - x[1], std::pow(1 - x[0], 3) - x[1]};
@@ -44,7 +47,10 @@ Problem tutorial() {
 /// g24, g08 and g04 of the Congress on Evolutionary Computation 2006 (J. Liang et al., Problem definitions for
 /// constrained real-parameter optimization, 2006), which pagmo holds as its own examples.
 Problem g24() {
-  return {"g24", vector_of({0, 0}), vector_of({3, 4}), -5.50801327159536,
+  return {"g24",
+          vector_of({0, 0}),
+          vector_of({3, 4}),
+          -5.50801327159536,
           [](const VectorXd& x) { return -x[0] - x[1]; },
           [](const VectorXd& x) {
             const double a = x[0], a2 = a * a, a3 = a2 * a, a4 = a3 * a;
@@ -54,7 +60,10 @@ Problem g24() {
 }
 Problem g08() {
   constexpr double pi = 3.14159265358979323846;
-  return {"g08", vector_of({0.1, 0.1}), vector_of({10, 10}), -0.0958250414180359,
+  return {"g08",
+          vector_of({0.1, 0.1}),
+          vector_of({10, 10}),
+          -0.0958250414180359,
           [](const VectorXd& x) {
             return -std::pow(std::sin(2 * pi * x[0]), 3) * std::sin(2 * pi * x[1]) /
                    (std::pow(x[0], 3) * (x[0] + x[1]));
@@ -64,7 +73,10 @@ Problem g08() {
           }};
 }
 Problem g04() {
-  return {"g04", vector_of({78, 33, 27, 27, 27}), vector_of({102, 45, 45, 45, 45}), -30665.538671783317,
+  return {"g04",
+          vector_of({78, 33, 27, 27, 27}),
+          vector_of({102, 45, 45, 45, 45}),
+          -30665.538671783317,
           [](const VectorXd& x) {
             return 5.3578547 * x[2] * x[2] + 0.8356891 * x[0] * x[4] + 37.293239 * x[0] - 40792.141;
           },
@@ -82,8 +94,13 @@ Problem g04() {
 /// Two springs of six variables: each must be neither slack nor overstretched, together they must fit, and the more
 /// they bend the sooner they break. A thousandth of the box keeps all limits.
 Problem springs() {
-  const auto bow = [](const VectorXd& x, Eigen::Index k) { return x[k] + x[k + 1] * x[k + 1] - 1.2 * std::sin(2 * x[k + 2]); };
-  return {"springs", VectorXd::Zero(6), VectorXd::Ones(6), 0,
+  const auto bow = [](const VectorXd& x, Eigen::Index k) {
+    return x[k] + x[k + 1] * x[k + 1] - 1.2 * std::sin(2 * x[k + 2]);
+  };
+  return {"springs",
+          VectorXd::Zero(6),
+          VectorXd::Ones(6),
+          0,
           [=](const VectorXd& x) { return x.squaredNorm() + bow(x, 0); },
           [=](const VectorXd& x) {
             return std::vector<double>{std::abs(bow(x, 0) + 0.55) - 0.1, std::log((bow(x, 3) + 2) / 1.25),
@@ -94,7 +111,8 @@ Problem springs() {
 /// Its low-fidelity evaluation: the first three limits, with a small error.
 Candidate rehearsal_of(const Problem& problem, const VectorXd& place) {
   std::vector<double> beyond = problem.beyond(problem.at(place));
-  for (std::size_t k = 0; k < 3; ++k) beyond[k] += 0.03 * std::cos(5 * place[static_cast<Eigen::Index>(k)]) - 0.05;
+  for (std::size_t k = 0; k < 3; ++k)
+    beyond[k] += 0.03 * std::cos(5 * place[static_cast<Eigen::Index>(k)]) - 0.05;
   beyond[3] = std::nan("");
   return {place, true, {}, beyond};
 }
@@ -279,9 +297,11 @@ TEST_CASE("where a limit is the largest of many, its pieces lead to where it is 
     return first == 0 ? 1000 : first;
   };
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const int whole = rehearsals_until_one_is_within(false, seed), pieces = rehearsals_until_one_is_within(true, seed);
+    const int whole = rehearsals_until_one_is_within(false, seed),
+              pieces = rehearsals_until_one_is_within(true, seed);
     INFO("seed " << seed << ": after " << pieces << " in pieces, " << whole << " as a whole");
-    CHECK(pieces < 60);  // a plane over eight variables needs nine, and errs between for some batches of eight
+    CHECK(pieces <
+          60);  // a plane over eight variables needs nine, and errs between for some batches of eight
     CHECK(2 * pieces < whole);
   }
 }
@@ -295,7 +315,8 @@ TEST_CASE("a search is a function of its seed and of what it is told") {
   for (std::size_t k = 0; k < looks.size(); k += 4) {
     const std::vector<VectorXd> places = again.ask(4);
     for (std::size_t j = 0; j < 4; ++j) CHECK(places[j] == looks[k + j].place);
-    again.tell({looks.begin() + static_cast<std::ptrdiff_t>(k), looks.begin() + static_cast<std::ptrdiff_t>(k + 4)});
+    again.tell(
+        {looks.begin() + static_cast<std::ptrdiff_t>(k), looks.begin() + static_cast<std::ptrdiff_t>(k + 4)});
   }
   SurrogateSearch other = surrogate(problem, 8);
   CHECK_FALSE(other.ask(1).front() == first.ask(1).front());
@@ -303,17 +324,20 @@ TEST_CASE("a search is a function of its seed and of what it is told") {
 
 TEST_CASE("a search that rehearses goes on where it was killed, too") {
   SurrogateSettings settings;
-  SurrogateSearch whole(6, settings, nothing_rejected, rehearse_springs), again(6, settings, nothing_rejected, rehearse_springs);
+  SurrogateSearch whole(6, settings, nothing_rejected, rehearse_springs),
+      again(6, settings, nothing_rejected, rehearse_springs);
   const std::vector<Candidate> looks = searched(whole, springs(), 12, 4);
   for (std::size_t k = 0; k < looks.size(); k += 4) {
     const std::vector<VectorXd> places = again.ask(4);
     for (std::size_t j = 0; j < 4; ++j) CHECK(places[j] == looks[k + j].place);
-    again.tell({looks.begin() + static_cast<std::ptrdiff_t>(k), looks.begin() + static_cast<std::ptrdiff_t>(k + 4)});
+    again.tell(
+        {looks.begin() + static_cast<std::ptrdiff_t>(k), looks.begin() + static_cast<std::ptrdiff_t>(k + 4)});
   }
 }
 
-TEST_CASE("of many rehearsals of which none keeps its limits the nearest are looked at, and none that the "
-          "models forgot") {
+TEST_CASE(
+    "of many rehearsals of which none keeps its limits the nearest are looked at, and none that the "
+    "models forgot") {
   // A narrow valley about one corner of a box of six variables, not deep enough; rehearsals are right.
   const auto beyond = [](const VectorXd& place) {
     return 0.1 + std::abs(std::log(((place.array() - 0.2).abs().maxCoeff() + 0.05) / 0.3));
@@ -338,7 +362,11 @@ TEST_CASE("rehearsals that do not run, or tell nothing, do not lead astray") {
   const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
     std::vector<Candidate> told;
     for (const VectorXd& place : places)
-      told.push_back({place, runs(place), {}, runs(place) ? std::vector<double>(2, std::nan("")) : std::vector<double>{0.5 - place[0]}});
+      told.push_back(
+          {place,
+           runs(place),
+           {},
+           runs(place) ? std::vector<double>(2, std::nan("")) : std::vector<double>{0.5 - place[0]}});
     return told;
   };
   SurrogateSearch search(2, {}, nothing_rejected, rehearse);
@@ -456,6 +484,15 @@ TEST_CASE("functions of the same places are modelled as each by itself, with one
   CHECK((GaussianProcess::likeliest_shape(points, again, usual, 60) -
          GaussianProcess::likeliest_shape(points, once, usual, 60))
             .norm() < 1e-6);
+}
+
+TEST_CASE("the usual length of a Gaussian process is half the diagonal of the unit box") {
+  for (const Eigen::Index variables : {1, 4, 9}) {
+    const auto shape = GaussianProcess::usual_shape(variables);
+    REQUIRE(shape.size() == variables + 1);
+    const double diagonal = VectorXd::Ones(variables).norm();
+    for (Eigen::Index k = 0; k < variables; ++k) CHECK(std::exp(shape[k]) == Approx(diagonal / 2));
+  }
 }
 
 TEST_CASE("a Gaussian process passes through what was seen and is sure there alone") {

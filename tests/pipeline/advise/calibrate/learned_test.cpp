@@ -1,0 +1,128 @@
+// From rows of a ranking to the numbers of a calibration, against closed forms.
+#include "pipeline/advise/calibrate/learned.h"
+
+#include <array>
+#include <cmath>
+
+#include "pipeline/advise/calibrate/emulation.h"
+#include "pipeline/study/ranking.h"
+#include "tests/catch.h"
+#include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/scratch.h"
+
+using namespace dresslife::pipeline;
+
+namespace {
+
+constexpr double decile = 1.2815515655446004;  // of a normal distribution, in its deviations
+
+/// The job of a row.
+std::string indented_job() {
+  std::string text, line;
+  for (std::istringstream lines(sample_job); std::getline(lines, line);)
+    text += line.empty() ? "" : "      " + line + "\n";
+  return text;
+}
+
+struct Made {
+  explicit Made(const std::string& observed) {
+    tests = read_observed_tests(
+        scratch.write("o.yaml", "observations:\n  - name: bench\n    what: bent\n    source: a book\n" +
+                                    observed + "    job:\n" + indented_job()));
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(uncertain_count);
+    round.emplace(tests, std::vector<std::string>{}, "round", none,
+                  Eigen::VectorXd::Constant(uncertain_count, 0.5));
+  }
+  /// A row of the only job: half have failed after `median` hours, and the deviation of ln life is `spread`.
+  RankingRow row(double median, double spread) const {
+    RankingRow made;
+    made.job = round->study().jobs.at(0).name;
+    made.repeat_seconds = 36;
+    made.conductor_hours = {median * std::exp(-decile * spread), median, median * std::exp(decile * spread)};
+    return made;
+  }
+  Scratch scratch;
+  std::vector<ObservedTest> tests;
+  std::optional<RoundOfJobs> round;
+};
+
+}  // namespace
+
+TEST_CASE("learned: a life without a response is that of its row, with the spread of its deciles") {
+  const Made hours("    hours: 300\n");
+  const StudyPlaces places{hours.scratch.folder(), {}};
+  for (const double spread : {0.2, 0.9}) {
+    const auto made = emulate(hours.tests, *hours.round, {hours.row(500, spread)}, places);
+    REQUIRE(made.size() == 1);
+    REQUIRE(made[0].life);
+    CHECK(made[0].life->log_life == Approx(std::log(300)));
+    REQUIRE(made[0].life->variants.size() == 1);
+    const LifeAt life = made[0].life->variants[0](Eigen::VectorXd::Constant(uncertain_count, 0.7));
+    CHECK(life.log_median == Approx(std::log(500)));
+    CHECK(life.spread == Approx(spread));
+  }
+  // 36 s per repeat, two cycles each: 200 cycles per hour.
+  const Made cycles("    cycles: 300\n    cycles_per_repeat: 2\n");
+  const auto made = emulate(cycles.tests, *cycles.round, {cycles.row(500, 0.4)}, places);
+  CHECK(made[0].life->variants[0](Eigen::VectorXd::Zero(uncertain_count)).log_median ==
+        Approx(std::log(500 * 200)));
+}
+
+TEST_CASE("learned: each parameter that a test depends on has its own quantiles and its own width") {
+  const Made hours("    hours: 300\n");
+  const Axes axes(*hours.round);
+  REQUIRE(axes.size() >= 2);
+  Posterior posterior;
+  posterior.covariance = Eigen::MatrixXd::Constant(axes.size(), axes.size(), 0.01);
+  posterior.median.resize(axes.size());
+  for (Eigen::Index i = 0; i < axes.size(); ++i) {
+    posterior.covariance(i, i) = std::pow(0.1 * double(i + 1), 2);
+    posterior.median[i] = 0.05 * double(i + 1);
+  }
+  posterior.low = posterior.median.array() - 0.3;
+  posterior.high = posterior.median.array() + 0.4;
+  const std::vector<LearnedAxis> learned = learned_axes(posterior, axes);
+  REQUIRE(learned.size() == uncertain_count);
+  std::size_t found = 0;
+  for (std::size_t p = 0; p < uncertain_count; ++p) {
+    const UncertainParameter& parameter = uncertain_parameters()[p];
+    CHECK(learned[p].before[0] == Approx(parameter.value(-decile)));
+    CHECK(learned[p].before[1] == Approx(parameter.value(0)));
+    CHECK(learned[p].before[2] == Approx(parameter.value(decile)));
+    if (!learned[p].learned) {
+      CHECK(learned[p].after == learned[p].before);
+      CHECK(learned[p].narrowed == 1);
+      continue;
+    }
+    const double place = double(++found);
+    CHECK(learned[p].narrowed == Approx(0.1 * place));
+    CHECK(learned[p].after[0] == Approx(parameter.value(0.05 * place - 0.3)));
+    CHECK(learned[p].after[1] == Approx(parameter.value(0.05 * place)));
+    CHECK(learned[p].after[2] == Approx(parameter.value(0.05 * place + 0.4)));
+  }
+  CHECK(found == static_cast<std::size_t>(axes.size()));
+}
+
+TEST_CASE(
+    "learned: a surprise is counted in deviations of its own side, and only where the outcome bounds that side") {
+  LearnedTest test;
+  test.before = {100, 200, 800};  // ln 2 and ln 4 to the deciles
+  const auto surprise_of = [&](double hours, ObservedEnd end) {
+    test.observation.hours = hours;
+    test.observation.outcome = end;
+    return surprise(test);
+  };
+  CHECK(surprise_of(200, ObservedEnd::broken) == 0);
+  CHECK(surprise_of(50, ObservedEnd::broken) == Approx(2 * decile));
+  CHECK(surprise_of(3200, ObservedEnd::broken) == Approx(2 * decile));
+  CHECK(surprise_of(50, ObservedEnd::run_out) == 0);  // it may live as long as predicted
+  CHECK(surprise_of(3200, ObservedEnd::run_out) == Approx(2 * decile));
+  CHECK(surprise_of(50, ObservedEnd::broken_by) == Approx(2 * decile));
+  CHECK(surprise_of(3200, ObservedEnd::broken_by) == 0);  // it may have broken long before
+  test.before[2] = std::numeric_limits<double>::infinity();
+  CHECK(surprise_of(50, ObservedEnd::broken) == 0);
+  test.before[2] = 800;
+  test.observation = {};
+  test.observation.stiffness = 1;
+  CHECK(surprise(test) == 0);  // of a measured 0 there is no logarithm
+}
