@@ -1,11 +1,8 @@
 // Whether visual checks find abrasion before the surface is worn through.
 //
-// A dresspack that fails at the age T is visibly worn from the age v T on. Checks come every tau hours of motion, the first at
-// any phase, and each finds visible wear with the probability p, independently of the others. In W = (1 - v) T there are
-// n = floor(W / tau) checks, and one more with the probability W / tau - n:
-//     found before = 1 - (1 - p)^n [1 - p (W / tau - n)]                                                    (F32)
-// v follows from the depth d h at which wear is visible. The worn area grows evenly, so v = A(d h, b) / A(h, b) with (F28),
-// (F29) at the arc b that is worn through first.
+// A dresspack that fails at the age T is visibly worn from the age v T on. Checks find it by (F32), pipeline/life/visual_checks.h,
+// with W = (1 - v) T. v follows from the depth d h at which wear is visible. The worn area grows evenly, so v = A(d h, b) / A(h, b)
+// with (F28), (F29) at the arc b that is worn through first.
 //
 // Not contained: damage that every check misses at the same place, wear that is seen and left.
 #pragma once
@@ -14,11 +11,9 @@
 
 #include "pipeline/job/fatigue.h"
 #include "pipeline/job/inspection.h"
+#include "pipeline/life/visual_checks.h"
 
 namespace dresslife::fatigue {
-
-/// (F32). visible: W, interval: tau [h], > 0; found: p.
-double found_before(double visible, double interval, double found);
 
 /// Of one mode, until the end of the robot's life.
 struct Inspected {
@@ -27,7 +22,7 @@ struct Inspected {
   double unseen_share = 0;  ///< of all samples: they fail, and no check has found it
 };
 /// lives: (sample) log10 repeats; repeat: duration of one [s]; visible_from: v. Precondition: the interval is not 0.
-Inspected inspected(const std::vector<double>& lives, double repeat, double visible_from, const pipeline::Inspection& inspection,
-                    const pipeline::Fatigue& fatigue);
+Inspected inspected(const std::vector<double>& lives, double repeat, double visible_from,
+                    const pipeline::Inspection& inspection, const pipeline::Fatigue& fatigue);
 
 }  // namespace dresslife::fatigue

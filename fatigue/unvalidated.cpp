@@ -199,9 +199,8 @@ double visible_from(const WornMaterial& material, const Abrasion& worn, const pi
   return layer.area(inspection.visible_depth_percent / 100 * layer.thickness, worn.arc) / layer.area(layer.thickness, worn.arc);
 }
 
-void put_inspection(UnvalidatedMode& mode, double visible_from, const std::vector<double>& own, double repeat,
-                    const pipeline::Job& job) {
-  const Inspected result = inspected(own, repeat, visible_from, job.inspection, job.fatigue);
+void put_inspection(UnvalidatedMode& mode, const std::vector<double>& own, double repeat, const pipeline::Job& job) {
+  const Inspected result = inspected(own, repeat, mode.visible_from, job.inspection, job.fatigue);
   mode.found_share = result.found_share, mode.unseen_share = result.unseen_share;
   constexpr double said = 0.01, least = 0.1;  // rarer failures need no plan; a share in percent below which digits say nothing
   if (result.failed_share < said) return;
@@ -242,7 +241,8 @@ std::vector<UnvalidatedMode> abrasion_modes(const FileReader& strain, const pipe
       put_place(mode, strain, d, worn.position);
       program.put_sample(mode, program.sample_at(worn.time));
     }
-    if (job.inspection.interval_weeks > 0) put_inspection(mode, visible_from(*material, worn, job.inspection), own, program.repeat(), job);
+    mode.visible_from = visible_from(*material, worn, job.inspection);
+    if (job.inspection.interval_weeks > 0) put_inspection(mode, own, program.repeat(), job);
     set_lives(mode, std::move(own), lives, program.repeat());
   }
   return modes;

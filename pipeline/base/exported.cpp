@@ -71,8 +71,14 @@ std::string number_remedy(const std::string& text) {
     return fmt::format("write {} or {}", whole, decimal);
   }
   std::string plain;
-  for (const char letter : text)
+  // Of "1.200,50" and "1,200.50" the last mark is the decimal one.
+  const std::size_t last = text.find_last_of(".,");
+  const bool has_both = text.find('.') != text.npos && text.find(',') != text.npos;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char letter = has_both && k == last ? '.' : text[k];
+    if (has_both && k != last && (letter == '.' || letter == ',')) continue;
     if (std::isdigit(static_cast<unsigned char>(letter)) || letter == '.' || letter == '-') plain += letter;
+  }
   return !plain.empty() && plain != text && number_in(plain)
              ? fmt::format("write {}, without unit, blank or comma", plain)
              : "write a number with a decimal point";

@@ -30,21 +30,32 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   const std::filesystem::path named = file.study, beside = folder_of(file.where) / named;
   const bool is_path = named.extension() == ".yaml" && named.is_relative();
   const std::filesystem::path beside_file = beside.string() + ".yaml";
-  if (!is_path && beside_file != std::filesystem::path(file.where.file) && kind_of(beside_file) == FileKind::file)
+  if (!is_path && beside_file != std::filesystem::path(file.where.file) &&
+      kind_of(beside_file) == FileKind::file)
     throw InputError(
         file.where,
-        fmt::format("study '{}' is a name of the catalogue, and {}.yaml is a file beside this one", file.study, file.study),
+        fmt::format("study '{}' is a name of the catalogue, and {}.yaml is a file beside this one",
+                    file.study, file.study),
         fmt::format("write study: {}.yaml for the file, or studies/{}", file.study, file.study));
   const std::filesystem::path study = named_study((is_path ? beside : named).string());
   const StudyRequest request{study, options.sets, options.out, program_folder()};
-  StudyState standing = expanded(request);
-  check_programs(file, standing.study);
+  const std::filesystem::path folder = request.out / study_name(study);
+  const bool begun = kind_of(folder) == FileKind::folder;
+  StudyState standing;
+  if (!begun) standing = expanded(request);  // a study that cannot be expanded leaves no folder
+  if (!begun) check_programs(file, standing.study);
+  const FolderLock lock(folder);
+  claim_folder(folder, study);
+  if (begun) standing = standing_of(request);
+  if (standing.remembered && standing.all_done())
+    read_jobs(standing);
+  else if (standing.remembered)
+    standing = expanded(request);
+  if (begun) check_programs(file, standing.study);
   for (const Warning& warning : mounting_warnings(file, standing.study)) tell(shown(warning.line() + "\n"));
-  const FolderLock lock(standing.places.folder);
-  claim_folder(standing.places.folder, study);
-  look_again(standing);
+  if (!begun) look_again(standing);
   make_rest(request, standing, options);
-  std::vector<RankingRow> rows = ranking_of(standing.study, standing.places, standing.states);
+  std::vector<RankingRow> rows = results_of(standing.study, standing.places, standing.states);
   add_rounds(file, options, standing.study, standing.places, rows);
   return {std::move(standing.study), std::move(standing.places), std::move(rows)};
 }

@@ -4,6 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -11,6 +14,7 @@
 #include "pipeline/advise/plan/duty_words.h"
 #include "pipeline/advise/plan/evaluated_duties.h"
 #include "pipeline/advise/plan/plan_words.h"
+#include "pipeline/advise/plan/value_of_checks.h"
 #include "pipeline/base/exported.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
@@ -46,23 +50,54 @@ std::vector<Warning> doubts_of(std::optional<double> risk_percent) {
       WarningKind::motion, "--risk",
       fmt::format("the risk is {:g} % (limit {:g} .. {:g})", *risk_percent, least, most),
       *risk_percent < least ? "a share instead of per cent" : "a dresspack is hardly ever replaced",
-      *risk_percent > 0 && *risk_percent < least ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
-                                                 : "--risk 10")};
+      *risk_percent > 0 && *risk_percent < least
+          ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
+          : "--risk 10")};
 }
+
+constexpr std::size_t most_named = 3;  // duties or programs of a plant, which may have hundreds
 
 /// Duties whose programs have warnings that spoil a plan.
 std::vector<std::string> doubts(const std::vector<DutyResult>& duties) {
   std::vector<std::string> lines;
-  for (const DutyResult& duty : duties)
-    if (!duty.doubtful.empty())
-      lines.push_back(fmt::format("Do not plan with duty '{}': {} (see the warnings).\n", duty.name, fmt::join(duty.doubtful, ", ")));
+  std::size_t more = 0;
+  for (const DutyResult& duty : duties) {
+    if (duty.doubtful.empty()) continue;
+    if (lines.size() == most_named) {
+      ++more;
+      continue;
+    }
+    std::vector<std::string> programs = duty.doubtful;
+    programs.resize(std::min(programs.size(), most_named));
+    if (duty.doubtful.size() > most_named)
+      programs.push_back(fmt::format("and {} more", duty.doubtful.size() - most_named));
+    lines.push_back(fmt::format("Do not plan with duty '{}': {} (see the warnings).\n", duty.name,
+                                fmt::join(programs, ", ")));
+  }
+  if (more > 0)
+    lines.push_back(fmt::format("Do not plan with {} more duties that have such programs.\n", more));
   return lines;
 }
 
+/// Of the duties with the earliest modes that no test validates.
 std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
+  std::vector<std::pair<double, const DutyResult*>> order;
+  for (const DutyResult& duty : duties) {
+    double first = std::numeric_limits<double>::infinity();
+    for (const DutyMode& mode : duty.others) first = std::min(first, mode.hours);
+    if (!caution_words(duty).empty()) order.emplace_back(first, &duty);
+  }
+  const std::size_t named = std::min(order.size(), most_named);
+  if (order.size() > most_named)
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> texts;
-  for (const DutyResult& duty : duties)
-    if (const std::string words = caution_words(duty); !words.empty()) texts.push_back(duty.name + ":\n" + words);
+  for (std::size_t k = 0; k < named; ++k)
+    texts.push_back(order[k].second->name + ":\n" + caution_words(*order[k].second));
+  if (order.size() > named)
+    texts.push_back(fmt::format(
+        "{} more duties have such modes later, or other parts without a life; dresslife duty lists them.\n",
+        order.size() - named));
   return texts;
 }
 
@@ -71,6 +106,19 @@ bool knows_survivors(const Study& study) {
   return std::any_of(study.jobs.begin(), study.jobs.end(), [](const StudyJob& one) {
     return one.job && one.job->calibration && counts_survivors(*one.job->calibration);
   });
+}
+
+/// Of the dresspack that abrasion ends first under each duty.
+std::map<std::string, AbrasionLife> abrasion_lives(const std::vector<DutyResult>& duties) {
+  std::map<std::string, AbrasionLife> lives;
+  for (const DutyResult& duty : duties)
+    for (const DutyMode& mode : duty.others) {
+      if (mode.mode != UnvalidatedMode::abrasion || std::isnan(mode.visible_from)) continue;
+      const auto [found, is_new] = lives.try_emplace(duty.name);
+      if (is_new || mode.median < found->second.median)
+        found->second = {mode.hours, mode.median, mode.visible_from, duty.inspection};
+    }
+  return lives;
 }
 
 /// The texts one after the other, and an empty line where there are some.
@@ -90,7 +138,9 @@ int plan(const Options& options) {
     note_input(options.what_if);
     changed = read_fleet(options.what_if, day);
     if (changed->has_costs != fleet.has_costs)
-      throw InputError({options.what_if, 1, 1}, fmt::format("has {}costs, but {} has {}", fleet.has_costs ? "no " : "", options.fleet, fleet.has_costs ? "some" : "none"),
+      throw InputError({options.what_if, 1, 1},
+                       fmt::format("has {}costs, but {} has {}", fleet.has_costs ? "no " : "", options.fleet,
+                                   fleet.has_costs ? "some" : "none"),
                        "give both tables the columns planned_cost and unplanned_cost, or none");
     for (const Installed& row : changed->rows) needed.insert(duty_named(file, row.duty, row.where).name);
   }
@@ -102,20 +152,24 @@ int plan(const Options& options) {
   std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed);
   for (const auto& [name, table] : tables)
     if (const double half = table.median(); half < table.hours_per_week)
-      throw InputError({options.study}, fmt::format("half of the dresspacks under duty '{}' fail within {}", name, hours_text(half)),
-                       "no plan helps; see dresslife improve");
+      throw InputError(
+          {options.study},
+          fmt::format("half of the dresspacks under duty '{}' fail within {}", name, hours_text(half)),
+          "no plan helps; see dresslife improve");
   const std::vector<DutyResult> duties = outlines(file, made.study, made.rows, needed);
-  const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent, knows_survivors(made.study)};
+  const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent,
+                      knows_survivors(made.study)};
   if (effective_worlds(fleet, tables, day, rule) < enough_worlds) {  // many survivors leave few worlds
     constexpr std::size_t times = 8;                                 // some seconds for 500 dresspacks
     tables = life_tables(file, made.study, made.rows, needed, times * usual_worlds);
   }
   const Plan found = plan_of(fleet, tables, windows, day, rule);
   if (found.effective_worlds < fewest_worlds)
-    throw InputError({options.fleet},
-                     fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",
-                                 found.effective_worlds, tables.begin()->second.worlds),
-                     "learn from them first: dresslife calibrate");
+    throw InputError(
+        {options.fleet},
+        fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",
+                    found.effective_worlds, tables.begin()->second.worlds),
+        "learn from them first: dresslife calibrate");
   std::optional<Plan> other;
   std::string what_if;
   if (changed) {
@@ -125,34 +179,50 @@ int plan(const Options& options) {
     other = plan_of(*changed, tables, windows, day, same);
     what_if = "\n" + what_if_words(fleet, found, *changed, *other);
   }
-  const std::string stem = "plan_" + fs::path(options.fleet).stem().string(), csv = plan_csv(fleet, found);
-  const fs::path table = made.places.folder / (stem + ".csv"), calendar = made.places.folder / (stem + ".ics");
-  const fs::path weeks = made.places.folder / (stem + "_weeks.csv"), page = made.places.folder / (stem + ".html");
+  std::optional<std::vector<CheckValue>> checks;
+  std::string tests;
+  if (rule.by_cost) {
+    tests = test_words(values_of_tests(fleet, tables, found), found);
+    if (const std::map<std::string, AbrasionLife> lives = abrasion_lives(duties); !lives.empty()) {
+      checks = values_of_checks(fleet, tables, lives, found);
+      tests += check_words(checks, lives.begin()->second.inspection, fleet, found);
+    }
+  }
+  const std::string stem = "plan_" + fs::path(options.fleet).stem().string(),
+                    csv = plan_csv(fleet, found, checks);
+  const fs::path table = made.places.folder / (stem + ".csv"),
+                 calendar = made.places.folder / (stem + ".ics");
+  const fs::path weeks = made.places.folder / (stem + "_weeks.csv"),
+                 page = made.places.folder / (stem + ".html");
   write_text_if_changed(table, csv);
   write_text_if_changed(weeks, plan_weeks_csv(fleet, found));
-  const std::string tests = rule.by_cost ? test_words(values_of_tests(fleet, tables, found), found) : "";
-  std::vector<std::string> notes = doubts(duties);
-  for (const std::string& caution : cautions(duties)) notes.push_back(caution);
-  if (!tests.empty()) notes.push_back(tests);
-  if (const std::string kept = kept_words(fleet, found); !kept.empty()) notes.push_back(kept);
-  write_text_if_changed(page, with_mark(plan_page(fs::path(options.fleet).stem().string(), fleet, found, notes, table.filename().string()),
+  const PlanNotes notes{doubts(duties), tests, cautions(duties)};
+  write_text_if_changed(page, with_mark(plan_page(fs::path(options.fleet).stem().string(), fleet, found,
+                                                  notes, table.filename().string()),
                                         Mark::page));
   if (other) {
-    const fs::path beside = made.places.folder / (stem + "_what_if.csv"), its_page = made.places.folder / (stem + "_what_if.html");
+    const fs::path beside = made.places.folder / (stem + "_what_if.csv"),
+                   its_page = made.places.folder / (stem + "_what_if.html");
     write_text_if_changed(beside, plan_csv(*changed, *other));
-    write_text_if_changed(its_page, with_mark(plan_page(fs::path(options.what_if).stem().string(), *changed, *other, notes, beside.filename().string()),
-                                              Mark::page));
+    write_text_if_changed(
+        its_page, with_mark(plan_page(fs::path(options.what_if).stem().string(), *changed, *other,
+                                      {notes.doubts, "", notes.paragraphs}, beside.filename().string()),
+                            Mark::page));
     what_if += fmt::format("Table: {}\nPage: {}\n", beside.string(), its_page.string());
   }
   write_text_if_changed(calendar, plan_calendar(fleet, found));
   const auto json = [&] {
     const std::string now = json_of_csv(csv).text;
-    return other ? fmt::format("{{\"plan\":{},\"what_if\":{}}}\n", now, json_of_csv(plan_csv(*changed, *other)).text) : now + "\n";
+    return other ? fmt::format("{{\"plan\":{},\"what_if\":{}}}\n", now,
+                               json_of_csv(plan_csv(*changed, *other)).text)
+                 : now + "\n";
   };
   print(options.json ? json()
-                     : shown(fmt::format("{}{}{}\n{}Table: {}\nWeeks: {}\nCalendar: {}\nPage: {}\n", block(doubts(duties)),
-                                         plan_words(fleet, found), tests, block(cautions(duties)), table.string(), weeks.string(),
-                                         calendar.string(), page.string()) + what_if));
+                     : shown(fmt::format("{}{}{}\n{}Table: {}\nWeeks: {}\nCalendar: {}\nPage: {}\n",
+                                         block(doubts(duties)), plan_words(fleet, found), tests,
+                                         block(cautions(duties)), table.string(), weeks.string(),
+                                         calendar.string(), page.string()) +
+                             what_if));
   tell(warning_lines(rows_of(file, made.rows)));
   return 0;
 }
@@ -161,21 +231,33 @@ int plan(const Options& options) {
 
 Command plan_command() {
   const auto options = std::make_shared<Options>();
-  return {"plan",
-          "plan which dresspacks of a plant to replace in which maintenance window, and the spare parts",
-          joined({{{"fleet", "", "FLEET.csv", &options->fleet, {.required = true}},
-                   {"--duties", "DUTIES.yaml", "the duties that the table names", &options->study, {.required = true}},
-                   {"--windows", "DATES", "the maintenance windows: 2027-07-12..2027-08-01,2027-12-20..2028-01-02",
-                    &options->windows, {.required = true}},
-                   {"--risk", "PERCENT",
-                    "replace a dresspack when its probability of failure before the next window is larger; default: 10, or by "
-                    "the costs of the table",
-                    &options->risk_percent, {.range = {{0, 100}}}},
-                   {"--what-if", "OTHER.csv", "a changed table of the same plant: its plan beside that of the first", &options->what_if},
-                   {"--today", "DATE", "the first day of the plan; default: the computer's date", &options->today},
-                   json_option(options->json)},
-                  run_options(*options), study_options(*options)}),
-          [options] { return plan(*options); }};
+  return {
+      "plan", "plan which dresspacks of a plant to replace in which maintenance window, and the spare parts",
+      joined(
+          {{{"fleet", "", "FLEET.csv", &options->fleet, {.required = true}},
+            {"--duties",
+             "DUTIES.yaml",
+             "the duties that the table names",
+             &options->study,
+             {.required = true}},
+            {"--windows",
+             "DATES",
+             "the maintenance windows: 2027-07-12..2027-08-01,2027-12-20..2028-01-02",
+             &options->windows,
+             {.required = true}},
+            {"--risk",
+             "PERCENT",
+             "replace a dresspack when its probability of failure before the next window is larger; default: 10, or by "
+             "the costs of the table",
+             &options->risk_percent,
+             {.range = {{0, 100}}}},
+            {"--what-if", "OTHER.csv", "a changed table of the same plant: its plan beside that of the first",
+             &options->what_if},
+            {"--today", "DATE", "the first day of the plan; default: the computer's date", &options->today},
+            json_option(options->json)},
+           run_options(*options),
+           study_options(*options)}),
+      [options] { return plan(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -22,16 +22,6 @@ constexpr std::size_t of_wires = uncertain_count;
 
 // ---- samples ----------------------------------------------------------------------------------------------
 
-/// In the middles of equal shares of the normal distribution, rising.
-const std::vector<double>& normal_strata(std::size_t samples) {
-  thread_local std::vector<double> strata;
-  if (strata.size() != samples) {
-    strata.clear();
-    for (std::size_t s = 0; s < samples; ++s) strata.push_back(normal_quantile((double(s) + 0.5) / double(samples)));
-  }
-  return strata;
-}
-
 /// FNV-1a: fixed for ever.
 std::uint64_t seed_of(const std::string& name) {
   std::uint64_t seed = 0xcbf29ce484222325;
@@ -480,12 +470,24 @@ std::vector<double> shared_samples(const LifeResponse& mode, std::size_t paramet
   return z;
 }
 
-std::vector<double> standard_normals(const std::string& name, std::size_t samples) {
-  std::vector<double> values = normal_strata(samples);
+const std::vector<double>& standard_strata(std::size_t samples) {
+  thread_local std::vector<double> strata;
+  if (strata.size() != samples) {
+    strata.clear();
+    for (std::size_t s = 0; s < samples; ++s) strata.push_back(normal_quantile((double(s) + 0.5) / double(samples)));
+  }
+  return strata;
+}
+
+std::vector<double> in_order_of(const std::string& name, std::vector<double> values) {
   std::uint64_t state = seed_of(name);
-  for (std::size_t k = samples; k > 1; --k, state += mix_step)
+  for (std::size_t k = values.size(); k > 1; --k, state += mix_step)
     std::swap(values[k - 1], values[mixed(state) % k]);
   return values;
+}
+
+std::vector<double> standard_normals(const std::string& name, std::size_t samples) {
+  return in_order_of(name, standard_strata(samples));
 }
 
 FirstFailures summary_of(const FailureModes& modes, const std::string& job, std::size_t count) {

@@ -77,6 +77,10 @@ std::vector<std::vector<double>> mode_lives(const FailureModes& modes, const std
                                             std::size_t samples = life_samples);
 /// (sample) standard normal numbers: every stratum once, in an order that the name decides.
 std::vector<double> standard_normals(const std::string& name, std::size_t samples);
+/// (sample) f of these normal numbers, which is computed once for each stratum. values: f(standard_strata()).
+std::vector<double> in_order_of(const std::string& name, std::vector<double> values);
+/// The normal numbers in the middles of as many equal shares, rising.
+const std::vector<double>& standard_strata(std::size_t samples);
 
 /// (sample) z of a parameter that dresspacks share, in the samples of any job. Precondition: not of SharedBy::installation.
 std::vector<double> shared_samples(const LifeResponse& mode, std::size_t parameter, std::size_t samples);

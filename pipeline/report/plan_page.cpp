@@ -207,12 +207,14 @@ std::string dresspacks_table(const Fleet& fleet, const Plan& plan, const std::st
 
 }  // namespace
 
-std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& plan, const std::vector<std::string>& notes,
-                      const std::string& table) {
+std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& plan, const PlanNotes& notes, const std::string& table) {
   const Calendar calendar(fleet, plan);
   std::string body = shade_rules;
-  for (const std::string& note : notes) body += "<p class=\"soft\">" + escaped(note) + "</p>\n";
+  for (const std::string& doubt : notes.doubts) body += "<p><b>" + escaped(doubt) + "</b></p>\n";
   body += "<p>" + escaped(expected_words(plan)) + "</p>\n" + windows_table(fleet, plan);
+  if (const std::string kept = kept_words(fleet, plan); !kept.empty()) body += "<p class=\"soft\">" + escaped("In no window. " + kept) + "</p>\n";
+  if (!notes.values.empty()) body += "<p style=\"white-space: pre-line\">" + escaped(notes.values) + "</p>\n";
+  for (const std::string& note : notes.paragraphs) body += "<p class=\"soft\">" + escaped(note) + "</p>\n";
   body += fmt::format(
       "<h3>Calendar</h3>\n<p class=\"soft\">Above: expected failures of all dresspacks in a week. Below: {}. Colour: the probability that today's dresspack "
       "fails in a week. {}Rest the pointer on a cell for its number.</p>\n",

@@ -9,8 +9,13 @@
 
 namespace dresslife::pipeline {
 
-/// name: of the fleet. notes: paragraphs on what the plan does not contain. table: the file with all dresspacks.
-std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& plan, const std::vector<std::string>& notes,
-                      const std::string& table);
+/// Beside the plan: why not to plan with duties, what tests and checks are worth (lines), and paragraphs on what it does not contain.
+struct PlanNotes {
+  std::vector<std::string> doubts;
+  std::string values;
+  std::vector<std::string> paragraphs;
+};
+/// name: of the fleet. table: the file with all dresspacks.
+std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& plan, const PlanNotes& notes, const std::string& table);
 
 }  // namespace dresslife::pipeline

@@ -11,10 +11,12 @@
 #include <string_view>
 #include <thread>
 
-#include "pipeline/base/installation.h"
 #include "pipeline/base/digest.h"
+#include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/files/words.h"
+#include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/study/relative_life.h"
 
 namespace dresslife::pipeline {
@@ -151,6 +153,16 @@ void look_again(StudyState& standing) {
   for (std::size_t k = 0; k < standing.states.size(); ++k)
     if (const StudyJob& job = standing.study.jobs[k]; job.failure.empty())
       look_at(standing.states[k], standing.places.job(job.name));
+}
+
+void read_jobs(StudyState& standing) {
+  std::map<std::array<std::string, stage_count>, std::shared_ptr<const Job>> known;
+  for (std::size_t k = 0; k < standing.states.size(); ++k) {
+    StudyJob& job = standing.study.jobs[k];
+    std::shared_ptr<const Job>& same = known[standing.states[k].recipes];
+    if (!same) same = std::make_shared<const Job>(read_job(settings_of(standing.places, job.name)));
+    job.job = same;
+  }
 }
 
 StudyState expanded(const StudyRequest& request) {

@@ -42,6 +42,10 @@ StudyState standing_of(const StudyRequest& request);
 /// Always expanded.
 StudyState expanded(const StudyRequest& request);
 
+/// Gives the jobs of a remembered study their settings, from the job.yaml of each: one for all jobs with the same recipes.
+/// Precondition: jobs with a result each. Errors: InputError.
+void read_jobs(StudyState& standing);
+
 /// Updates the states after another run.
 void look_again(StudyState& standing);
 

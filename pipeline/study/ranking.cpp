@@ -269,6 +269,14 @@ bool better(const RankingRow& one, const RankingRow& other) {
   return one.job < other.job;
 }
 
+std::vector<RankingRow> sorted_rows(const std::vector<JobResult>& results) {
+  std::vector<RankingRow> rows;
+  rows.reserve(results.size());
+  for (const JobResult& result : results) rows.push_back(read_row(result));
+  std::stable_sort(rows.begin(), rows.end(), better);
+  return rows;
+}
+
 /// One column of the terminal's table, as wide as its widest cell.
 struct Column {
   std::string title;
@@ -354,15 +362,19 @@ std::string relative_words(const RelativeLife& relative) {
 }
 
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results) {
-  std::vector<RankingRow> rows;
-  rows.reserve(results.size());
-  for (const JobResult& result : results) rows.push_back(read_row(result));
-  std::stable_sort(rows.begin(), rows.end(), better);
+  std::vector<RankingRow> rows = sorted_rows(results);
   tell_orders(rows);
   return rows;
 }
 
 std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places,
+                                   const std::vector<JobState>& states) {
+  std::vector<RankingRow> rows = results_of(study, places, states);
+  tell_orders(rows);
+  return rows;
+}
+
+std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places,
                                    const std::vector<JobState>& states) {
   std::vector<JobResult> results;
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -376,7 +388,7 @@ std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places
       result.failure = !states[k].failure.empty() ? states[k].failure : states[k].has_last ? "stale" : states[k].words();
     results.push_back(std::move(result));
   }
-  std::vector<RankingRow> rows = read_ranking(results);
+  std::vector<RankingRow> rows = sorted_rows(results);
   std::map<std::string_view, const StudyJob*> jobs;
   for (const StudyJob& job : study.jobs) jobs.emplace(job.name, &job);
   for (RankingRow& row : rows) {

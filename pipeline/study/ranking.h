@@ -137,7 +137,10 @@ constexpr double separated_share = 0.9;
 /// cannot be read gives a failed row with the reason; nothing is thrown.
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results);
 
-/// Of a study: finished jobs, then the last results of stale jobs, then the states of the others.
+/// Of a study: finished jobs, then the last results of stale jobs, then the states of the others. results_of: in the same order up
+/// to jobs beyond the robot's life, without ranks and certainties of the order, which take most of the time of a large study.
+std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places,
+                                   const std::vector<JobState>& states);
 std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places,
                                    const std::vector<JobState>& states);
 

@@ -129,7 +129,7 @@ TEST_CASE("the pages of a plan and of duties can be sorted, printed and read on 
   for (int i = 0; i < 120; ++i)
     fleet.rows.push_back({{}, fmt::format("robot with a long name in hall {}", i), "day", today - std::chrono::days(3 * i), {}, 1, 10});
   const Plan plan = plan_of(fleet, {{"day", table}}, windows_from("2027-02-12..2027-02-21,2027-07-12", today), today, {0.1, true});
-  scratch.write("plan.html", plan_page("line", fleet, plan, {"A note."}, "plan.csv"));
+  scratch.write("plan.html", plan_page("line", fleet, plan, {{"A doubt."}, "Saves:\n  10  a\n", {"A note."}}, "plan.csv"));
   check_page(scratch, "plan.html");
   const std::string sorted = in_browser(scratch, "plan.html", R"(
     const first = () => evaluate(`document.querySelector('#ranking tbody tr').cells[1].textContent.split(' ').pop()`);

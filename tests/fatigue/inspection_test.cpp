@@ -8,6 +8,8 @@
 
 namespace dresslife::fatigue {
 
+using pipeline::found_before;
+
 TEST_CASE("inspection: checks of even intervals that begin at any phase, counted") {
   constexpr int phases = 100000;
   for (const double visible : {0.0, 30.0, 160.0, 400.0, 1000.0})

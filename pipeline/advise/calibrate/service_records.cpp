@@ -62,16 +62,18 @@ bool has_any(const std::string& text, std::initializer_list<std::string_view> wo
 
 enum class End { failed, removed, in_use };
 
-/// absent: not known. "unplanned" holds "planned", so failures come first.
+/// absent: not known. "unplanned" holds "planned", so failures come first. Letters beyond ASCII are left out of the words.
 std::optional<End> end_in(const std::string& text) {
   const std::string letters = letters_of(text);
-  if (has_any(letters, {"notfail", "nofail", "nodefect", "kein"})) return std::nullopt;
+  if (has_any(letters, {"notfail", "nofail", "notdefect", "nodefect", "notbroke", "nobreak", "kein", "nicht", "ohne"})) return std::nullopt;
   if (has_any(letters, {"fail", "broke", "break", "defect", "fault", "unplanned", "unscheduled", "corrective",
-                        "ausfall", "defekt", "bruch", "gebrochen", "strung", "stoerung", "ungeplant"}) &&
-      !has_any(letters, {"prevent", "vorbeug"}))
-    return End::failed;
-  if (has_any(letters, {"prevent", "planned", "scheduled", "maintenance", "inspection", "vorbeug", "geplant",
-                        "wartung", "collision", "crash", "kollision", "conversion", "modification", "umbau",
+                        "ausfall", "defekt", "bruch", "gebrochen", "gerissen", "geplatzt", "strung", "stoerung", "ungeplant",
+                        "unplanm", "auerplanm", "ausserplanm"}) &&
+      !has_any(letters, {"prevent", "prventiv", "praeventiv", "vorbeug"}))
+    // A cable that broke in a crash is no life. The words may also mean a cable that broke first.
+    return has_any(letters, {"collision", "crash", "kollision"}) ? std::nullopt : std::optional(End::failed);
+  if (has_any(letters, {"prevent", "planned", "scheduled", "maintenance", "inspection", "prventiv", "praeventiv", "vorbeug", "geplant",
+                        "planm", "wartung", "collision", "crash", "kollision", "conversion", "modification", "umbau",
                         "dismantled", "verschrott"}))
     return End::removed;
   if (letters.empty() ||

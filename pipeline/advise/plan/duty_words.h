@@ -8,7 +8,8 @@
 
 namespace dresslife::pipeline {
 
-/// Places that programs do not share, and what changes between programs do to each mode; empty: nothing worth a word.
+/// Of several programs: places that they do not share, what changes between them do to each mode, and the measured difference of such
+/// duties to one motion; empty: one program, and nothing worth a word.
 std::string mixture_words(const DutyResult& duty);
 
 /// Of each duty: when to replace, then a line for each program. Ends with a line feed.

@@ -8,11 +8,13 @@
 #include <memory>
 #include <numbers>
 #include <set>
+#include <span>
 #include <unordered_map>
 
 #include "pipeline/advise/plan/rounds.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/threads.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
@@ -37,8 +39,9 @@ class Jobs {
     std::vector<std::string> names;
     for (const StudyJob& job : study_.jobs) names.push_back(job.name);
     const std::string near = nearest_word(program.job, names);
-    throw InputError(program.where, fmt::format("study '{}' has no job '{}'", study_.name, program.job),
-                     near.empty() ? "dresslife status STUDY lists its jobs" : fmt::format("did you mean '{}'?", near));
+    throw InputError(
+        program.where, fmt::format("study '{}' has no job '{}'", study_.name, program.job),
+        near.empty() ? "dresslife status STUDY lists its jobs" : fmt::format("did you mean '{}'?", near));
   }
 
  private:
@@ -65,15 +68,17 @@ void check_same_dresspack(const Duty& duty, const Jobs& jobs) {
   const StudyJob& first = jobs.of(duty.programs.front());
   if (!first.job) return;
   const std::string same = text_beside_motion(*first.job);
+  std::set<const Job*> known{first.job.get()};
   for (const DutyProgram& program : duty.programs) {
     const StudyJob& job = jobs.of(program);
-    if (!job.job || text_beside_motion(*job.job) == same) continue;
+    if (!job.job || !known.insert(job.job.get()).second || text_beside_motion(*job.job) == same) continue;
     const auto expected = beside_motion(*first.job);
     for (const auto& [key, text] : beside_motion(*job.job)) {
       const auto found = expected.find(key);
       if (found == expected.end() || found->second != text)
         throw InputError(program.where,
-                         fmt::format("jobs '{}' and '{}' differ in {}, so their damage does not add up", first.name, job.name, key),
+                         fmt::format("jobs '{}' and '{}' differ in {}, so their damage does not add up",
+                                     first.name, job.name, key),
                          "a duty takes jobs that differ only in motion");
     }
   }
@@ -101,7 +106,8 @@ const DutyProgram* mounted_elsewhere(const Duty& duty, const Jobs& jobs) {
       !first.job->dresspacks.front().routing.mounting_pose.empty())
     return nullptr;
   for (const DutyProgram& program : duty.programs)
-    if (const StudyJob& job = jobs.of(program); job.job && starts_elsewhere(*first.job, *job.job)) return &program;
+    if (const StudyJob& job = jobs.of(program); job.job && starts_elsewhere(*first.job, *job.job))
+      return &program;
   return nullptr;
 }
 
@@ -138,10 +144,14 @@ class Programs {
     const auto row = rows_.find(program.job);
     if (row == rows_.end() || !row->second->done())
       throw InputError(program.where,
-                       fmt::format("job '{}' has no result{}", program.job, row == rows_.end() ? "" : ": " + row->second->failure),
+                       fmt::format("job '{}' has no result{}", program.job,
+                                   row == rows_.end() ? "" : ": " + row->second->failure),
                        "mend the job and run again");
     return *row->second;
   }
+
+  /// null: its study was not expanded.
+  const Job* job(const DutyProgram& program) const { return jobs_.of(program).job.get(); }
 
   std::vector<RankingRow> rows(const Duty& duty) const {
     std::vector<RankingRow> rows;
@@ -150,32 +160,39 @@ class Programs {
   }
 
  private:
-  static void check_layout(const Duty& duty, const EvaluatedProgram& first, const std::string& job, const WireDamage& wires) {
+  static void check_layout(const Duty& duty, const EvaluatedProgram& first, const std::string& job,
+                           const WireDamage& wires) {
     if (wires.layout != first.wires->layout)
-      throw InputError(duty.where, fmt::format("the results of '{}' and '{}' have different wires", first.job, job),
+      throw InputError(duty.where,
+                       fmt::format("the results of '{}' and '{}' have different wires", first.job, job),
                        "make the results again with dresslife run");
   }
 
-  double failed_wires_percent(const DutyProgram& program) const { return jobs_.of(program).job->fatigue.failed_wires_percent; }
+  double failed_wires_percent(const DutyProgram& program) const {
+    return jobs_.of(program).job->fatigue.failed_wires_percent;
+  }
 
   EvaluatedProgram of(const DutyProgram& program) {
     const RankingRow& of = row(program);
     if (of.life_response.empty())
-      throw InputError(program.where, fmt::format("job '{}' has no samples of uncertain parameters", program.job),
+      throw InputError(program.where,
+                       fmt::format("job '{}' has no samples of uncertain parameters", program.job),
                        "set uncertainty.enabled: true in the study");
     // A file that jobs share is one file with several names (shared_stages.h).
     const FileState state = state_of(of.life_file);
     auto& [modes, wires] = lives_[{state.inode, state.changed_ns}];
     if (!modes) {
       modes = std::make_shared<const FailureModes>(modes_from_text(of.life_response));
-      wires = std::make_shared<const WireDamage>(wire_damage(of.life_file, *modes, failed_wires_percent(program)));
+      wires = std::make_shared<const WireDamage>(
+          wire_damage(of.life_file, *modes, failed_wires_percent(program)));
     }
     return {of.job, of.repeat_seconds, modes, wires};
   }
 
   const Jobs jobs_;
   std::unordered_map<std::string_view, const RankingRow*> rows_;
-  std::map<std::pair<std::uint64_t, std::int64_t>, std::pair<std::shared_ptr<const FailureModes>, std::shared_ptr<const WireDamage>>>
+  std::map<std::pair<std::uint64_t, std::int64_t>,
+           std::pair<std::shared_ptr<const FailureModes>, std::shared_ptr<const WireDamage>>>
       lives_;  ///< by inode and time of change
 };
 
@@ -183,16 +200,19 @@ class Programs {
 /// duties with one program.
 class PlantDamage {
  public:
-  static constexpr std::size_t draws = 64;  // dresspacks in each world: a probability of 10 % is known to 3.8 % in one world
+  static constexpr std::size_t draws =
+      64;  // dresspacks in each world: a probability of 10 % is known to 3.8 % in one world
 
-  PlantDamage(const std::vector<std::vector<EvaluatedProgram>>& duties, std::size_t worlds) : worlds_(worlds) {
+  PlantDamage(std::span<const std::vector<EvaluatedProgram>> duties, std::size_t worlds) : worlds_(worlds) {
     for (const std::vector<EvaluatedProgram>& duty : duties)
-      for (const EvaluatedProgram& program : duty) ++damage_[program.modes.get()].duties, ++factors_[program.job].duties;
+      for (const EvaluatedProgram& program : duty)
+        ++damage_[program.modes.get()].duties, ++factors_[program.job].duties;
   }
-  DutyDamage under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates, const std::vector<double>& share,
-                   std::size_t draw) {
+  /// (world) of the mode that fails first.
+  std::vector<double> under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                            const std::vector<double>& share, std::size_t draw) {
     const std::string dresspack = fmt::format("dresspack {}", draw);
-    return damage_under(
+    return first_mode_damage(
         programs, rates, share,
         [&](const EvaluatedProgram& program) -> const RepeatDamage& {
           RepeatDamage& damage = damage_[program.modes.get()].at(draw);
@@ -202,13 +222,15 @@ class PlantDamage {
         [&](const EvaluatedProgram& program, double deviation_percent) -> const std::vector<double>& {
           auto& [deviation, factors] = factors_[program.job].at(draw);
           if (factors.empty() || deviation != deviation_percent)
-            deviation = deviation_percent, factors = repeat_factors(program.job, deviation_percent, dresspack, worlds_);
+            deviation = deviation_percent,
+            factors = repeat_factors(program.job, deviation_percent, dresspack, worlds_);
           return factors;
         });
   }
   /// A duty was evaluated.
   void release(const std::vector<EvaluatedProgram>& duty) {
-    for (const EvaluatedProgram& program : duty) damage_[program.modes.get()].release(), factors_[program.job].release();
+    for (const EvaluatedProgram& program : duty)
+      damage_[program.modes.get()].release(), factors_[program.job].release();
   }
 
  private:
@@ -248,7 +270,8 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
     rates.push_back({rate, program.deviation_percent});
     parts.push_back({program.job, rate, rate * seconds / 3600});
     time += parts.back().share_of_time;
-    words += fmt::format("{}{} x {:.1f} s of '{}'", words.empty() ? "" : ", ", readable(rate), seconds, program.job);
+    words += fmt::format("{}{} x {:.1f} s of '{}'", words.empty() ? "" : ", ", readable(rate), seconds,
+                         program.job);
   }
   if (!duty.order.empty()) {
     double moves = programs.row(program_of_round(duty)).repeat_seconds;  // between the programs of a round
@@ -262,7 +285,8 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
   constexpr double rounding = 1e-9;
   if (time > 1 + rounding)
     throw InputError(duty.where,
-                     fmt::format("the programs of duty '{}' take {:.1f} minutes of each hour ({})", duty.name, 60 * time, words),
+                     fmt::format("the programs of duty '{}' take {:.1f} minutes of each hour ({})", duty.name,
+                                 60 * time, words),
                      "give fewer repeats, or smaller shares of the time");
   return rates;
 }
@@ -292,7 +316,7 @@ void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result)
 
 std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std::vector<RankingRow>& rows) {
   std::vector<DutyMode> modes;
-  std::vector<double> per_hour;
+  std::vector<std::array<double, 2>> per_hour;  // (mode) early, median
   for (std::size_t k = 0; k < parts.size(); ++k)
     for (const UnvalidatedMode& mode : rows[k].unvalidated) {
       if (!is_credible(mode)) continue;
@@ -301,10 +325,13 @@ std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std:
         return one.mode == mode.mode && one.dresspack == mode.dresspack && one.place == part;
       });
       const auto at = static_cast<std::size_t>(found - modes.begin());
-      if (found == modes.end()) modes.push_back({mode.mode, mode.dresspack, part}), per_hour.push_back(0);
-      per_hour[at] += parts[k].share_of_time / mode.early_hours();
+      if (found == modes.end()) modes.push_back({mode.mode, mode.dresspack, part}), per_hour.emplace_back();
+      per_hour[at][0] += parts[k].share_of_time / mode.early_hours();
+      per_hour[at][1] += parts[k].share_of_time / mode.hours[1];
+      modes[at].visible_from = std::fmax(modes[at].visible_from, mode.visible_from);
     }
-  for (std::size_t m = 0; m < modes.size(); ++m) modes[m].hours = 1 / per_hour[m];
+  for (std::size_t m = 0; m < modes.size(); ++m)
+    modes[m].hours = 1 / per_hour[m][0], modes[m].median = 1 / per_hour[m][1];
   return modes;
 }
 
@@ -326,9 +353,10 @@ std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study)
     if (const DutyProgram* const other = mounted_elsewhere(duty, jobs))
       warnings.push_back(warning_of(
           WarningKind::twist, other->where.text(),
-          fmt::format("the hose is mounted without twist in the first pose of '{}' and again in that of '{}' (they differ by more than {:g} "
-                      "deg, or are not known before the run)",
-                      duty.programs.front().job, other->job, turned),
+          fmt::format(
+              "the hose is mounted without twist in the first pose of '{}' and again in that of '{}' (they differ by more than {:g} "
+              "deg, or are not known before the run)",
+              duty.programs.front().job, other->job, turned),
           "the study has no routing.mounting_pose_deg",
           "routing.mounting_pose_deg: the joint angles in which the clamps were closed, for all programs"));
   return warnings;
@@ -353,6 +381,7 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
   DutyResult result;
   result.name = duty.name;
   result.hours_per_week = duty.hours_per_week;
+  result.has_order = !duty.order.empty();
   rates = rates_of(duty, programs, result.parts);
   result.others = other_modes(result.parts, programs.rows(duty));
   result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
@@ -362,13 +391,14 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
     if (const RankingRow& row = programs.row(program); !is_believable(row))
       result.doubtful.push_back(fmt::format("{} ({})", row.job, warning_kinds(row)));
   result.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
+  if (const Job* const job = programs.job(duty.programs.front())) result.inspection = job->inspection;
   return result;
 }
 
 }  // namespace
 
-std::vector<DutyResult> outlines(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
-                                 const std::set<std::string>& needed) {
+std::vector<DutyResult> outlines(const DutyFile& file, const Study& study,
+                                 const std::vector<RankingRow>& rows, const std::set<std::string>& needed) {
   Programs programs(study, rows);
   std::vector<DutyResult> results;
   std::vector<Rate> rates;
@@ -377,7 +407,8 @@ std::vector<DutyResult> outlines(const DutyFile& file, const Study& study, const
   return results;
 }
 
-std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows) {
+std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study,
+                                  const std::vector<RankingRow>& rows) {
   Programs programs(study, rows);
   // One name for all duties, and that of a job's own summary: a dresspack that changes its duty stays the same one.
   const std::string dresspack;
@@ -391,7 +422,8 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
     const SamePlace places(evaluated, round ? &*round : nullptr);
     const std::vector<double> repeats = repeats_of(result.parts), apart = places.at(repeats);
     const std::vector<double> share = places.at(repeats, repeats_in_rounds(duty, repeats));
-    for (std::size_t m = 0; m < share.size(); ++m) result.changes.push_back(apart[m] > 0 ? share[m] / apart[m] : 1);
+    for (std::size_t m = 0; m < share.size(); ++m)
+      result.changes.push_back(apart[m] > 0 ? share[m] / apart[m] : 1);
     result.damage = damage_under(evaluated, rates, share, dresspack);
     vary_repeats(duty, places, result);
   }
@@ -401,23 +433,28 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
       const auto& named = duty_named(file, past.duty, past.where);
       const DutyResult& before = results[static_cast<std::size_t>(&named - file.duties.data())];
       if (before.modes != results[d].modes)
-        throw InputError(past.where, fmt::format("duties '{}' and '{}' are of different dresspacks", past.duty, file.duties[d].name),
-                         "give a duty with the same dresspack");
+        throw InputError(
+            past.where,
+            fmt::format("duties '{}' and '{}' are of different dresspacks", past.duty, file.duties[d].name),
+            "give a duty with the same dresspack");
       history.push_back({&before.damage, past.hours});
       results[d].past_hours += past.hours;
     }
     if (results[d].past_hours >= results[d].robot_life_hours)
-      throw InputError(file.duties[d].where,
-                       fmt::format("the history of duty '{}' is {} long, the life of the robot {}", file.duties[d].name,
-                                   hours_text(results[d].past_hours), hours_text(results[d].robot_life_hours)),
-                       "give hours of operation, or a larger fatigue.robot_life_hours");
+      throw InputError(
+          file.duties[d].where,
+          fmt::format("the history of duty '{}' is {} long, the life of the robot {}", file.duties[d].name,
+                      hours_text(results[d].past_hours), hours_text(results[d].robot_life_hours)),
+          "give hours of operation, or a larger fatigue.robot_life_hours");
     results[d].lives = lives_under(results[d].damage, history);
     if (results[d].past_hours > 0 && results[d].lives.survived < fewest_survivors)
-      throw InputError(file.duties[d].where,
-                       fmt::format("duty '{}': {:.2g} % of the samples survive its history of {}, so the model contradicts "
-                                   "this dresspack",
-                                   file.duties[d].name, 100 * results[d].lives.survived, hours_text(results[d].past_hours)),
-                       "learn from it first: dresslife calibrate");
+      throw InputError(
+          file.duties[d].where,
+          fmt::format(
+              "duty '{}': {:.2g} % of the samples survive its history of {}, so the model contradicts "
+              "this dresspack",
+              file.duties[d].name, 100 * results[d].lives.survived, hours_text(results[d].past_hours)),
+          "learn from it first: dresslife calibrate");
   }
   return results;
 }
@@ -434,9 +471,14 @@ std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& prog
       for (std::size_t p = 0; p < uncertain_count; ++p) {
         const SharedBy by = uncertain_parameters()[p].shared;
         const auto at = static_cast<Eigen::Index>(p);
-        if (by == SharedBy::installation || !(mode.knowledge.covariance(at, at) > 0) || !LifeSurface(mode).depends_on(p)) continue;
-        const std::string of = by == SharedBy::construction ? mode.construction : by == SharedBy::material ? mode.material : "";
-        if (std::none_of(values.begin(), values.end(), [&](const SharedValue& known) { return known.parameter == p && known.of == of; }))
+        if (by == SharedBy::installation || !(mode.knowledge.covariance(at, at) > 0) ||
+            !LifeSurface(mode).depends_on(p))
+          continue;
+        const std::string of = by == SharedBy::construction ? mode.construction
+                               : by == SharedBy::material   ? mode.material
+                                                            : "";
+        if (std::none_of(values.begin(), values.end(),
+                         [&](const SharedValue& known) { return known.parameter == p && known.of == of; }))
           values.push_back({p, of, shared_samples(mode, p, worlds)});
       }
   }
@@ -445,7 +487,8 @@ std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& prog
 
 }  // namespace
 
-std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
+std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study,
+                                             const std::vector<RankingRow>& rows,
                                              const std::set<std::string>& needed, std::size_t worlds) {
   constexpr std::size_t draws = PlantDamage::draws;
   Programs programs(study, rows);
@@ -453,32 +496,48 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
   std::vector<std::vector<EvaluatedProgram>> all;
   for (const Duty& duty : file.duties)
     if (needed.contains(duty.name)) duties.push_back(&duty), all.push_back(programs.of(duty));
-  PlantDamage plant(all, worlds);
   std::map<std::string, LifeTable> tables;
+  struct Task {
+    LifeTable* table;
+    std::vector<Rate> rates;
+    std::vector<double> share;
+  };
+  std::vector<Task> tasks;  // (duty)
   for (std::size_t k = 0; k < duties.size(); ++k) {
     const Duty& duty = *duties[k];
     const std::vector<EvaluatedProgram>& evaluated = all[k];
     std::vector<DutyPart> parts;
-    const std::vector<Rate> rates = rates_of(duty, programs, parts);
+    std::vector<Rate> rates = rates_of(duty, programs, parts);
     const std::optional<WireDamage> round = programs.round_of(duty, evaluated.front());
     const std::vector<double> repeats = repeats_of(parts);
-    const std::vector<double> share =
+    std::vector<double> share =
         SamePlace(evaluated, round ? &*round : nullptr).at(repeats, repeats_in_rounds(duty, repeats));
     LifeTable& table = tables[duty.name];
     table.worlds = worlds, table.draws = draws, table.hours.resize(worlds * draws);
     table.hours_per_week = duty.hours_per_week;
     table.shared = shared_values(evaluated, worlds);
     table.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
-    for (std::size_t d = 0; d < draws; ++d) {
-      const std::vector<double> damage = plant.under(evaluated, rates, share, d).of_first_mode();
-      for (std::size_t w = 0; w < worlds; ++w)
-        table.hours[w * draws + d] = damage[w] > 0 ? static_cast<float>(1 / damage[w]) : std::numeric_limits<float>::infinity();
-    }
-    plant.release(evaluated);
-    for (std::size_t w = 0; w < worlds; ++w)
-      std::sort(table.hours.begin() + static_cast<std::ptrdiff_t>(w * draws),
-                table.hours.begin() + static_cast<std::ptrdiff_t>((w + 1) * draws));
+    tasks.push_back({&table, std::move(rates), std::move(share)});
   }
+  // The lives of a duty depend on no other one, so any number of threads gives the same.
+  const std::size_t threads = std::min(thread_count(), tasks.size());
+  in_parallel(threads, [&](std::size_t part) {
+    const std::size_t begin = tasks.size() * part / threads, end = tasks.size() * (part + 1) / threads;
+    PlantDamage plant({all.data() + begin, end - begin}, worlds);
+    for (std::size_t k = begin; k < end; ++k) {
+      std::vector<float>& hours = tasks[k].table->hours;
+      for (std::size_t d = 0; d < draws; ++d) {
+        const std::vector<double> damage = plant.under(all[k], tasks[k].rates, tasks[k].share, d);
+        for (std::size_t w = 0; w < worlds; ++w)
+          hours[w * draws + d] =
+              damage[w] > 0 ? static_cast<float>(1 / damage[w]) : std::numeric_limits<float>::infinity();
+      }
+      plant.release(all[k]);
+      for (std::size_t w = 0; w < worlds; ++w)
+        std::sort(hours.begin() + static_cast<std::ptrdiff_t>(w * draws),
+                  hours.begin() + static_cast<std::ptrdiff_t>((w + 1) * draws));
+    }
+  });
   return tables;
 }
 

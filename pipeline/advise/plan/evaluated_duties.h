@@ -9,6 +9,8 @@
 #include "pipeline/advise/plan/duty.h"
 #include "pipeline/advise/plan/mixture.h"
 #include "pipeline/advise/plan/plan.h"
+#include "pipeline/job/inspection.h"
+#include "pipeline/life/unvalidated_modes.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/study.h"
 
@@ -32,7 +34,9 @@ struct DutyPart {
 /// A mode that no test validates (unvalidated_modes.h), of one dresspack and, of ratings, one cable.
 struct DutyMode {
   std::string mode, dresspack, place;
-  double hours = 0;  ///< early_hours() at the soonest, if all programs load one place
+  double hours = 0;   ///< early_hours() at the soonest, if all programs load one place
+  double median = 0;  ///< half have failed by then, of the same
+  double visible_from = UnvalidatedMode::unknown;  ///< the largest of the programs
 };
 
 struct DutyResult {
@@ -43,9 +47,11 @@ struct DutyResult {
   std::vector<double> changes;  ///< (mode) damage with the changes between programs over that without; 1: no order
   DutyDamage damage;
   DutyLives lives;
+  bool has_order = false;       ///< the changes between programs count
   double past_hours = 0;  ///< 0: no history
   std::vector<DutyMode> others;       ///< not in the hours above
   std::string not_evaluated;          ///< parts and modes without a life
+  Inspection inspection;              ///< of its jobs
   std::vector<std::string> doubtful;  ///< "hard (bend radius)": programs with warnings that spoil a plan
 };
 

@@ -44,6 +44,16 @@ class Row {
           value ? fmt::format("give a number of {:g} .. {:g}", low, high) : number_remedy(text(title)));
     return value;
   }
+  /// Money. A point before three digits may separate thousands. Precondition: not empty.
+  double cost(const std::string& title) const {
+    constexpr double most = 1e12;
+    const std::string cell = text(title);
+    const std::size_t point = cell.find('.');
+    if (point != cell.npos && point >= 1 && point <= 3 && cell.size() == point + 4 && cell[0] != '0' && exported_number(cell))
+      throw InputError(where(title), fmt::format("{} is '{}', in which the point may separate thousands", title, cell),
+                       fmt::format("write {} or {:g}", cell.substr(0, point) + cell.substr(point + 1), *exported_number(cell)));
+    return *number(title, 0, most);
+  }
 
  private:
   const CsvReader& table_;
@@ -67,7 +77,7 @@ Installed installed_from(const Row& row, Day today, bool has_costs) {
   }
   if (!has_costs) return one;
   row.needed("planned_cost"), row.needed("unplanned_cost");
-  one.planned_cost = *row.number("planned_cost", 0, 1e12), one.unplanned_cost = *row.number("unplanned_cost", 0, 1e12);
+  one.planned_cost = row.cost("planned_cost"), one.unplanned_cost = row.cost("unplanned_cost");
   if (!(one.unplanned_cost > one.planned_cost))
     throw InputError(row.where("unplanned_cost"),
                      fmt::format("an unplanned replacement costs {:g}, a planned one {:g}", one.unplanned_cost, one.planned_cost),

@@ -23,7 +23,9 @@ constexpr std::uint32_t nothing = 0xffffffff;
 /// "signal cable" of "signal cable 3".
 std::string_view without_number(std::string_view name) {
   const std::size_t digits = name.find_last_not_of("0123456789");
-  return digits != std::string_view::npos && digits + 1 < name.size() && name[digits] == ' ' ? name.substr(0, digits) : name;
+  return digits != std::string_view::npos && digits + 1 < name.size() && name[digits] == ' '
+             ? name.substr(0, digits)
+             : name;
 }
 
 /// Whether the wires of a conductor with this path belong to a mode ("wires of signal cable", fatigue/failure_modes.h).
@@ -39,20 +41,26 @@ bool is_in_mode(std::string_view conductor, const LifeResponse& mode) {
 }
 
 /// The conductor that holds a wire: of those with a path that the wire's begins with, the longest.
-std::uint32_t conductor_of(const std::string& wire, const std::unordered_map<std::string, std::uint32_t>& conductors) {
-  for (std::size_t end = wire.rfind('/'); end != std::string::npos; end = end == 0 ? std::string::npos : wire.rfind('/', end - 1))
-    if (const auto found = conductors.find(wire.substr(0, end)); found != conductors.end()) return found->second;
+std::uint32_t conductor_of(const std::string& wire,
+                           const std::unordered_map<std::string, std::uint32_t>& conductors) {
+  for (std::size_t end = wire.rfind('/'); end != std::string::npos;
+       end = end == 0 ? std::string::npos : wire.rfind('/', end - 1))
+    if (const auto found = conductors.find(wire.substr(0, end)); found != conductors.end())
+      return found->second;
   const auto whole = conductors.find("");
   return whole == conductors.end() ? nothing : whole->second;
 }
 
 /// (mode) damage of the place that fails first, of these damages (site).
-std::vector<double> worst_places(const WireDamage& wires, const std::vector<double>& damage, std::size_t modes) {
+std::vector<double> worst_places(const WireDamage& wires, const std::vector<double>& damage,
+                                 std::size_t modes) {
   std::vector<double> of_wire(wires.place.size(), 0.0);
   for (std::size_t site = 0; site < damage.size(); ++site)
-    if (wires.wire[site] != nothing) of_wire[wires.wire[site]] = std::max(of_wire[wires.wire[site]], damage[site]);
+    if (wires.wire[site] != nothing)
+      of_wire[wires.wire[site]] = std::max(of_wire[wires.wire[site]], damage[site]);
   std::vector<std::vector<double>> at_place(wires.mode.size());
-  for (std::size_t wire = 0; wire < of_wire.size(); ++wire) at_place[wires.place[wire]].push_back(of_wire[wire]);
+  for (std::size_t wire = 0; wire < of_wire.size(); ++wire)
+    at_place[wires.place[wire]].push_back(of_wire[wire]);
   std::vector<double> worst(modes, 0.0);
   for (std::size_t place = 0; place < at_place.size(); ++place) {
     std::vector<double>& all = at_place[place];
@@ -71,7 +79,8 @@ double log10_life(double damage) { return damage > 0 ? -std::log10(damage) : inf
 
 }  // namespace
 
-WireDamage wire_damage(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent) {
+WireDamage wire_damage(const std::filesystem::path& life_file, const FailureModes& modes,
+                       double failed_percent) {
   const FileReader file(life_file, life_format());
   WireDamage wires;
   wires.damage = file.read<double>("/damage");
@@ -95,7 +104,9 @@ WireDamage wire_damage(const std::filesystem::path& life_file, const FailureMode
   wires.wire.assign(wires.damage.size(), nothing);
   for (std::size_t site = 0; site < wires.damage.size(); ++site) {
     const auto [found, is_new] = known.try_emplace(component[site]);
-    if (is_new) found->second = {conductor_of(component[site], conductors), static_cast<std::uint32_t>(known.size() - 1)};
+    if (is_new)
+      found->second = {conductor_of(component[site], conductors),
+                       static_cast<std::uint32_t>(known.size() - 1)};
     const Wire& wire = found->second;
     if (wire.conductor == nothing || mode_of[wire.conductor] == nothing) continue;  // the hose's wall
     const std::uint64_t key = std::uint64_t{wire.index} << 32 | static_cast<std::uint32_t>(segment[site]);
@@ -114,7 +125,8 @@ WireDamage wire_damage(const std::filesystem::path& life_file, const FailureMode
   for (const auto& [path, wire] : std::map<std::string, std::uint32_t>(conductors.begin(), conductors.end()))
     layout += path + '\n';
   for (std::size_t site = 0; site < wires.damage.size(); ++site)
-    layout += fmt::format("{} {}\n", wires.wire[site], wires.wire[site] == nothing ? nothing : wires.place[wires.wire[site]]);
+    layout += fmt::format("{} {}\n", wires.wire[site],
+                          wires.wire[site] == nothing ? nothing : wires.place[wires.wire[site]]);
   wires.layout = sha256(layout);
   wires.worst = worst_places(wires, wires.damage, modes.size());
   return wires;
@@ -129,20 +141,24 @@ double DutyDamage::in_mode(std::size_t mode, std::size_t sample) const {
 SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDamage* round)
     : programs_(programs), round_(round) {
   for (const EvaluatedProgram& program : programs)
-    alone_.push_back(program.wires->worst.empty() ? worst_places(*program.wires, program.wires->damage, program.modes->size())
-                                                  : program.wires->worst);
+    alone_.push_back(program.wires->worst.empty()
+                         ? worst_places(*program.wires, program.wires->damage, program.modes->size())
+                         : program.wires->worst);
 }
 
-std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour, const std::vector<double>& in_rounds) const {
+std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour,
+                                  const std::vector<double>& in_rounds) const {
   const WireDamage& wires = *programs_.front().wires;
   const std::size_t modes = programs_.front().modes->size();
   std::vector<double> all(wires.damage.size(), 0.0), apart(modes, 0.0);
   for (std::size_t k = 0; k < programs_.size(); ++k) {
-    for (std::size_t site = 0; site < all.size(); ++site) all[site] += in_rounds[k] * programs_[k].wires->damage[site];
+    for (std::size_t site = 0; site < all.size(); ++site)
+      all[site] += in_rounds[k] * programs_[k].wires->damage[site];
     for (std::size_t m = 0; m < modes; ++m) apart[m] += repeats_per_hour[k] * alone_[k][m];
   }
   if (round_ && in_rounds.size() > programs_.size())
-    for (std::size_t site = 0; site < all.size(); ++site) all[site] += in_rounds.back() * round_->damage[site];
+    for (std::size_t site = 0; site < all.size(); ++site)
+      all[site] += in_rounds.back() * round_->damage[site];
   std::vector<double> share = worst_places(wires, all, modes);
   for (std::size_t m = 0; m < modes; ++m) share[m] = apart[m] > 0 ? share[m] / apart[m] : 1;
   return share;
@@ -162,12 +178,17 @@ RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dres
   return damage;
 }
 
-std::vector<double> repeat_factors(const std::string& job, double deviation_percent, const std::string& dresspack, std::size_t samples) {
+std::vector<double> repeat_factors(const std::string& job, double deviation_percent,
+                                   const std::string& dresspack, std::size_t samples) {
   const double deviation = log_deviation(deviation_percent);
   if (!(deviation > 0)) return std::vector<double>(samples, 1.0);
-  std::vector<double> factors = standard_normals("repeats of " + job + "/job " + dresspack, samples);
-  for (double& z : factors) z = std::exp(deviation * z);
-  return factors;
+  thread_local std::vector<double> factors;  // of the last deviation: thousands of programs have the same
+  thread_local double of_deviation = 0;
+  if (factors.size() != samples || of_deviation != deviation) {
+    factors = standard_strata(samples), of_deviation = deviation;
+    for (double& z : factors) z = std::exp(deviation * z);
+  }
+  return in_order_of("repeats of " + job + "/job " + dresspack, factors);
 }
 
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
@@ -184,10 +205,11 @@ DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std
       });
 }
 
-DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-                        const std::vector<double>& share,
-                        const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
-                        const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of) {
+DutyDamage damage_under(
+    const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+    const std::vector<double>& share,
+    const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
+    const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of) {
   DutyDamage duty;
   duty.same_place = share;
   for (std::size_t k = 0; k < programs.size(); ++k) {
@@ -200,6 +222,27 @@ DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std
     duty.of_program.push_back(std::move(damage));
   }
   return duty;
+}
+
+std::vector<double> first_mode_damage(
+    const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+    const std::vector<double>& share,
+    const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
+    const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of) {
+  RepeatDamage sums;
+  for (std::size_t k = 0; k < programs.size(); ++k) {
+    const std::vector<double>& factors = factors_of(programs[k], rates[k].deviation_percent);
+    const RepeatDamage& damage = of_repeat(programs[k]);
+    if (k == 0) sums.assign(damage.size(), std::vector<double>(factors.size(), 0.0));
+    for (std::size_t m = 0; m < damage.size(); ++m) {
+      const double repeats = share[m] * rates[k].repeats_per_hour;
+      for (std::size_t s = 0; s < factors.size(); ++s) sums[m][s] += damage[m][s] * (repeats * factors[s]);
+    }
+  }
+  std::vector<double> worst(sums.front().size(), 0.0);
+  for (const std::vector<double>& of_mode : sums)
+    for (std::size_t s = 0; s < worst.size(); ++s) worst[s] = std::max(worst[s], of_mode[s]);
+  return worst;
 }
 
 std::vector<double> DutyDamage::of_first_mode() const {
@@ -243,7 +286,8 @@ DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& his
   return lives;
 }
 
-LifePercentiles lives_with(const DutyDamage& duty, const std::vector<double>& times, const std::vector<double>& share) {
+LifePercentiles lives_with(const DutyDamage& duty, const std::vector<double>& times,
+                           const std::vector<double>& share) {
   std::vector<double> lives;
   for (std::size_t s = 0; s < duty.samples(); ++s) {
     double worst = 0;

@@ -96,6 +96,11 @@ DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std
                         const std::vector<double>& share,
                         const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
                         const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of);
+/// (sample) DutyDamage::of_first_mode() of the same, without the damage of each program.
+std::vector<double> first_mode_damage(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                                      const std::vector<double>& share,
+                                      const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
+                                      const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of);
 /// dresspack: names what only this dresspack has (first_failures()).
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                         const std::vector<double>& share, const std::string& dresspack, std::size_t samples = life_samples);

@@ -22,7 +22,8 @@ std::string folded(std::string line) {
   constexpr std::size_t most = 75;
   while (line.size() > most) {
     std::size_t end = most;
-    while (end > 1 && (static_cast<unsigned char>(line[end]) & 0xc0) == 0x80) --end;  // not within a character
+    while (end > 1 && (static_cast<unsigned char>(line[end]) & 0xc0) == 0x80)
+      --end;  // not within a character
     text += line.substr(0, end) + "\r\n";
     line = " " + line.substr(end);
   }
@@ -53,15 +54,17 @@ std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::
   return names;
 }
 
-std::string window_text(const Window& window) { return day_text(window.first) + " .. " + day_text(window.last); }
+std::string window_text(const Window& window) {
+  return day_text(window.first) + " .. " + day_text(window.last);
+}
 
 std::string percent_text(double share) { return readable(100 * share, 2) + " %"; }
 
 std::string expected_words(const Plan& plan) {
   double before = 0;
   for (const RowPlan& row : plan.rows) before += row.fails_before_first;
-  return fmt::format("{} dresspacks, from {} to {}. Before the first window {} of them are expected to fail.", plan.rows.size(),
-                     day_text(plan.today), day_text(plan.end), readable(before, 2));
+  return fmt::format("{} dresspacks, from {} to {}. Before the first window {} of them are expected to fail.",
+                     plan.rows.size(), day_text(plan.today), day_text(plan.end), readable(before, 2));
 }
 
 std::string kept_words(const Fleet& fleet, const Plan& plan) {
@@ -76,7 +79,7 @@ std::string kept_words(const Fleet& fleet, const Plan& plan) {
   }
   std::string text;
   const auto add = [&](const std::string& why, const std::vector<std::string>& names) {
-    if (!names.empty()) text += wrapped(fmt::format("{}: {}", why, fmt::join(names, ", ")), width, "  ");
+    if (!names.empty()) text += wrapped(fmt::format("{}: {}.", why, fmt::join(names, ", ")), width, "  ");
   };
   add(fmt::format("Until {} the probability of failure between two windows is at most {} (limit {})",
                   day_text(plan.end), percent_text(most), percent_text(plan.risk)),
@@ -97,34 +100,38 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
                         names.empty() ? "nothing to replace" : fmt::format("replace {}", names.size()));
     if (!names.empty()) text += wrapped(fmt::format("{}", fmt::join(names, ", ")), width, "  ");
   }
-  const auto kept = std::count_if(plan.rows.begin(), plan.rows.end(), [](const RowPlan& row) { return !row.window; });
+  const auto kept =
+      std::count_if(plan.rows.begin(), plan.rows.end(), [](const RowPlan& row) { return !row.window; });
   text += fmt::format("\nIn no window: {}\n{}", kept, kept_words(fleet, plan));
   std::vector<std::size_t> risky(plan.rows.size());
   for (std::size_t i = 0; i < risky.size(); ++i) risky[i] = i;
-  std::stable_sort(risky.begin(), risky.end(),
-                   [&](std::size_t a, std::size_t b) { return plan.rows[a].fails_before > plan.rows[b].fails_before; });
+  std::stable_sort(risky.begin(), risky.end(), [&](std::size_t a, std::size_t b) {
+    return plan.rows[a].fails_before > plan.rows[b].fails_before;
+  });
   risky.resize(std::min<std::size_t>(risky.size(), 10));
   std::size_t wide = 9;
   for (const std::size_t i : risky) wide = std::max(wide, columns_of(fleet.rows[i].name));
-  text += fmt::format("\n{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", "most risk", wide, "age [h]", "fails before first window", "fails before replacement",
-                      "replace");
+  text += fmt::format("\n{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", "most risk", wide, "age [h]",
+                      "fails before first window", "fails before replacement", "replace");
   for (const std::size_t i : risky) {
     const RowPlan& row = plan.rows[i];
-    text += fmt::format("{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", fleet.rows[i].name, wide, readable(row.age_hours),
-                        percent_text(row.fails_before_first), percent_text(row.fails_before),
-                        row.window ? day_text(plan.windows[*row.window].first) : "in no window");
+    text +=
+        fmt::format("{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", fleet.rows[i].name, wide, readable(row.age_hours),
+                    percent_text(row.fails_before_first), percent_text(row.fails_before),
+                    row.window ? day_text(plan.windows[*row.window].first) : "in no window");
   }
   text += '\n';
   for (std::size_t y = 0; y < plan.years.size(); ++y) {
     const YearOfPlan& year = plan.years[y];
-    text += fmt::format("Year {} from today: {} spare dresspacks ({:g} .. {:g} in 90 of 100 plants): {} planned, {} after failures, "
-                        "also of their replacements.\n",
-                        y + 1, readable(year.planned + year.unplanned, 2), std::floor(year.low), std::ceil(year.high),
-                        readable(year.planned, 2), readable(year.unplanned, 2));
+    text += fmt::format(
+        "Year {} from today: {} spare dresspacks ({:g} .. {:g} in 90 of 100 plants): {} planned, {} after failures, "
+        "also of their replacements.\n",
+        y + 1, readable(year.planned + year.unplanned, 2), std::floor(year.low), std::ceil(year.high),
+        readable(year.planned, 2), readable(year.unplanned, 2));
   }
   if (fleet.has_costs)
-    text += fmt::format("Cost until {}: {} by this plan, {} if only failed dresspacks are replaced.\n", day_text(plan.end),
-                        readable(plan.cost), readable(plan.cost_without_windows));
+    text += fmt::format("Cost until {}: {} by this plan, {} if only failed dresspacks are replaced.\n",
+                        day_text(plan.end), readable(plan.cost), readable(plan.cost_without_windows));
   return text;
 }
 
@@ -139,8 +146,45 @@ std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
     lines += fmt::format("  {:>9}  {}: {}{}\n", readable(test.saves), parameter.test, parameter.name,
                          test.what.of.empty() ? "" : fmt::format(" of '{}'", test.what.of));
   }
-  if (lines.empty()) return "No test of what the dresspacks have in common would save a thousandth of this cost.\n";
-  return fmt::format("A test before the first window makes plans cheaper until {} by, on average:\n{}", day_text(plan.end), lines);
+  if (lines.empty())
+    return "No test of what the dresspacks have in common would save a thousandth of this cost.\n";
+  return fmt::format(
+      "A test before the first window saves, on average, until {} and by better replacements after that:\n{}",
+      day_text(plan.end), lines);
+}
+
+std::string check_words(const std::optional<std::vector<CheckValue>>& checks, const Inspection& inspection,
+                        const Fleet& fleet, const Plan& plan) {
+  constexpr double worth_a_line = 1e-3;  // of one unplanned replacement
+  constexpr std::size_t most = 3;
+  if (!checks)
+    return wrapped(
+        "By the predicted abrasion fewer than 1 in 1,000 such plants have all of these dresspacks alive today, so no value of "
+        "visual checks is given.",
+        width, "");
+  double fails = 0, found = 0, saves = 0;
+  std::vector<std::size_t> best;
+  for (std::size_t i = 0; i < checks->size(); ++i) {
+    const CheckValue& check = (*checks)[i];
+    fails += check.fails, found += check.found, saves += check.regular;
+    if (check.today > worth_a_line * fleet.rows[i].unplanned_cost) best.push_back(i);
+  }
+  std::stable_sort(best.begin(), best.end(),
+                   [&](std::size_t a, std::size_t b) { return (*checks)[a].today > (*checks)[b].today; });
+  std::string text =
+      best.empty()
+          ? "No visual check for abrasion today saves a thousandth of an unplanned replacement (not validated).\n"
+          : "One visual check of a dresspack for abrasion today saves, on average (not validated, not in the cost above):\n";
+  for (std::size_t k = 0; k < std::min(most, best.size()); ++k)
+    text += fmt::format("  {:>9}  {}\n", readable((*checks)[best[k]].today), fleet.rows[best[k]].name);
+  if (best.size() > most) text += fmt::format("  {:>9}  more dresspacks in the table\n", best.size() - most);
+  if (!(fails > 0)) return text;
+  std::string all = fmt::format("Without checks abrasion wears through {} dresspacks until {}.",
+                                readable(fails, 2), day_text(plan.end));
+  if (inspection.interval_weeks > 0)
+    all += fmt::format(" Checks every {:g} weeks find {} of these before and save {}.",
+                       inspection.interval_weeks, readable(found, 2), readable(saves));
+  return text + wrapped(all, width, "");
 }
 
 std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
@@ -159,7 +203,8 @@ std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& cha
   line("dresspacks", std::to_string(plan.rows.size()), std::to_string(other.rows.size()));
   line("fail before the first window", failing(plan), failing(other));
   for (std::size_t n = 0; n < plan.windows.size(); ++n)
-    line("replaced from " + day_text(plan.windows[n].first), std::to_string(replaced_in(fleet, plan, n).size()),
+    line("replaced from " + day_text(plan.windows[n].first),
+         std::to_string(replaced_in(fleet, plan, n).size()),
          std::to_string(replaced_in(changed, other, n).size()));
   for (std::size_t y = 0; y < std::min(plan.years.size(), other.years.size()); ++y)
     line(fmt::format("spare dresspacks in year {}", y + 1), spares(plan.years[y]), spares(other.years[y]));
@@ -169,25 +214,35 @@ std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& cha
   };
   std::vector<std::string> changes;
   for (std::size_t i = 0; i < changed.rows.size(); ++i) {
-    const auto old = std::find_if(fleet.rows.begin(), fleet.rows.end(), [&](const Installed& row) { return row.name == changed.rows[i].name; });
-    const std::string now = old == fleet.rows.end() ? "new" : when(plan, static_cast<std::size_t>(old - fleet.rows.begin()));
-    if (now != when(other, i)) changes.push_back(fmt::format("{}: {} ({})", changed.rows[i].name, when(other, i), now));
+    const auto old = std::find_if(fleet.rows.begin(), fleet.rows.end(),
+                                  [&](const Installed& row) { return row.name == changed.rows[i].name; });
+    const std::string now =
+        old == fleet.rows.end() ? "new" : when(plan, static_cast<std::size_t>(old - fleet.rows.begin()));
+    if (now != when(other, i))
+      changes.push_back(fmt::format("{}: {} ({})", changed.rows[i].name, when(other, i), now));
   }
-  text += fmt::format("Replaced at another time (now): {}\n", changes.empty() ? "none" : std::to_string(changes.size()));
+  text += fmt::format("Replaced at another time (now): {}\n",
+                      changes.empty() ? "none" : std::to_string(changes.size()));
   if (!changes.empty()) text += wrapped(fmt::format("{}", fmt::join(changes, ", ")), width, "  ");
   return text;
 }
 
-std::string plan_csv(const Fleet& fleet, const Plan& plan) {
-  std::string text = "name,duty,installed,age_hours,fails_before_first_window,replace_in,fails_before_replacement";
+std::string plan_csv(const Fleet& fleet, const Plan& plan,
+                     const std::optional<std::vector<CheckValue>>& checks) {
+  std::string text =
+      "name,duty,installed,age_hours,fails_before_first_window,replace_in,fails_before_replacement";
   for (const Window& window : plan.windows) text += fmt::format(",fails_after_{}", day_text(window.first));
-  text += '\n';
+  text += ",check_today_saves,checks_save\n";
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
     const RowPlan& row = plan.rows[i];
-    std::vector<std::string> cells{csv_cell(fleet.rows[i].name), csv_cell(fleet.rows[i].duty), day_text(fleet.rows[i].since),
-                                   shortest_text(row.age_hours), shortest_text(row.fails_before_first),
-                                   row.window ? day_text(plan.windows[*row.window].first) : "", shortest_text(row.fails_before)};
+    std::vector<std::string> cells{
+        csv_cell(fleet.rows[i].name),          csv_cell(fleet.rows[i].duty),
+        day_text(fleet.rows[i].since),         shortest_text(row.age_hours),
+        shortest_text(row.fails_before_first), row.window ? day_text(plan.windows[*row.window].first) : "",
+        shortest_text(row.fails_before)};
     for (const double share : row.fails_until_next) cells.push_back(shortest_text(share));
+    cells.push_back(checks ? shortest_text((*checks)[i].today) : "");
+    cells.push_back(checks ? shortest_text((*checks)[i].regular) : "");
     text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return text;
@@ -196,7 +251,8 @@ std::string plan_csv(const Fleet& fleet, const Plan& plan) {
 std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan) {
   std::string text = "name";
   for (std::size_t week = 0; week < plan.failures_in_week.size(); ++week)
-    text += fmt::format(",fails_in_week_of_{}", day_text(plan.today + std::chrono::days(7 * static_cast<int>(week))));
+    text += fmt::format(",fails_in_week_of_{}",
+                        day_text(plan.today + std::chrono::days(7 * static_cast<int>(week))));
   text += '\n';
   for (std::size_t i = 0; i < fleet.rows.size(); ++i) {
     text += csv_cell(fleet.rows[i].name);
@@ -213,7 +269,8 @@ std::string plan_calendar(const Fleet& fleet, const Plan& plan) {
     if (names.empty()) continue;
     const Window& window = plan.windows[n];
     text += "BEGIN:VEVENT\r\n";
-    text += fmt::format("UID:{}-replace@dresslife\r\nDTSTAMP:{}T000000Z\r\n", compact(window.first), compact(plan.today));
+    text += fmt::format("UID:{}-replace@dresslife\r\nDTSTAMP:{}T000000Z\r\n", compact(window.first),
+                        compact(plan.today));
     text += fmt::format("DTSTART;VALUE=DATE:{}\r\nDTEND;VALUE=DATE:{}\r\n", compact(window.first),
                         compact(window.last + std::chrono::days(1)));  // the end is the day after
     text += folded(fmt::format("SUMMARY:Replace {} dresspacks", names.size()));

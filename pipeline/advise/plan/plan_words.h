@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/advise/plan/plan.h"
+#include "pipeline/advise/plan/value_of_checks.h"
 #include "pipeline/advise/plan/value_of_test.h"
 
 namespace dresslife::pipeline {
@@ -25,14 +26,19 @@ std::string percent_text(double share);
 /// What tests are worth, a line each of those that save a thousandth of the plan's cost or more, three at most.
 std::string test_words(const std::vector<TestValue>& tests, const Plan& plan);
 
+/// What visual checks for abrasion are worth: of one check today the three dresspacks with most, then all regular checks. checks: of
+/// values_of_checks(); inspection: of the jobs.
+std::string check_words(const std::optional<std::vector<CheckValue>>& checks, const Inspection& inspection, const Fleet& fleet,
+                        const Plan& plan);
+
 /// A plan beside the one of today's fleet: failures, windows, spare dresspacks, cost, and the dresspacks with another window.
 std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
 
 /// One row per dresspack and one column per week from today: P(failure in it) of today's dresspack, if it is not replaced.
 std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan);
 
-/// One row per dresspack; numbers read back exactly.
-std::string plan_csv(const Fleet& fleet, const Plan& plan);
+/// One row per dresspack; numbers read back exactly. checks: of values_of_checks(); absent: their cells are empty.
+std::string plan_csv(const Fleet& fleet, const Plan& plan, const std::optional<std::vector<CheckValue>>& checks = std::nullopt);
 
 /// An iCalendar file (RFC 5545) with an event for each window in which something is replaced.
 std::string plan_calendar(const Fleet& fleet, const Plan& plan);

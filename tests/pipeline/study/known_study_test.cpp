@@ -3,6 +3,8 @@
 
 #include <functional>
 
+#include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/study/ranking.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
@@ -72,6 +74,21 @@ TEST_CASE("known study: what is remembered is what the study expands to, and how
   CHECK(broken.remembered);
   CHECK_FALSE(broken.all_done());
   check_same(broken, expanded(bench.request()));
+}
+
+TEST_CASE("known study: its jobs are read back as the study expands them") {
+  Bench bench;
+  bench.scratch().write("study.yaml", "base: job.yaml\njobs: {one: {}, same: {}, other: {simulation.segments: 30}}\n");
+  bench.run();
+  StudyState known = bench.standing();
+  REQUIRE(known.remembered);
+  REQUIRE_FALSE(known.study.jobs.front().job);
+  read_jobs(known);
+  const StudyState anew = expanded(bench.request());
+  REQUIRE(known.study.jobs.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) CHECK(job_text(*known.study.jobs[k].job) == job_text(*anew.study.jobs[k].job));
+  CHECK(known.study.jobs[0].job == known.study.jobs[1].job);  // the same recipes
+  CHECK(known.study.jobs[0].job != known.study.jobs[2].job);
 }
 
 TEST_CASE("known study: a touched file changes nothing, a changed one all that depends on it") {

@@ -334,7 +334,7 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   worn.first_share = 0.43, worn.together_p10 = 280;
   worn.segment_from_tool = 4, worn.position_from_tool = 0.13;
   worn.place = "link_4", worn.time = 2.5, worn.step = "weld\tspot";
-  worn.found_share = 0.97, worn.unseen_share = 0.02, worn.note = "A check finds it.";
+  worn.found_share = 0.97, worn.unseen_share = 0.02, worn.visible_from = 0.35, worn.note = "A check finds it.";
   UnvalidatedMode untouched = worn;
   untouched.hours = {infinity, infinity, infinity}, untouched.place = "", untouched.first_share = 0;
   CHECK(unvalidated_from(unvalidated_text({worn, untouched}))[0].step == "weld spot");

@@ -138,6 +138,20 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
              Contains("no dresspack was in use after 2025-06-01"));
 }
 
+TEST_CASE("service records: reasons in German, and reasons that two readings explain") {
+  const auto of = [](const std::string& reason) {
+    return read("robot;installed;replaced;reason\nA;2024-01-01;2025-01-06;" + reason + "\nB;2024-01-01;;\n", "2024-01-01");
+  };
+  for (const char* failed : {"Leitung gerissen", "Aderbruch", "Schlauch geplatzt", "unplanmäßig", "außerplanmäßig", "Störung"})
+    CHECK(of(failed).tests.front().observation.service.front().failed);
+  for (const char* removed : {"Präventiv", "planmäßig", "vorbeugend, vor Bruch", "Crash", "Wartung"})
+    CHECK_FALSE(of(removed).tests.front().observation.service.front().failed);
+  // A cable that a crash broke; a cable that did not break; worn, and still working or not.
+  for (const char* unclear : {"Crash, Kabel gebrochen", "collision, cable broke", "nicht defekt", "not broken", "Verschleiß", "getauscht"})
+    CHECK_THAT(refusal("robot;installed;replaced;reason\nA;2024-01-01;2025-01-06;" + std::string(unclear) + "\n"),
+               Contains("does not say whether the dresspack failed"));
+}
+
 TEST_CASE("service records: a dresspack of several programs has their shares of its hours") {
   const File job("two.yaml",
                  "motion: {rig: {kind: axial, elongation_percent: 0.2}}\ndresspack: {cable: {name: wire, source: test, radius_mm: "

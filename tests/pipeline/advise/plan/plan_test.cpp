@@ -214,6 +214,14 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(refusal("name,duty,installed\nr,2025-02-28,day\n").find("exchange the titles") != std::string::npos);
   CHECK(refusal("name;duty;installed;hours_per_week\nr;day;;37,500\n").find("write 37500 or 37.500") !=
         std::string::npos);
+  const std::string costs = "name;duty;installed;planned_cost;unplanned_cost\nr;day;;";
+  CHECK(refusal(costs + "1.200,50;9500\n").find("write 1200.50, without") != std::string::npos);
+  CHECK(refusal(costs + "1,200.50;9500\n").find("write 1200.50, without") != std::string::npos);
+  CHECK(refusal(costs + "1200;1.234.567,89\n").find("write 1234567.89, without") != std::string::npos);
+  CHECK(refusal(costs + "1200;9.500\n").find("fleet.csv:2:13: error: unplanned_cost is '9.500', in which the point may separate "
+                                              "thousands; write 9500 or 9.5") != std::string::npos);
+  CHECK(read(costs + "0.125;9.50\n").rows[0].unplanned_cost == 9.5);
+  CHECK(read(costs + "1200,5;1234.500\n").rows[0].unplanned_cost == 1234.5);
   const Fleet german =
       read("name;duty;installed;hours_per_week\nr;day;28.02.2025 08:00;37,5\n");  // as `calibrate` reads it
   CHECK(day_text(german.rows[0].since) == "2025-02-28");
