@@ -196,6 +196,9 @@ void describe(Fields& f, Dresspack& dresspack) {
            "The diameter of the filling in the middle of a hose that is no component.");
   f.text("core_parts", dresspack.core_parts, Need::optional,
          "The parts in this filling, in words. Results name them as not evaluated.");
+  f.list("core_components", dresspack.core_components, Need::optional,
+         "The parts in this filling, instead of core_parts: hoses, which may kink, and cables with ratings, which have a life. "
+         "Stiffness and mass of the filling are those of the other keys.");
   f.maybe_group("sleeve", dresspack.sleeve,
                 "A sleeve over the hose, or the jacket of a cable without a hose, that may wear through. Default: the wall "
                 "of hose_corrugation wears.");
@@ -460,6 +463,30 @@ void check_ratings(const Component& component, bool first_level) {
   for (const Component& inner : component.components) check_ratings(inner, false);
 }
 
+/// Parts of the core only have a life.
+void check_core(const Dresspack& dresspack, Problems& problems) {
+  for (const Component& part : dresspack.core_components) {
+    Laying mass_alone;
+    mass_alone.mass = part.laying.mass;
+    if (!part.plain || part.lay_angle != 0 || !(part.laying == mass_alone) || part.jacket || !part.components.empty()) {
+      problems.add(part.where, fmt::format("'{}' of core_components has more than a life", part.name),
+                   "give name, count, radius_mm, helix_radius_mm, without_wires and ratings only");
+      continue;
+    }
+    problems.attempt("", part.where, [&] { check_plain_part(*part.plain, part.radius, part.name); });
+    problems.attempt("", part.where, [&] { check_ratings(part, true); });
+    const double reach = part.helix_radius + part.radius;
+    if (!(reach <= dresspack.core_diameter / 2 * (1 + caliper_error)))
+      problems.add(part.where,
+                   fmt::format("'{}' reaches {:.4g} mm from the axis (core_diameter_mm is {:.4g})", part.name, 1e3 * reach,
+                               1e3 * dresspack.core_diameter),
+                   "check core_diameter_mm, helix_radius_mm and radius_mm");
+  }
+  if (!dresspack.core_components.empty() && !dresspack.core_parts.empty())
+    problems.add(dresspack.core_components.front().where, "both core_parts and core_components are given",
+                 "keep one of the two");
+}
+
 }  // namespace
 
 bool has_wires(const Dresspack& dresspack) { return hold_wires(dresspack.components); }
@@ -471,9 +498,10 @@ bool is_from_construction(const Dresspack& dresspack) {
 
 void drop_ratings(Dresspack& dresspack) {
   dresspack.ratings.clear();
+  dresspack.core_components.clear();
   for (Component& component : dresspack.components) {
     component.ratings.clear();
-    if (component.plain) component.plain->damage_exponent.reset();
+    if (component.plain) component.plain->damage_exponent.reset(), component.plain->least_bend_radius.reset();
   }
 }
 
@@ -491,6 +519,7 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
     problems.add(dresspack.ratings.front().where, "ratings stand beside a hose (they are of a cable)",
                  "give them to the cable in dresspack.components");
   attempt(dresspack.where, [&] { check_ratings(dresspack.ratings, false); });
+  check_core(dresspack, problems);
   for (const Component& component : dresspack.components) {
     attempt(component.where, [&] { check_ratings(component, true); });
     attempt(component.where, [&] { check_laying(dresspack, component, true); });
