@@ -196,15 +196,15 @@ void describe(Fields& f, Dresspack& dresspack) {
            "The diameter of the filling in the middle of a hose that is no component.");
   f.text("core_parts", dresspack.core_parts, Need::optional,
          "The parts in this filling, in words. Results name them as not evaluated.");
-  f.list("core_components", dresspack.core_components, Need::optional,
-         "The parts in this filling, instead of core_parts: hoses, which may kink, and cables with ratings, which have a life. "
-         "Stiffness and mass of the filling are those of the other keys.");
   f.maybe_group("sleeve", dresspack.sleeve,
                 "A sleeve over the hose, or the jacket of a cable without a hose, that may wear through. Default: the wall "
                 "of hose_corrugation wears.");
   f.list("components", dresspack.components, Need::optional,
          "The parts in the hose. Without them only the motion is computed. `place: auto` instead of "
          "helix_radius_mm and phase_deg packs parts into the bore.");
+  f.list("core_components", dresspack.core_components, Need::optional,
+         "The parts in the filling of the core, instead of core_parts: hoses, which may kink, and cables with ratings, which have a life. "
+         "Stiffness and mass of the filling are those of the other keys.");
   f.list("materials", dresspack.materials, Need::optional, "Materials that are not in config/materials.");
   f.list("ratings", dresspack.ratings, Need::optional,
          "The cycles in test rigs that the maker states, of a dresspack that is one cable without a hose.");
