@@ -596,13 +596,16 @@ std::string write_unvalidated(const Context& c, const std::vector<double>& lives
   modes.insert(modes.end(), rated.begin(), rated.end());
   const auto coils = corkscrew_modes(c.strain, c.job, lives, tension);
   modes.insert(modes.end(), coils.begin(), coils.end());
+  const auto kinks = kink_modes(c.strain, c.job, lives);
+  modes.insert(modes.end(), kinks.begin(), kinks.end());
   const auto wall = write_hose(c);
   modes.insert(modes.end(), wall.begin(), wall.end());
   c.life.attribute("unvalidated_modes", pipeline::unvalidated_text(modes));
   c.life.attribute("not_evaluated", not_evaluated(c.strain, c.job, coils.size() == c.job.dresspacks.size()));
   std::string summary;
   for (const pipeline::UnvalidatedMode& mode : modes)
-    if (mode.mode != pipeline::UnvalidatedMode::rating && mode.mode != pipeline::UnvalidatedMode::corkscrew)
+    if (mode.mode != pipeline::UnvalidatedMode::rating && mode.mode != pipeline::UnvalidatedMode::corkscrew &&
+        mode.mode != pipeline::UnvalidatedMode::kink)
       summary += fmt::format("; the {} {}",
                              mode.mode == pipeline::UnvalidatedMode::wall     ? "hose's wall"
                              : mode.mode == pipeline::UnvalidatedMode::jacket ? "worst jacket"

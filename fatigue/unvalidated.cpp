@@ -20,6 +20,8 @@
 #include "fatigue/wear.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
+#include "pipeline/cable/kink.h"
+#include "pipeline/cable/warmth.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/first_failure.h"
@@ -40,7 +42,8 @@ class PatchCheck {
       : strain_(strain), group_(std::move(group)), place_(place) {}
 
   [[noreturn]] void refuse(const std::string& what) const {
-    throw pipeline::InputError(strain_.where(), group_ + ": " + what, "make the file again with dresslife-strain");
+    throw pipeline::InputError(strain_.where(), group_ + ": " + what,
+                               "make the file again with dresslife-strain");
   }
   /// owner: a dresspack or a cable of the file, of so many.
   void see(std::size_t row, std::int32_t owner, std::size_t owners, double work) {
@@ -53,7 +56,8 @@ class PatchCheck {
   }
   void finish() const {
     constexpr double most_patches = 5e7;  // 0.4 GB
-    if (!place_.empty() && end_ / shortest_ * turn / place_[3] > most_patches) refuse("its patches are too small to hold");
+    if (!place_.empty() && end_ / shortest_ * turn / place_[3] > most_patches)
+      refuse("its patches are too small to hold");
   }
 
  private:
@@ -75,7 +79,8 @@ std::vector<std::vector<RubbedPatch>> patches_of(const FileReader& strain, std::
   for (std::size_t k = 0; k < work.size(); ++k) {
     const double* const p = &place[4 * k];
     check.see(k, dresspack[k], dresspacks, work[k]);
-    patches[static_cast<std::size_t>(dresspack[k])].push_back({p[0], p[1], p[2], p[3], obstacle[k], work[k], time[k]});
+    patches[static_cast<std::size_t>(dresspack[k])].push_back(
+        {p[0], p[1], p[2], p[3], obstacle[k], work[k], time[k]});
   }
   check.finish();
   return patches;
@@ -102,8 +107,8 @@ std::vector<std::vector<RubbedPatch>> patches_of_jackets(const FileReader& strai
 
 /// Over the samples that the validated modes have; its spread, a deviation of log10 of repeats, is of its own. name: what has
 /// the same name shares that, too.
-LifeResponse response_of(const std::string& name, double repeats, double log10_spread, const pipeline::Job& job,
-                         const std::string& dresspack) {
+LifeResponse response_of(const std::string& name, double repeats, double log10_spread,
+                         const pipeline::Job& job, const std::string& dresspack) {
   LifeResponse response;
   response.mode = name;
   response.dresspack = dresspack;
@@ -151,6 +156,14 @@ struct Program {
   }
 };
 
+/// Its components and those of its core.
+std::vector<const pipeline::Component*> parts_of(const pipeline::Dresspack& dresspack) {
+  std::vector<const pipeline::Component*> parts;
+  for (const auto* const of : {&dresspack.components, &dresspack.core_components})
+    for (const pipeline::Component& part : *of) parts.push_back(&part);
+  return parts;
+}
+
 bool is_rated(const pipeline::Component& part) { return part.plain && !part.ratings.empty(); }
 
 /// How one dresspack deforms; in its outermost segments as at the clamps where the wires are evaluated there, too.
@@ -159,7 +172,8 @@ struct HoseMotion {
   std::vector<double> position;  ///< (segment) from the base clamp [m]
 
   HoseMotion(const FileReader& strain, std::size_t dresspack) {
-    const auto curvature = strain.read<double>("/deformation/curvature"), twist = strain.read<double>("/deformation/twist"),
+    const auto curvature = strain.read<double>("/deformation/curvature"),
+               twist = strain.read<double>("/deformation/twist"),
                length = strain.read<double>("/segment/length"), at = strain.read<double>("/segment/wires_at");
     const auto of = pipeline::dresspack_of_segments(strain);
     double end = 0;
@@ -167,7 +181,8 @@ struct HoseMotion {
       if (of[k] != dresspack) continue;
       SegmentMotion& segment = segments.emplace_back();
       for (std::size_t row = k; row < twist.size(); row += of.size()) {
-        segment.curvature1.push_back(curvature[2 * row]), segment.curvature2.push_back(curvature[2 * row + 1]);
+        segment.curvature1.push_back(curvature[2 * row]),
+            segment.curvature2.push_back(curvature[2 * row + 1]);
         segment.twist.push_back(twist[row]);
       }
       end += length[k];
@@ -194,15 +209,18 @@ std::string rating_words(const RatedLife& rated) {
 }
 
 /// Share of the life after which abrasion is visible.
-double visible_from(const WornMaterial& material, const Abrasion& worn, const pipeline::Inspection& inspection) {
+double visible_from(const WornMaterial& material, const Abrasion& worn,
+                    const pipeline::Inspection& inspection) {
   const WornLayer& layer = material.layer;
-  return layer.area(inspection.visible_depth_percent / 100 * layer.thickness, worn.arc) / layer.area(layer.thickness, worn.arc);
+  return layer.area(inspection.visible_depth_percent / 100 * layer.thickness, worn.arc) /
+         layer.area(layer.thickness, worn.arc);
 }
 
 void put_inspection(UnvalidatedMode& mode, const std::vector<double>& own, double repeat, const pipeline::Job& job) {
   const Inspected result = inspected(own, repeat, mode.visible_from, job.inspection, job.fatigue);
   mode.found_share = result.found_share, mode.unseen_share = result.unseen_share;
-  constexpr double said = 0.01, least = 0.1;  // rarer failures need no plan; a share in percent below which digits say nothing
+  constexpr double said = 0.01;  // rarer failures need no plan
+  constexpr double least = 0.1;  // [%]: below it digits say nothing
   if (result.failed_share < said) return;
   const double found = 100 * result.found_share, unseen = 100 * result.unseen_share;
   mode.note = fmt::format(
@@ -217,6 +235,11 @@ bool is_hose(const pipeline::Dresspack& dresspack) {
   return dresspack.hose_corrugation || dresspack.inner_diameter || !dresspack.hose_material.empty();
 }
 
+/// Of which the law of kinks holds.
+bool is_smooth_hose(const pipeline::Dresspack& dresspack) {
+  return dresspack.inner_diameter && !dresspack.hose_corrugation;
+}
+
 }  // namespace
 
 std::vector<UnvalidatedMode> abrasion_modes(const FileReader& strain, const pipeline::Job& job,
@@ -226,8 +249,9 @@ std::vector<UnvalidatedMode> abrasion_modes(const FileReader& strain, const pipe
   const auto patches = patches_of(strain, job.dresspacks.size());
   const Program program(strain);
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
-    const std::optional<WornMaterial> material = worn_of(job.dresspacks[d].dresspack);
+    std::optional<WornMaterial> material = worn_of(job.dresspacks[d].dresspack);
     if (!material) continue;
+    material->warm = pipeline::wear_at(job.cell.temperature);
     const Abrasion worn = abrasion(*material, patches[d]);
     UnvalidatedMode& mode = modes.emplace_back();
     mode.mode = UnvalidatedMode::abrasion;
@@ -253,7 +277,8 @@ std::vector<UnvalidatedMode> jacket_modes(const FileReader& strain, const pipeli
   std::vector<UnvalidatedMode> modes;
   if (!strain.has(work_of_jackets)) return modes;
   const auto names = strain.read<std::string>("/cable/name");
-  const auto dresspack = strain.read<std::int32_t>("/cable/dresspack"), component = strain.read<std::int32_t>("/cable/component");
+  const auto dresspack = strain.read<std::int32_t>("/cable/dresspack"),
+             component = strain.read<std::int32_t>("/cable/component");
   const Program program(strain);
   const auto patches = patches_of_jackets(strain, names.size(), program.time);
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
@@ -264,8 +289,9 @@ std::vector<UnvalidatedMode> jacket_modes(const FileReader& strain, const pipeli
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto part = static_cast<std::size_t>(component[k]);
       if (static_cast<std::size_t>(dresspack[k]) != d || part >= mounted.components.size()) continue;
-      const std::optional<WornMaterial> jacket = jacket_of(mounted, mounted.components[part]);
+      std::optional<WornMaterial> jacket = jacket_of(mounted, mounted.components[part]);
       if (!jacket) continue;
+      jacket->warm = pipeline::wear_at(job.cell.temperature);
       const Abrasion worn = abrasion(*jacket, patches[k]);
       if (!first || worn.repeats < worst.repeats) first = k, worst = worn;
     }
@@ -277,8 +303,8 @@ std::vector<UnvalidatedMode> jacket_modes(const FileReader& strain, const pipeli
     if (std::isfinite(worst.repeats)) {
       mode.place = path_in_job(job, names[*first]).inside;
       mode.time = worst.time;
-      own = pipeline::first_failures({response_of(mode.mode, worst.repeats, worst.log10_spread, job, mode.dresspack)}, "",
-                                     lives.size());
+      own = pipeline::first_failures(
+          {response_of(mode.mode, worst.repeats, worst.log10_spread, job, mode.dresspack)}, "", lives.size());
       put_place(mode, strain, d, worst.position);
       program.put_sample(mode, program.sample_at(worst.time));
     }
@@ -287,7 +313,8 @@ std::vector<UnvalidatedMode> jacket_modes(const FileReader& strain, const pipeli
   return modes;
 }
 
-void set_lives(UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives, double repeat) {
+void set_lives(UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives,
+               double repeat) {
   std::vector<double> together(lives.size());
   std::size_t first = 0;
   for (std::size_t s = 0; s < lives.size(); ++s)
@@ -303,7 +330,8 @@ std::vector<UnvalidatedMode> rating_modes(const FileReader& strain, const pipeli
   std::vector<UnvalidatedMode> modes;
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     std::optional<HoseMotion> hose;
-    for (const pipeline::Component& part : job.dresspacks[d].dresspack.components) {
+    for (const pipeline::Component* const each : parts_of(job.dresspacks[d].dresspack)) {
+      const pipeline::Component& part = *each;
       if (!is_rated(part)) continue;
       if (!hose) hose.emplace(strain, d);
       const RatedLife rated = rated_life(part, hose->segments);
@@ -315,8 +343,8 @@ std::vector<UnvalidatedMode> rating_modes(const FileReader& strain, const pipeli
       std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
       const Program program(strain);
       if (std::isfinite(rated.repeats)) {
-        own = pipeline::first_failures({response_of(mode.mode + " of " + part.name, rated.repeats, rated.log10_spread, job,
-                                                    mode.dresspack)},
+        own = pipeline::first_failures({response_of(mode.mode + " of " + part.name, rated.repeats,
+                                                    rated.log10_spread, job, mode.dresspack)},
                                        "", lives.size());
         put_place(mode, strain, d, hose->position[rated.segment]);
         mode.time = program.time[rated.sample];
@@ -328,7 +356,8 @@ std::vector<UnvalidatedMode> rating_modes(const FileReader& strain, const pipeli
   return modes;
 }
 
-std::vector<UnvalidatedMode> corkscrew_modes(const FileReader& strain, const pipeline::Job& job, const std::vector<double>& lives,
+std::vector<UnvalidatedMode> corkscrew_modes(const FileReader& strain, const pipeline::Job& job,
+                                             const std::vector<double>& lives,
                                              const std::vector<std::vector<double>>& tension) {
   std::vector<UnvalidatedMode> modes;
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
@@ -343,15 +372,97 @@ std::vector<UnvalidatedMode> corkscrew_modes(const FileReader& strain, const pip
     program.put_sample(mode, worst->sample);
     put_place(mode, strain, d, worst->position);
     mode.note = worst->margin < BoredCable::largest_margin
-                    ? fmt::format("Forces and twist {} times as large would wind it.", pipeline::readable(worst->margin, 2))
+                    ? fmt::format("Forces and twist {} times as large would wind it.",
+                                  pipeline::readable(worst->margin, 2))
                     : "Neither its forces nor its twist would wind it.";
     if (worst->turn_left > 0)
-      mode.note += fmt::format(" A repeat leaves {} degrees of twist.", pipeline::readable(180 / std::numbers::pi * worst->turn_left, 2));
+      mode.note += fmt::format(" A repeat leaves {} degrees of twist.",
+                               pipeline::readable(180 / std::numbers::pi * worst->turn_left, 2));
     // Stiffnesses of a cable are known within a factor of two. ESTIMATE.
     constexpr double spread = 0.3;
     std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
     if (std::isfinite(worst->repeats))
-      own = pipeline::first_failures({response_of(mode.mode, worst->repeats, spread, job, mode.dresspack)}, "", lives.size());
+      own = pipeline::first_failures({response_of(mode.mode, worst->repeats, spread, job, mode.dresspack)},
+                                     "", lives.size());
+    set_lives(mode, std::move(own), lives, program.repeat());
+  }
+  return modes;
+}
+
+namespace {
+
+/// A tube that may kink.
+struct SmoothTube {
+  std::string name;
+  double offset;  ///< of its axis from that of the dresspack [m]
+  pipeline::KinkRadius kinks;
+};
+
+std::vector<SmoothTube> tubes_of(const pipeline::Dresspack& dresspack) {
+  std::vector<SmoothTube> tubes;
+  for (const pipeline::Component* const part : parts_of(dresspack))
+    if (part->plain && part->plain->kind == pipeline::PlainKind::hose)
+      tubes.push_back({part->name, part->helix_radius, pipeline::kink_radius(*part)});
+  if (is_smooth_hose(dresspack))
+    tubes.push_back({"the hose", 0,
+                     pipeline::kink_radius(pipeline::Tube{dresspack.diameter, *dresspack.inner_diameter})});
+  return tubes;
+}
+
+/// The tightest bend of a dresspack's axis.
+struct TightestBend {
+  double radius = std::numeric_limits<double>::infinity();  ///< [m]
+  std::size_t segment = 0, sample = 0;
+};
+
+TightestBend tightest_bend(const HoseMotion& hose) {
+  double most = 0;
+  TightestBend bend;
+  for (std::size_t k = 0; k < hose.segments.size(); ++k)
+    for (std::size_t t = 0; t < hose.segments[k].curvature1.size(); ++t) {
+      const double curvature = std::hypot(hose.segments[k].curvature1[t], hose.segments[k].curvature2[t]);
+      if (curvature > most) most = curvature, bend = {1 / curvature, k, t};
+    }
+  return bend;
+}
+
+}  // namespace
+
+std::vector<UnvalidatedMode> kink_modes(const FileReader& strain, const pipeline::Job& job,
+                                        const std::vector<double>& lives) {
+  std::vector<UnvalidatedMode> modes;
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    const std::vector<SmoothTube> tubes = tubes_of(job.dresspacks[d].dresspack);
+    if (tubes.empty()) continue;
+    const HoseMotion hose(strain, d);
+    const TightestBend bend = tightest_bend(hose);
+    // On the inner side of the bend.
+    const auto radius_of = [&](const SmoothTube& tube) { return std::max(0.0, bend.radius - tube.offset); };
+    const auto margin_of = [&](const SmoothTube& tube) { return radius_of(tube) / tube.kinks.median; };
+    const SmoothTube& worst =
+        *std::min_element(tubes.begin(), tubes.end(),
+                          [&](const auto& a, const auto& b) { return margin_of(a) < margin_of(b); });
+    const Program program(strain);
+    UnvalidatedMode& mode = modes.emplace_back();
+    mode.mode = UnvalidatedMode::kink;
+    mode.dresspack = pipeline::name_among(job, d);
+    mode.place = worst.name;
+    mode.margin = margin_of(worst);
+    std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
+    if (std::isfinite(bend.radius)) {
+      const std::vector<double> scatter =
+          pipeline::standard_normals(mode.mode + " of " + worst.name, lives.size());
+      for (std::size_t s = 0; s < own.size(); ++s)
+        if (mode.margin < std::pow(10.0, worst.kinks.log10_spread * scatter[s]))
+          own[s] = 0;  // in the first repeat
+      put_place(mode, strain, d, hose.position[bend.segment]);
+      mode.time = program.time[bend.sample];
+      program.put_sample(mode, bend.sample);
+      mode.note = fmt::format(
+          "Its tightest bend has a radius of {} mm. {} {} mm.", pipeline::readable(1e3 * radius_of(worst), 3),
+          worst.kinks.log10_spread > 0 ? "By its two diameters it kinks at" : "Its maker allows",
+          pipeline::readable(1e3 * worst.kinks.median, 3));
+    }
     set_lives(mode, std::move(own), lives, program.repeat());
   }
   return modes;
@@ -363,25 +474,32 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, bo
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
   const auto add_plain = [&](const pipeline::Component& part) {
-    const auto twisted = [](const pipeline::Rating& rating) { return rating.rig.kind == pipeline::RigKind::torsion; };
+    const auto twisted = [](const pipeline::Rating& rating) {
+      return rating.rig.kind == pipeline::RigKind::torsion;
+    };
     const auto of_twist = std::count_if(part.ratings.begin(), part.ratings.end(), twisted);
+    if (part.plain->kind == pipeline::PlainKind::hose) return add(part.name + " but for kinks");
     if (part.ratings.empty()) return add(part.name);
     if (of_twist == 0) add("twist of " + part.name);
     if (of_twist == std::ssize(part.ratings)) add("bending of " + part.name);
   };
   std::vector<std::string> bare;  // cables whose jackets have no life
   std::size_t cables = 0;
+  bool kinks = false;
   for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
     const pipeline::Dresspack& dresspack = mounted.dresspack;
-    for (const pipeline::Component& part : dresspack.components)
-      if (part.plain) add_plain(part);
+    for (const pipeline::Component* const part : parts_of(dresspack))
+      if (part->plain) add_plain(*part);
+    kinks |= is_hose(dresspack) && !is_smooth_hose(dresspack);
     if (!dresspack.core_parts.empty())
       add(dresspack.core_parts);
-    else if (dresspack.core_diameter > 0)
+    else if (dresspack.core_diameter > 0 && dresspack.core_components.empty())
       add(fmt::format("the core of {:.4g} mm", 1e3 * dresspack.core_diameter));
     if (is_hose(dresspack) && dresspack.hose_material.empty()) add(UnvalidatedMode::wall);
-    for (const pipeline::Component& part : dresspack.components) {
-      if (part.components.empty() && !(part.plain && part.plain->kind == pipeline::PlainKind::cable)) continue;
+    for (const pipeline::Component* const each : parts_of(dresspack)) {
+      const pipeline::Component& part = *each;
+      if (part.components.empty() && !(part.plain && part.plain->kind == pipeline::PlainKind::cable))
+        continue;
       ++cables;
       const bool rubs = !part.components.empty() && strain.has(work_of_jackets);
       if (!rubs || !jacket_of(dresspack, part)) bare.push_back(part.name);
@@ -391,10 +509,11 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, bo
                     std::all_of(job.dresspacks.begin(), job.dresspacks.end(),
                                 [](const auto& mounted) { return worn_of(mounted.dresspack).has_value(); });
   if (!worn) add(UnvalidatedMode::abrasion);
-  if (!bare.empty() && bare.size() == cables) add("jackets of the cables");
+  if (!bare.empty() && bare.size() == cables)
+    add("jackets of the cables");
   else
     for (const std::string& cable : bare) add("jacket of " + cable);
-  add("kinks");
+  if (kinks) add("kinks of the hose");
   if (!corkscrew) add(UnvalidatedMode::corkscrew);
   for (const char* always : {"fretting and grip at clamps", "connectors"}) add(always);
   return fmt::format("{}", fmt::join(names, ", "));

@@ -37,11 +37,17 @@ std::vector<pipeline::UnvalidatedMode> corkscrew_modes(const pipeline::FileReade
                                                        const std::vector<double>& lives,
                                                        const std::vector<std::vector<double>>& tension);
 
+/// Kinks of the smooth tubes in each dresspack and of a smooth hose (pipeline/cable/kink.h): of the tube that the tightest bend of
+/// the dresspack's axis brings nearest to its kink. A tube that kinks does so in the first repeat. lives: as above. A loose tube's own
+/// waves and coils in the hose are left out.
+std::vector<pipeline::UnvalidatedMode> kink_modes(const pipeline::FileReader& strain, const pipeline::Job& job,
+                                                  const std::vector<double>& lives);
+
 /// Percentiles of a mode's own lives and what it would change if it counted. own, lives: (sample) log10 repeats.
 /// repeat: duration of one [s].
 void set_lives(pipeline::UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives, double repeat);
 
-/// The parts and modes of the job that have no life, in words: "power cable, kinks, corkscrew, fretting and grip at clamps, connectors".
+/// The parts and modes of the job that have no life, in words: "power cable, kinks of the hose, corkscrew, fretting and grip at clamps, connectors".
 /// corkscrew: it is evaluated for all dresspacks.
 std::string not_evaluated(const pipeline::FileReader& strain, const pipeline::Job& job, bool corkscrew);
 

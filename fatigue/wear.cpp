@@ -17,7 +17,8 @@ bool is_ring(const std::string& obstacle) { return obstacle.starts_with("ring ")
 
 Counterface counterface(const std::string& obstacle) {
   if (is_ring(obstacle)) return Counterface::ring;
-  for (const Counterface one : {Counterface::floor, Counterface::dresspack, Counterface::cell, Counterface::hose})
+  for (const Counterface one :
+       {Counterface::floor, Counterface::dresspack, Counterface::cell, Counterface::hose})
     if (obstacle == word(one)) return one;
   return Counterface::robot;
 }
@@ -122,11 +123,12 @@ std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack) {
   return worn;
 }
 
-std::optional<WornMaterial> jacket_of(const pipeline::Dresspack& dresspack, const pipeline::Component& cable) {
+std::optional<WornMaterial> jacket_of(const pipeline::Dresspack& dresspack,
+                                      const pipeline::Component& cable) {
   if (!cable.jacket) return {};
   const pipeline::Material* const material = find_material(dresspack, cable.jacket->material);
   if (!material || material->wear.empty()) return {};
-  return WornMaterial{{cable.radius, cable.jacket->thickness, 0, 0}, material};
+  return WornMaterial{{cable.radius, cable.jacket->thickness, 0, 0}, material, {}};
 }
 
 const pipeline::WearRate& wear_rate(const pipeline::Material& material, const std::string& obstacle) {
@@ -145,12 +147,15 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
   const WornLayer& layer = worn.layer;
   const Grid grid(patches, 2 * layer.radius);
   const auto footprint = [&](const std::string& obstacle) {
-    const double share = is_ring(obstacle) ? at_rings : obstacle == word(Counterface::hose) ? in_hose : on_links;
+    const double share = is_ring(obstacle)                     ? at_rings
+                         : obstacle == word(Counterface::hose) ? in_hose
+                                                               : on_links;
     return grid.cells_of(share * 2 * layer.radius);
   };
   std::map<std::string, Field> fields;
   for (const RubbedPatch& patch : patches)
-    grid.add(fields[patch.obstacle], patch, wear_rate(*worn.material, patch.obstacle).rate);
+    grid.add(fields[patch.obstacle], patch,
+             worn.warm.factor * wear_rate(*worn.material, patch.obstacle).rate);
   std::vector<double> all(grid.cells * grid.sectors);
   for (auto& [obstacle, field] : fields) {
     grid.spread(field, footprint(obstacle));
@@ -190,8 +195,9 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
   worst.arc = arc[worst_arc];
   // The area goes with a power of the thickness, which is nearly the same within its spread.
   const double power = std::log2(layer.area(layer.thickness * 2, worst.arc) / through[worst_arc]);
-  worst.log10_spread =
-      std::hypot(std::log10(wear_rate(*worn.material, worst.obstacle).factor), power * thickness_spread);
+  worst.log10_spread = std::hypot(
+      std::hypot(std::log10(wear_rate(*worn.material, worst.obstacle).factor), power * thickness_spread),
+      worn.warm.log10_spread);
   return worst;
 }
 

@@ -24,7 +24,7 @@
 // would widen the worn strip by an eighth. It counts as smooth: the crests of a corrugated hose touch less than all of
 // the cable, but each wears a strip of 2 sqrt(2 r thickness), 70 % of the pitch of the shipped hose.
 //
-// Not contained: wear of the obstacle, a patch that grows along the hose, heat, dirt, cuts, running-in.
+// Not contained: wear of the obstacle, a patch that grows along the hose, heat of friction, dirt, cuts, running-in.
 #pragma once
 
 #include <array>
@@ -32,6 +32,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/cable/warmth.h"
 #include "pipeline/job/dresspack.h"
 
 namespace dresslife::fatigue {
@@ -53,6 +54,7 @@ struct WornLayer {
 struct WornMaterial {
   WornLayer layer;
   const pipeline::Material* material;  ///< of the dresspack's
+  pipeline::WarmWear warm{};           ///< factor on its rates
 };
 std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack);
 

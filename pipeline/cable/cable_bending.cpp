@@ -246,7 +246,7 @@ double polymer_bending(const Component& part) {
   if (part.components.empty()) return 0;
   if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness)
     return part.polymer_bending_stiffness;
-  return jacket_bending(part.radius);
+  return part.stiffness_factor * jacket_bending(part.radius);
 }
 
 double cable_stiffness(const Dresspack& dresspack, const Component& cable) {

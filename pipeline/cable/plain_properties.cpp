@@ -19,7 +19,7 @@ PlainProperties properties_of(const PlainPart& part, double radius) {
   const double bore = part.kind == PlainKind::hose ? part.bore.value_or(2 * usual_bore * radius) / 2 : 0;
   const double area = pi * (radius * radius - bore * bore),
                inertia = pi / 4 * (std::pow(radius, 4) - std::pow(bore, 4));
-  const double bending = part.bending_stiffness.value_or(polymer_modulus * inertia);
+  const double bending = part.bending_stiffness.value_or(part.stiffness_factor * polymer_modulus * inertia);
   const double inside = part.medium == Medium::water ? water_density * pi * bore * bore : 0;
   return {bore, bending, bending / inertia * area, polymer_density * area + inside};
 }

@@ -35,7 +35,7 @@ double polymer_of(const Dresspack& dresspack) {
     sum += part.count * (part.plain ? properties_of(*part.plain, part.radius).bending : polymer_bending(part));
     on_axis |= part.helix_radius == 0 && !part.components.empty();
   }
-  return is_hose(dresspack) || on_axis ? sum : jacket_bending(dresspack.diameter / 2);
+  return is_hose(dresspack) || on_axis ? sum : dresspack.stiffness_factor * jacket_bending(dresspack.diameter / 2);
 }
 
 bool knows_wall(const Dresspack& dresspack) {
@@ -45,7 +45,7 @@ bool knows_wall(const Dresspack& dresspack) {
 HoseStiffness wall_of(const Dresspack& dresspack) {
   const Material* const material = find_material(dresspack, dresspack.hose_material);
   if (material == nullptr || !knows_wall(dresspack)) return {};
-  const double E = material->youngs_modulus, G = E / (2 * (1 + material->poisson_ratio));
+  const double E = dresspack.stiffness_factor * material->youngs_modulus, G = E / (2 * (1 + material->poisson_ratio));
   if (!dresspack.hose_corrugation) {
     const double outer = dresspack.diameter / 2, inner = *dresspack.inner_diameter / 2;
     const double I = pi / 4 * (std::pow(outer, 4) - std::pow(inner, 4));

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "pipeline/advise/calibrate/law_tests.h"
 #include "pipeline/advise/calibrate/observations.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
@@ -18,8 +19,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Laws beside published tests: at once, without jobs.
+int validate_laws(const fs::path& file, const RunOptions& options) {
+  const StudyPlaces places{fs::path(options.out) / ("validate_" + file.stem().string()), program_folder()};
+  const std::string table = law_table(read_law_tests(file));
+  const FolderLock lock(places.folder);
+  claim_folder(places.folder, file);
+  write_text_if_changed(places.folder / "validation.md", with_mark(table, Mark::xml));
+  print(shown(table));
+  return 0;
+}
+
 int validate(const RunOptions& options) {
   const fs::path file = named_file(options.study, "observations");
+  if (holds_law_tests(file)) return validate_laws(file, options);
   const ValidationStudy validation = read_observations(file, options.sets);
   for (const Warning& warning : validation.doubts) tell(shown(warning.line() + "\n"));
   const StudyPlaces places{fs::path(options.out) / validation.study.name, program_folder()};
@@ -40,7 +53,8 @@ Command validate_command() {
   const auto options = std::make_shared<RunOptions>();
   return {"validate", "hold observed lives of cables and wires against what the model says of the same tests",
           joined({{{"observations", "", "OBSERVATIONS.yaml", &options->study, {.required = true}}},
-                  run_options(*options), study_options(*options)}),
+                  run_options(*options),
+                  study_options(*options)}),
           [options] { return validate(*options); }};
 }
 

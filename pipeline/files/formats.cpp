@@ -488,7 +488,7 @@ Format make_life_format() {
      "samples in which it fails before the wires, life_hours_p10 if it counted, segment from the tool, distance from the "
      "tool m, what rubs, place around the hose, rated or coiled cable, time s, program line, of the wall by its law the bends "
      "from straight to the limit of the bend radius, further sentences, share of the failures within the robot's life that visual checks find before (nan: not known), share of "
-     "all that fail unseen, share of the life after which a check can see it (nan: never); a maker's rating is a lower bound of a life"},
+     "all that fail unseen, share of the life after which a check can see it (nan: never), of a kink the radius of the tightest bend over that at which the tube kinks (0: another mode); a maker's rating is a lower bound of a life"},
     {"not_evaluated", text, maybe, "parts of the dresspacks and failure modes without a life"},
     {"conductor_life_hours_p10", f64, maybe,
      "by then 10 % of such dresspacks have a conductor with fatigue.failed_wires_percent of its wires broken"},

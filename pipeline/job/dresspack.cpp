@@ -202,6 +202,9 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.list("components", dresspack.components, Need::optional,
          "The parts in the hose. Without them only the motion is computed. `place: auto` instead of "
          "helix_radius_mm and phase_deg packs parts into the bore.");
+  f.list("core_components", dresspack.core_components, Need::optional,
+         "The parts in the filling of the core, instead of core_parts: hoses, which may kink, and cables with ratings, which have a life. "
+         "Stiffness and mass of the filling are those of the other keys.");
   f.list("materials", dresspack.materials, Need::optional, "Materials that are not in config/materials.");
   f.list("ratings", dresspack.ratings, Need::optional,
          "The cycles in test rigs that the maker states, of a dresspack that is one cable without a hose.");
@@ -457,6 +460,30 @@ void check_ratings(const Component& component, bool first_level) {
   for (const Component& inner : component.components) check_ratings(inner, false);
 }
 
+/// Parts of the core only have a life.
+void check_core(const Dresspack& dresspack, Problems& problems) {
+  for (const Component& part : dresspack.core_components) {
+    Laying mass_alone;
+    mass_alone.mass = part.laying.mass;
+    if (!part.plain || part.lay_angle != 0 || !(part.laying == mass_alone) || part.jacket || !part.components.empty()) {
+      problems.add(part.where, fmt::format("'{}' of core_components has more than a life", part.name),
+                   "give name, count, radius_mm, helix_radius_mm, without_wires and ratings only");
+      continue;
+    }
+    problems.attempt("", part.where, [&] { check_plain_part(*part.plain, part.radius, part.name); });
+    problems.attempt("", part.where, [&] { check_ratings(part, true); });
+    const double reach = part.helix_radius + part.radius;
+    if (!(reach <= dresspack.core_diameter / 2 * (1 + caliper_error)))
+      problems.add(part.where,
+                   fmt::format("'{}' reaches {:.4g} mm from the axis (core_diameter_mm is {:.4g})", part.name, 1e3 * reach,
+                               1e3 * dresspack.core_diameter),
+                   "check core_diameter_mm, helix_radius_mm and radius_mm");
+  }
+  if (!dresspack.core_components.empty() && !dresspack.core_parts.empty())
+    problems.add(dresspack.core_components.front().where, "both core_parts and core_components are given",
+                 "keep one of the two");
+}
+
 }  // namespace
 
 bool has_wires(const Dresspack& dresspack) { return hold_wires(dresspack.components); }
@@ -468,9 +495,10 @@ bool is_from_construction(const Dresspack& dresspack) {
 
 void drop_ratings(Dresspack& dresspack) {
   dresspack.ratings.clear();
+  dresspack.core_components.clear();
   for (Component& component : dresspack.components) {
     component.ratings.clear();
-    if (component.plain) component.plain->damage_exponent.reset();
+    if (component.plain) component.plain->damage_exponent.reset(), component.plain->least_bend_radius.reset();
   }
 }
 
@@ -490,6 +518,7 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   attempt(dresspack.where, [&] { check_ratings(dresspack.ratings, false); });
   const auto crowd = dresspack.diameter > 0 ? crowd_in(dresspack) : std::nullopt;
   if (crowd) problems.add(crowd->where, crowd->what, crowd->remedy);
+  check_core(dresspack, problems);
   for (const Component& component : dresspack.components) {
     attempt(component.where, [&] { check_ratings(component, true); });
     attempt(component.where, [&] { check_laying(dresspack, component, true); });

@@ -72,6 +72,7 @@ struct Component {
   Laying laying;                   ///< of a part of the first level that is no wire
   std::vector<Rating> ratings;     ///< of a cable
   std::optional<Sleeve> jacket;    ///< of a cable in the dresspack; absent: its wear is not evaluated
+  double stiffness_factor = 1;     ///< of jacket and insulation, by the temperature of the cell (pipeline/cable/warmth.h)
   std::vector<Component> components;
   Where where;
 };
@@ -127,6 +128,8 @@ struct Dresspack {
   std::optional<double> inner_diameter;  ///< in which parts can move [m]; absent: see inner_radius()
   double core_diameter = 0;              ///< of what fills the middle and is no component [m]
   std::string core_parts;                ///< what that is, in words; empty: not said
+  std::vector<Component> core_components;  ///< parts of it that have a life; stiffness and mass are those of the keys core_..
+  double stiffness_factor = 1;           ///< of the polymer of wall or jacket, by the temperature of the cell
   std::optional<Sleeve> sleeve;          ///< absent: abrasion wears the wall of hose_corrugation
   std::vector<Component> components;
   std::vector<Material> materials;  ///< those that the wires name, looked up in the catalogue

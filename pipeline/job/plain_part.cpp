@@ -18,6 +18,9 @@ void describe(Fields& f, PlainPart& part) {
   f.maybe_number("damage_exponent", part.damage_exponent, between(1, 20),
                  "For a cable with ratings: a bend or twist of twice the range does 2^m times the damage. Default: 5, an "
                  "ESTIMATE with a deviation of 1.5.");
+  f.maybe_number("least_bend_radius_mm", part.least_bend_radius, above(0),
+                 "The least bend radius of a hose by its maker, at its axis. A tighter bend counts as a kink. Default: the radius "
+                 "at which its wall kinks, an ESTIMATE from its two diameters.");
 }
 
 void check_plain_part(const PlainPart& part, double radius, std::string_view name) {
@@ -28,6 +31,14 @@ void check_plain_part(const PlainPart& part, double radius, std::string_view nam
   if (part.kind != PlainKind::cable && part.damage_exponent)
     throw InputError(part.where, fmt::format("'{}' is a {} and has a damage_exponent", name, word(part.kind)),
                      "set kind: cable, or leave it out");
+  if (part.kind != PlainKind::hose && part.least_bend_radius)
+    throw InputError(part.where, fmt::format("'{}' is a {} and has a least_bend_radius_mm", name, word(part.kind)),
+                     "set kind: hose, or leave it out");
+  if (part.least_bend_radius && *part.least_bend_radius < radius)
+    throw InputError(part.where,
+                     fmt::format("'{}' has least_bend_radius_mm {:.4g} (it is {:.4g} mm wide outside)", name,
+                                 1e3 * *part.least_bend_radius, 2e3 * radius),
+                     "give the radius of its axis, which is at least half its outer diameter");
   if (part.bore && *part.bore >= 2 * radius)
     throw InputError(part.where,
                      fmt::format("'{}' has bore_mm {:.4g} (it is {:.4g} mm wide outside)", name,

@@ -1,6 +1,6 @@
 // Parts of a dresspack without wires: hoses for air and water, optical fibres, fillers, and cables whose construction is
 // not known. They have mass and stiffness, take room, push cables aside and pull at the clamps. Only cables with ratings
-// have a life (fatigue/rated_cables.h).
+// have a life (fatigue/rated_cables.h); hoses kink (pipeline/cable/kink.h).
 #pragma once
 
 #include <optional>
@@ -25,6 +25,8 @@ struct PlainPart {
   Medium medium = Medium::air;              ///< that fills it
   std::optional<double> bending_stiffness;  ///< E I [N m2]; absent: of polymer
   std::optional<double> damage_exponent;    ///< m of (F31), of a cable; absent: usual_damage_exponent
+  std::optional<double> least_bend_radius;  ///< of a hose, at its axis, by its maker [m]; absent: by its wall (pipeline/cable/kink.h)
+  double stiffness_factor = 1;              ///< of its polymer, by the temperature of the cell (pipeline/cable/warmth.h)
   Where where{};
 };
 
@@ -34,7 +36,8 @@ constexpr double usual_damage_exponent = 5, damage_exponent_deviation = 1.5;
 
 void describe(Fields& f, PlainPart& part);
 
-/// Errors: InputError for a bore that does not fit, or in what is no hose, and for a damage exponent of what is no cable.
+/// Errors: InputError for a bore or a least bend radius that does not fit, or of what is no hose, and for a damage exponent of
+/// what is no cable.
 void check_plain_part(const PlainPart& part, double radius, std::string_view name);
 
 }  // namespace dresslife::pipeline

@@ -31,6 +31,12 @@ void describe(Fields& f, MeshFile& mesh) {
 }
 
 void describe(Fields& f, Cell& cell) {
+  std::optional<double> other;  // so that files of jobs at the usual one do not change
+  if (cell.temperature != Cell::usual_temperature) other = cell.temperature;
+  f.maybe_number("temperature_C", other, between(Cell::coldest, Cell::warmest),
+                 "The temperature of the dresspack. Polymers soften and wear faster when it rises; metals stay the same. Other "
+                 "temperatures are beyond the published data. Default: 23, at which most polymers are tested.");
+  cell.temperature = other.value_or(Cell::usual_temperature);
   f.list("capsules", cell.capsules, Need::optional, "Posts, pipes and round edges, in the world's frame.");
   f.list("boxes", cell.boxes, Need::optional, "Tables and cabinets, in the world's frame.");
   f.list("meshes", cell.meshes, Need::optional, "Fixtures, in the world's frame.");

@@ -35,8 +35,11 @@ struct MeshFile {
   Vector3d orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
 };
 
-/// What stands still around the robot, in the world's frame.
+/// What stands still around the robot, in the world's frame, and its air.
 struct Cell {
+  static constexpr double usual_temperature = 23;  ///< [C], of most tests of polymers (ISO 291)
+  static constexpr double coldest = 10, warmest = 60;  ///< [C], of the law in pipeline/cable/warmth.h
+  double temperature = usual_temperature;          ///< [C]
   std::vector<Capsule> capsules;
   std::vector<Box> boxes;
   std::vector<MeshFile> meshes;

@@ -29,10 +29,10 @@ std::string unvalidated_text(const std::vector<UnvalidatedMode>& modes) {
   std::string text;
   for (const UnvalidatedMode& m : modes)
     text +=
-        fmt::format("{}\t{}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.4g}\t{:.4g}\t{:.4g}\n", m.mode,
+        fmt::format("{}\t{}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.4g}\t{:.4g}\t{:.4g}\t{:.4g}\n", m.mode,
                     in_a_line(m.dresspack), m.hours[0], m.hours[1], m.hours[2], m.first_share, m.together_p10,
                     m.segment_from_tool, m.position_from_tool, in_a_line(m.place), m.time, in_a_line(m.step), m.bends_at_limit,
-                    in_a_line(m.note), m.found_share, m.unseen_share, m.visible_from);
+                    in_a_line(m.note), m.found_share, m.unseen_share, m.visible_from, m.margin);
   return text;
 }
 
@@ -58,6 +58,7 @@ std::vector<UnvalidatedMode> unvalidated_from(const std::string& text) {
     if (words.size() > 13) mode.note = words[13];
     if (words.size() > 15) mode.found_share = number_of(words[14]), mode.unseen_share = number_of(words[15]);
     if (words.size() > 16) mode.visible_from = number_of(words[16]);
+    if (words.size() > 17) mode.margin = number_of(words[17]);
   }
   return modes;
 }

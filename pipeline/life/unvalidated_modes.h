@@ -17,6 +17,7 @@ struct UnvalidatedMode {
   static constexpr const char* jacket = "jacket wear";
   static constexpr const char* rating = "maker's rating";
   static constexpr const char* corkscrew = "corkscrew";
+  static constexpr const char* kink = "kink";
 
   std::string mode;       ///< one of the above
   std::string dresspack;  ///< in which, among several; empty: the only one
@@ -35,6 +36,7 @@ struct UnvalidatedMode {
   double found_share = unknown;   ///< of what fails within the robot's life, visual checks find this before; unknown: nothing fails
   double unseen_share = unknown;  ///< of all dresspacks: they fail within the robot's life, and no check has found it
   double visible_from = unknown;  ///< share of its life after which a visual check can see it; unknown: never
+  double margin = 0;  ///< of a kink: radius of the tightest bend over that at which the tube kinks; 0: another mode
   /// By then 1 of 10 has failed by this mode; of the wall, whose scatter is not known, half.
   double early_hours() const { return std::isnan(hours[0]) ? hours[1] : hours[0]; }
   bool operator==(const UnvalidatedMode&) const = default;

@@ -343,11 +343,16 @@ std::string facts(const RankingRow& row) {
   };
   scatter("first broken wire", row.first_wire_hours);
   scatter("share of a conductor broken anywhere in it", row.conductor_hours);
+  const auto with_and_without = [&](const UnvalidatedMode& mode) {
+    if (std::isnan(mode.together_p10) || !row.planned()) return std::string();
+    return fmt::format(" (1 of 10 has failed after {} with this mode, after {} without)", printed_hours(mode.together_p10),
+                       printed_hours(row.planned_hours[0]));
+  };
   for (const UnvalidatedMode& mode : row.unvalidated) {
     const std::string of = mode.dresspack.empty() ? "" : " of " + escaped(mode.dresspack);
     const bool wall = mode.mode == UnvalidatedMode::wall;
-    if (mode.mode == UnvalidatedMode::rating || mode.mode == UnvalidatedMode::corkscrew) {
-      fact(mode.mode + of + ", unvalidated", escaped(unvalidated_words(mode)));
+    if (mode.mode == UnvalidatedMode::rating || mode.mode == UnvalidatedMode::corkscrew || mode.mode == UnvalidatedMode::kink) {
+      fact(mode.mode + of + ", unvalidated", escaped(unvalidated_words(mode)) + with_and_without(mode));
       continue;
     }
     const std::string life =
@@ -359,7 +364,8 @@ std::string facts(const RankingRow& row) {
              ? "not damaged"
              : fmt::format("{}, segment {} from the tool ({:.2f} m){}{}", life, mode.segment_from_tool, mode.position_from_tool,
                            mode.step.empty() ? "" : ", worst during '" + escaped(mode.step) + "'",
-                           mode.note.empty() ? "" : ". " + escaped(mode.note)));
+                           mode.note.empty() ? "" : ". " + escaped(mode.note)) +
+                   with_and_without(mode));
   }
   if (!row.not_evaluated.empty()) fact("not evaluated", escaped(row.not_evaluated));
   if (damaged(row)) {

@@ -61,8 +61,10 @@ void check_prescribed(const Job& job, const Node& document) {
     problems.add(where, fmt::format("{} beside {} (which says how the dresspack deforms)", what, key),
                  "leave it out");
   };
-  for (const char* other : {"robot", "cell"})
-    if (const Node* given = document.find(other)) refuse(given->where, fmt::format("{} is given", other));
+  if (const Node* robot = document.find("robot")) refuse(robot->where, "robot is given");
+  const Node* cell = document.find("cell");
+  for (const Entry& entry : cell ? cell->entries : std::vector<Entry>{})
+    if (entry.key != "temperature_C") refuse(entry.where, "cell." + entry.key + " is given");
   if (job.dresspacks.size() > 1)
     problems.add(job.motion.where,
                  fmt::format("{} deforms one dresspack (there are {})", key, job.dresspacks.size()),

@@ -1,6 +1,7 @@
 #include "pipeline/resolve/complete.h"
 
 #include "pipeline/cable/stiffness.h"
+#include "pipeline/cable/warmth.h"
 #include "pipeline/job/job_forms.h"
 #include "pipeline/resolve/plausible_job.h"
 
@@ -15,14 +16,25 @@ void take_stiffnesses(Dresspack& dresspack, const std::vector<Slip>& slip) {
   take_from_construction(dresspack);
 }
 
+void soften(std::vector<Component>& parts, double factor) {
+  for (Component& part : parts) {
+    part.stiffness_factor = factor;
+    if (part.plain) part.plain->stiffness_factor = factor;
+    soften(part.components, factor);
+  }
+}
+
 /// strain.gate of a job with a rig that names none: above the rounding of strains in single precision (W26).
 constexpr double gate_of_rigs = 1e-6;
 
 }  // namespace
 
 void complete_job(Job& job, const Node& document, Problems& problems) {
+  const double softer = stiffness_at(job.cell.temperature);
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     MountedDresspack& mounted = job.dresspacks[d];
+    mounted.dresspack.stiffness_factor = softer;
+    soften(mounted.dresspack.components, softer);
     const std::string path = forms_of(job).one ? "" : fmt::format("dresspacks[{}].", d + 1);
     if (!problems.touch("robot") && !problems.touch(path + "routing"))
       problems.attempt(path + "routing", mounted.routing.where,

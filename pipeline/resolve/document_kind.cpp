@@ -18,6 +18,7 @@ constexpr KeyOfKind known[] = {
     {DocumentKind::job, "dresspacks", "job", "give it to dresslife run, check or preview"},
     {DocumentKind::observations, "observations", "list of observations",
      "give it to dresslife calibrate or validate"},
+    {DocumentKind::observations, "law_tests", "list of observations", "give it to dresslife validate"},
     {DocumentKind::duties, "duties", "file of duties", "give it to dresslife duty or plan --duties"},
     {DocumentKind::dresspack, "components", "dresspack",
      "name it in a job, after 'dresspack:', or give it to dresslife draw or rate"},

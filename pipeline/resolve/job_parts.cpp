@@ -87,6 +87,21 @@ void describe(Fields& echo, RatedKeys& keys) {
   echo.list("ratings", keys.ratings, Need::required, "");
 }
 
+/// Of a hose that may kink.
+struct KinkKeys {
+  std::string name;
+  double radius = 0, helix_radius = 0;
+  PlainPart plain;
+};
+
+void describe(Fields& echo, KinkKeys& keys) {
+  echo.text("name", keys.name, Need::required, "");
+  echo.number("radius_mm", keys.radius, Need::required, any_number(), "");
+  echo.number("helix_radius_mm", keys.helix_radius, Need::required, any_number(), "");
+  echo.maybe_number("bore_mm", keys.plain.bore, any_number(), "");
+  echo.maybe_number("least_bend_radius_mm", keys.plain.least_bend_radius, any_number(), "");
+}
+
 /// Of a cable whose jacket may wear.
 struct JacketKeys {
   std::string name;
@@ -122,7 +137,12 @@ void describe(Fields& echo, FatigueKeys& keys) {
   for (const Component& part : dresspack.components)
     if (part.jacket) jackets.push_back({part.name, *part.jacket});
   if (!jackets.empty()) echo.list("jackets", jackets, Need::optional, "");
+  std::vector<KinkKeys> hoses;
+  for (const Component& part : dresspack.components)
+    if (part.plain && part.plain->kind == PlainKind::hose) hoses.push_back({part.name, part.radius, part.helix_radius, *part.plain});
+  if (!hoses.empty()) echo.list("hoses", hoses, Need::optional, "");
   if (!dresspack.core_parts.empty()) echo.text("core_parts", dresspack.core_parts, Need::optional, "");
+  if (!dresspack.core_components.empty()) echo.list("core_components", dresspack.core_components, Need::optional, "");
 }
 
 /// As in the job: the only one's keys stand alone, those of several in a list.
@@ -143,6 +163,11 @@ void count_as_numbers(Dresspack& dresspack) {
   dresspack.construction_state = untold.construction_state;
   if (dresspack.bending_friction.empty()) dresspack.construction_curvature = untold.construction_curvature;
   dresspack.core_bending_stiffness = dresspack.core_torsional_stiffness = dresspack.core_axial_stiffness = {};
+}
+
+/// Of strain and fatigue; the usual one leaves their texts as they were.
+void describe_temperature(Fields& echo, Cell& cell) {
+  if (cell.temperature != Cell::usual_temperature) echo.number("temperature_C", cell.temperature, Need::optional, any_number(), "");
 }
 
 void describe_sim(Fields& echo, Job copy) {
@@ -172,6 +197,7 @@ void describe_sim(Fields& echo, Job copy) {
   } else {
     echo.list("dresspacks", copy.dresspacks, Need::required, "");
   }
+  copy.cell.temperature = Cell::usual_temperature;  // the stiffnesses contain it
   echo.group("cell", copy.cell, Need::optional, "");
   echo.group("simulation", copy.simulation, Need::optional, "");
 }
@@ -183,6 +209,7 @@ void describe_strain(Fields& echo, Job copy) {
     keys.push_back(StrainKeys(mounted));
   }
   describe_each(echo, forms_of(copy), keys);
+  describe_temperature(echo, copy.cell);
   echo.group("strain", copy.strain, Need::optional, "");
   double clamped = clamped_length(copy);  // of the rig
   echo.number("clamped_length_m", clamped, Need::optional, any_number(), "");
@@ -193,6 +220,7 @@ void describe_fatigue(Fields& echo, Job copy) {
   std::vector<FatigueKeys> keys;
   for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted});
   describe_each(echo, forms_of(copy), keys);
+  describe_temperature(echo, copy.cell);
   echo.group("fatigue", copy.fatigue, Need::optional, "");
   echo.group("inspection", copy.inspection, Need::optional, "");
   echo.group("uncertainty", copy.uncertainty, Need::optional, "");

@@ -45,6 +45,7 @@ constexpr std::array units{
     Unit{"m", "m", 1, 1e3},  // a hall
     Unit{"mm", "mm", 1e-3, 1e6},
     Unit{"mm2", "mm2", 1e-6, 1e12},
+    Unit{"mm3", "mm3", 1e-9, 1e9},
     Unit{"deg", "deg", degree, 1e6},          // 2,800 turns of an endless axis
     Unit{"deg_per_s", "deg/s", degree, 1e5},  // a grinding spindle
     Unit{"deg_per_s2", "deg/s2", degree, 1e7},
@@ -68,6 +69,7 @@ constexpr std::array units{
     Unit{"MPa", "MPa", 1e6, 1e7},
     Unit{"GPa", "GPa", 1e9, 1e4},  // diamond: 1e3
     Unit{"mm3_per_Nm", "mm3/(N m)", 1e-9, 1e3},  // abrasive cloth: 0.1
+    Unit{"C", "C", 1, 1e4},
     Unit{"MB", "MB", 1e6, 1e7},
     Unit{"percent", "%", 1, 1e6},
     Unit{"hours_per_week", "h/week", 1, 168},

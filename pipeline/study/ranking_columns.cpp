@@ -85,6 +85,7 @@ class Table {
                 [i = i](const RankingRow& row) { return std::isfinite(row.planned_errors[i]); },
                 [i = i](const RankingRow& row) { return row.planned_errors[i]; }));
     add_corkscrew_and_ends();
+    add_kink();
   }
   std::vector<RankingColumn> columns;
 
@@ -151,6 +152,16 @@ class Table {
                 [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
     add(of("strain_relief_share", "1", "largest pull of a cable at a clamp over what EN 50262 asks a strain relief of type A to hold",
            &RankingRow::strain_relief_share));
+  }
+
+  void add_kink() {
+    constexpr const char* kink = UnvalidatedMode::kink;
+    add(of_mode("kink_margin", "1", "radius of the tightest bend over that at which a tube in the dresspack kinks; below 1 it kinks", kink,
+                [](const UnvalidatedMode& mode) { return mode.margin; }));
+    add(of_mode("kink_share", "1", "share of such tubes that kink", kink, [](const UnvalidatedMode& mode) { return mode.first_share; }));
+    add(of_mode("kink_of", "text", "the tube that is nearest to its kink", kink, [](const UnvalidatedMode& mode) { return mode.place; }));
+    add(of_mode("kink_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", kink,
+                [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
   }
 
   void add_jacket() {

@@ -95,6 +95,9 @@ std::string inspection_words(const RankingRow& row) {
   if (mode->mode == UnvalidatedMode::corkscrew)
     return fmt::format("Twist may wind {} into a corkscrew in the hose, {}, after {} (not validated): inspect it there.", mode->place,
                        place, range_text(mode->hours[0], mode->hours[2]));
+  if (mode->mode == UnvalidatedMode::kink)
+    return fmt::format("{} may kink in the hose, {}. {} Enlarge the bend radius there, or take a tube with a thicker wall.", mode->place, place,
+                       mode->note);
   return fmt::format("{} may come before, {}, after {} (not validated): inspect it there.", mode->mode, place,
                      hours_text(mode->early_hours()));
 }
@@ -116,6 +119,16 @@ std::string corkscrew_words(const UnvalidatedMode& mode, const std::string& of) 
                                    "tool, at {:.1f} s{}.",
                                    of, life, mode.place, mode.position_from_tool, mode.time,
                                    mode.step.empty() ? "" : ", during '" + mode.step + "'"),
+                       mode.note});
+}
+
+std::string kink_words(const UnvalidatedMode& mode, const std::string& of) {
+  if (!std::isfinite(mode.margin)) return fmt::format("Kinks{}: nothing bends.", of);
+  const std::string life = mode.first_share > 0 ? fmt::format("{:.0f} % of such tubes kink.", 100 * mode.first_share) : "None kinks.";
+  return joined_words({fmt::format("Kinks{} of smooth tubes are not in the hours above. {} Nearest to it is {}, {:.2f} m from the tool, at "
+                                   "{:.1f} s{}, with {} times the radius of a kink.",
+                                   of, life, mode.place, mode.position_from_tool, mode.time,
+                                   mode.step.empty() ? "" : ", during '" + mode.step + "'", readable(mode.margin, 2)),
                        mode.note});
 }
 
@@ -254,6 +267,7 @@ std::string unvalidated_words(const UnvalidatedMode& mode) {
                        unvalidated_life(mode.hours[1]));
   if (mode.mode == UnvalidatedMode::rating) return joined_words({rating_words(mode, of), mode.note});
   if (mode.mode == UnvalidatedMode::corkscrew) return corkscrew_words(mode, of);
+  if (mode.mode == UnvalidatedMode::kink) return kink_words(mode, of);
   const bool jacket = mode.mode == UnvalidatedMode::jacket;
   if (mode.place.empty())
     return jacket ? fmt::format("Jacket wear{}: no cable rubs in the hose.", of)

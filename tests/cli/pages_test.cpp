@@ -75,6 +75,7 @@ const std::map<std::string, std::string> instead{
      "not run"},  // its page comes before the one that makes strain.h5
     {"dresslife validate config/observations/published.yaml", "dresslife validate two_published.yaml"},
     {"dresslife validate config/observations/ratings.yaml", "not run"},  // as the file before
+    {"dresslife validate config/observations/laws.yaml", "dresslife validate CONFIG/observations/laws.yaml"},
     {"dresslife rate control_cable --set calibration=config/observations/typical_cables.yaml",
      "dresslife rate control_cable --set calibration=CONFIG/observations/typical_cables.yaml"},
     {"dresslife calibrate your_cable", "dresslife calibrate your_cable"},

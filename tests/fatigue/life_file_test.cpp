@@ -18,6 +18,7 @@
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/cable_force.h"
+#include "pipeline/cable/kink.h"
 #include "pipeline/cable/polymer.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/life_response.h"
@@ -1000,7 +1001,7 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   {  // neither a thickness nor contacts
     const FileReader none(run(folder, f, job, "none.h5").file, pipeline::life_format());
     CHECK(modes_of(none).empty());
-    CHECK(names_in(none) == "abrasion, jackets of the cables, kinks, corkscrew, fretting and grip at clamps, connectors");
+    CHECK(names_in(none) == "abrasion, jackets of the cables, corkscrew, fretting and grip at clamps, connectors");
   }
   pipeline::Material polymer;
   polymer.name = "polymer";
@@ -1013,7 +1014,7 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   const FileReader life(result.file, pipeline::life_format());
   const auto modes = modes_of(life);
   REQUIRE(modes.size() == 1);
-  CHECK(names_in(life) == "water hose, jackets of the cables, kinks, corkscrew, fretting and grip at clamps, connectors");
+  CHECK(names_in(life) == "water hose, jackets of the cables, corkscrew, fretting and grip at clamps, connectors");
   CHECK(modes[0].place == "link_4");
   CHECK(modes[0].position_from_tool == Approx(0.35));
   CHECK(modes[0].segment_from_tool == 1);  // the last of 0.4 m
@@ -1175,4 +1176,76 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
   const double ratio = (1 / 0.11) / 5;  // the rig bends the axis
   CHECK(modes[0].hours[1] == Approx(hours(1e6 * std::pow(ratio, 5), duration)).epsilon(strata));
   CHECK(std::log10(modes[0].hours[2] / modes[0].hours[0]) == Approx(2 * 1.28155 * 1.5 * std::log10(ratio)).epsilon(strata));
+}
+
+TEST_CASE("life.h5: a smooth tube kinks where the tightest bend passes its radius, in the share of tubes that kink there") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;
+  pipeline::Component tube;
+  tube.name = "air hose", tube.radius = 0.005, tube.helix_radius = 0.01;
+  tube.plain.emplace().kind = pipeline::PlainKind::hose;
+  tube.plain->bore = 0.008;
+  dresspack.core_diameter = 0.03;
+  dresspack.core_components = {tube};
+  dresspack.core_components[0].name = "water hose";
+  dresspack.core_components[0].plain->bore = 0.006;  // thicker, so that the other one is nearer
+  StrainFile f = example();
+  const double kinks_at = pipeline::kink_radius(pipeline::Tube{0.01, 0.008}).median;
+  const auto kink_of = [&](const FileReader& life) {
+    auto modes = pipeline::unvalidated_from(life.text_attribute("unvalidated_modes"));
+    std::erase_if(modes, [](const auto& mode) { return mode.mode != pipeline::UnvalidatedMode::kink; });
+    REQUIRE(modes.size() == 1);
+    return modes[0];
+  };
+  {  // the axis of the tube is 10 mm nearer to the centre of the bend
+    f.curvature = 1 / (2 * kinks_at + 0.01);
+    dresspack.components.push_back(tube);
+    const FileReader life(run(folder, f, job, "wide.h5").file, pipeline::life_format());
+    const auto wide = kink_of(life);
+    CHECK(wide.place == "air hose");
+    CHECK(wide.margin == Approx(2).epsilon(1e-3));  // four figures in the text
+    CHECK(wide.time == Approx(0.2 * duration));
+    CHECK(std::isinf(wide.hours[0]));
+    CHECK(wide.first_share == Approx(0.0013).margin(2e-4));  // of a factor of 2 in 3.01 deviations of 0.1, of 10,000 strata
+    CHECK_THAT(life.text_attribute("not_evaluated"), Catch::StartsWith("air hose but for kinks, water hose but for kinks, abrasion"));
+  }
+  f.curvature = 1 / (kinks_at + 0.01);
+  const auto near = kink_of(FileReader(run(folder, f, job, "near.h5").file, pipeline::life_format()));
+  CHECK(near.first_share == Approx(0.5).margin(1e-3));
+  CHECK(near.hours[0] == Approx(hours(1, duration)));
+  CHECK(std::isinf(near.hours[2]));
+  dresspack.components.back().plain->least_bend_radius = 1.01 * kinks_at;
+  const auto limited = kink_of(FileReader(run(folder, f, job, "limited.h5").file, pipeline::life_format()));
+  CHECK(limited.first_share == 1);
+  CHECK_THAT(limited.note, Catch::Contains("Its maker allows"));
+  f.curvature = 50;  // tighter than the place of the tube allows
+  CHECK(kink_of(FileReader(run(folder, f, job, "folded.h5").file, pipeline::life_format())).first_share == 1);
+  f.curvature = 0;
+  const auto straight = kink_of(FileReader(run(folder, f, job, "straight.h5").file, pipeline::life_format()));
+  CHECK(std::isinf(straight.margin));
+  CHECK(straight.first_share == 0);
+}
+
+TEST_CASE("life.h5: surfaces wear faster in a warm cell, and as before at 23 C") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;
+  dresspack.diameter = 0.05;
+  pipeline::Material polymer;
+  polymer.name = "polymer";
+  polymer.wear = {{pipeline::Counterface::robot, 1e-14, 5, "test"}};
+  dresspack.materials.push_back(polymer);
+  dresspack.sleeve = pipeline::Sleeve{2e-3, "polymer", {}};
+  StrainFile f = example();
+  f.rubbed = {{0.65, 1e4, 20}};
+  const auto life_at = [&](double temperature) {
+    job.cell.temperature = temperature;
+    const FileReader life(run(folder, f, job, "warm.h5").file, pipeline::life_format());
+    return pipeline::unvalidated_from(life.text_attribute("unvalidated_modes")).at(0).hours;
+  };
+  const auto usual = life_at(23), warm = life_at(43);
+  constexpr double strata = 1e-3;  // 10,000 samples
+  CHECK(usual[1] / warm[1] == Approx(std::exp(0.0175 * 20)).epsilon(strata));
+  CHECK(warm[2] / warm[0] > usual[2] / usual[0]);
 }

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double unasked = -1e3;  // of a limit that is not set: far from it, and finite for the models
 
-enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable, abrasion, wall, rating, jacket, corkscrew, bracket };
+enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable, abrasion, wall, rating, jacket, corkscrew, kink, bracket };
 static_assert(bracket == bracket_limit);
 
 void see(Outcome& outcome, Limit limit, double g) {
@@ -37,19 +37,21 @@ struct ModeLimit {
   const char* key;
   const char* mode;
   Limit limit;
-  std::optional<double> AskedLimits::*hours;
+  std::optional<double> AskedLimits::*least;
+  double value(const UnvalidatedMode& of) const { return limit == kink ? of.margin : of.early_hours(); }
 };
-constexpr std::array<ModeLimit, 5> mode_limits{
+constexpr std::array<ModeLimit, 6> mode_limits{
     {{"abrasion_life_h", UnvalidatedMode::abrasion, abrasion, &AskedLimits::abrasion},
      {"wall_life_h", UnvalidatedMode::wall, wall, &AskedLimits::wall},
      {"rating_life_h", UnvalidatedMode::rating, rating, &AskedLimits::rating},
      {"jacket_life_h", UnvalidatedMode::jacket, jacket, &AskedLimits::jacket},
-     {"corkscrew_life_h", UnvalidatedMode::corkscrew, corkscrew, &AskedLimits::corkscrew}}};
+     {"corkscrew_life_h", UnvalidatedMode::corkscrew, corkscrew, &AskedLimits::corkscrew},
+     {"kink_margin", UnvalidatedMode::kink, kink, &AskedLimits::kink}}};
 
 void see_modes(Outcome& outcome, const RankingRow& row, const AskedLimits& asked) {
   for (const ModeLimit& of : mode_limits)
     for (const UnvalidatedMode& mode : row.unvalidated)
-      if (asked.*of.hours && mode.mode == of.mode) see(outcome, of.limit, log_ratio(*(asked.*of.hours), mode.early_hours()));
+      if (asked.*of.least && mode.mode == of.mode) see(outcome, of.limit, log_ratio(*(asked.*of.least), of.value(mode)));
 }
 
 /// Less slack than asked for, as a share of the length. Its limit is a share of the length, too: so the
@@ -82,7 +84,7 @@ const std::vector<std::string>& outcome_limit_names() {
       "bend radius", "twist",         "too short",           "too long",
       "tension",     "contact force", "retraction's stroke", "forces in cables",
       "abrasion",    "hose's wall",   "maker's rating",      "jacket wear",
-      "corkscrew",   "bracket"};
+      "corkscrew",   "kink",          "bracket"};
   return names;
 }
 
@@ -143,7 +145,7 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
 
 void check_evaluated(const AskedLimits& asked, const RankingRow& row) {
   for (const ModeLimit& of : mode_limits)
-    if (asked.*of.hours && row.done() && !row.unvalidated_mode(of.mode))
+    if (asked.*of.least && row.done() && !row.unvalidated_mode(of.mode))
       throw InputError(asked.where, fmt::format("{} is a limit of '{}', which is not evaluated", of.key, of.mode),
                        fmt::format("leave it out, or give the dresspack what it needs{}",
                                    row.not_evaluated.empty() ? "" : " (all that is not evaluated: " + row.not_evaluated + ")"));
@@ -160,6 +162,7 @@ void describe(Fields& f, AskedLimits& limits) {
   f.maybe_number("rating_life_h", limits.rating, above(0), "least hours of motion that makers' ratings cover in 9 of 10 samples");
   f.maybe_number("jacket_life_h", limits.jacket, above(0), least);
   f.maybe_number("corkscrew_life_h", limits.corkscrew, above(0), least);
+  f.maybe_number("kink_margin", limits.kink, above(0), "least radius of a bend, over that at which a tube in the dresspack kinks");
 }
 
 Outcome worst_of(const std::vector<Outcome>& jobs) {

@@ -18,6 +18,7 @@ struct AskedLimits {
   std::optional<double> tension;        ///< largest of the hose [N]
   /// Least hours until 1 of 10 has failed by a mode that the planner's hours leave out; of the wall, half [h].
   std::optional<double> abrasion, wall, rating, jacket, corkscrew;
+  std::optional<double> kink;  ///< least UnvalidatedMode::margin
   Where where;
 };
 void describe(Fields& f, AskedLimits& limits);
@@ -27,7 +28,7 @@ void check_evaluated(const AskedLimits& asked, const RankingRow& row);
 
 /// The limits, in the order of Outcome::beyond. Relative: as logarithm of a ratio, or as share of the length or
 /// diameter. The last one, (V7) of the bracket, comes from geometry (screened.h), not from a run.
-inline constexpr int outcome_limits = 14;
+inline constexpr int outcome_limits = 15;
 const std::vector<std::string>& outcome_limit_names();
 
 inline constexpr std::size_t bracket_limit = outcome_limits - 1;

@@ -33,6 +33,8 @@ std::string inspection(const DutyResult& duty, double hours) {
     return fmt::format(" A cable's jacket{} may wear through in the hose after {}: inspect it.", of, after);
   if (first->mode == UnvalidatedMode::corkscrew)
     return fmt::format(" Cables{} may wind into a corkscrew after {}: inspect them.", of, after);
+  if (first->mode == UnvalidatedMode::kink)
+    return fmt::format(" A tube in the hose{} may kink (not validated): see the job's page.", of);
   return fmt::format(" The hose{} may {} after {}: inspect it.", of,
                      first->mode == UnvalidatedMode::wall ? "crack" : "wear through", after);
 }
@@ -49,6 +51,8 @@ std::string other_words(const DutyMode& mode) {
     return fmt::format("1 of 10 dresspacks{} has a jacket worn through in the hose after {}", of, hours);
   if (mode.mode == UnvalidatedMode::corkscrew)
     return fmt::format("1 of 10 dresspacks{} has a corkscrew after {}", of, hours);
+  if (mode.mode == UnvalidatedMode::kink)
+    return std::isinf(mode.hours) ? fmt::format("no tube{} kinks in 9 of 10 dresspacks", of) : fmt::format("a tube{} kinks", of);
   return fmt::format("1 of 10 hoses{} is worn through after {}", of, hours);
 }
 

@@ -420,3 +420,48 @@ TEST_CASE("stiffness: a given one is warned of beyond its limits, and not up to 
       CHECK(stiffness_warnings(one).size() == (warned ? 1 : 0));
     }
 }
+
+TEST_CASE("stiffness: a warm cell softens polymers and not copper, and 23 C changes nothing") {
+  const std::string wall = "dresspack.hose_material=hose_polyamide",
+                    profile = "dresspack.hose_corrugation={pitch_mm: 5, height_mm: 4.5, wall_mm: 0.8}",
+                    words = "dresspack.bending_stiffness_Nm2=from_construction", sliding = "dresspack.construction_state=sliding";
+  const auto at = [&](const std::string& temperature) { return job_with({words, wall, profile, sliding, "cell.temperature_C=" + temperature}); };
+  const Job usual = job_with({words, wall, profile, sliding}), same = at("23"), warm = at("43"), cold = at("10");
+  const auto bending = [](const Job& job) { return job.dresspacks[0].dresspack.bending_stiffness; };
+  for (const JobPart part : {JobPart::sim, JobPart::strain, JobPart::fatigue}) CHECK(part_text(same, part) == part_text(usual, part));
+  // Nearly all of the sliding stiffness is of polymer: six wires of 0.2 mm in three cables bend with 3 x 6 x 1e-5 N m2 at most.
+  const double softer = std::exp(-0.0175 * 20), copper = 18 * copper_modulus * pi / 4 * std::pow(1e-4, 4);
+  CHECK(bending(warm) < bending(usual));
+  CHECK(bending(warm) == Approx(softer * bending(usual)).margin(10 * copper));
+  CHECK(bending(cold) > bending(usual));
+  CHECK(bending(job_from(parse_yaml(job_text(warm), "again.yaml"))) == bending(warm));
+  CHECK(part_text(warm, JobPart::sim) != part_text(usual, JobPart::sim));
+  CHECK(part_text(warm, JobPart::fatigue) != part_text(usual, JobPart::fatigue));
+  for (const char* beyond : {"9.9", "61", "-5", "1e9", "nan"}) CHECK_THROWS_WITH(at(beyond), Contains("temperature_C"));
+  // A stiffness that is a number stays.
+  const auto given = [](const std::string& temperature) { return job_with({"cell.temperature_C=" + temperature}); };
+  CHECK(bending(given("50")) == bending(given("23")));
+}
+
+TEST_CASE("stiffness: parts of the core add none, and what does not fit into it is refused") {
+  const auto with = [](const std::string& part) {
+    return job_with({"dresspack.core_diameter_mm=20", "dresspack.core_components=[" + part + "]"});
+  };
+  const std::string hose = "{name: water hose, count: 2, radius_mm: 4, helix_radius_mm: 5, without_wires: {kind: hose, bore_mm: 6}}";
+  const Job job = with(hose), none = job_with({"dresspack.core_diameter_mm=20"});
+  CHECK(part_text(job, JobPart::sim) == part_text(none, JobPart::sim));
+  CHECK(part_text(job, JobPart::strain) == part_text(none, JobPart::strain));
+  CHECK(part_text(job, JobPart::fatigue) != part_text(none, JobPart::fatigue));
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "again.yaml"))) == job_text(job));
+  CHECK_THROWS_WITH(with("{name: water hose, radius_mm: 4, helix_radius_mm: 7, without_wires: {kind: hose}}"),
+                    Contains("reaches 11 mm from the axis (core_diameter_mm is 20)"));
+  CHECK_THROWS_WITH(with("{name: cable, radius_mm: 4, helix_radius_mm: 0, components: [{name: wire, radius_mm: 1, helix_radius_mm: 0, "
+                         "material: copper}]}"),
+                    Contains("has more than a life"));
+  CHECK_THROWS_WITH(with("{name: fibre, radius_mm: 4, helix_radius_mm: 0, without_wires: {kind: fibre, least_bend_radius_mm: 50}}"),
+                    Contains("least_bend_radius_mm"));
+  CHECK_THROWS_WITH(with("{name: hose, radius_mm: 4, helix_radius_mm: 0, without_wires: {kind: hose, least_bend_radius_mm: 3}}"),
+                    Contains("least_bend_radius_mm 3 (it is 8 mm wide outside)"));
+  CHECK_THROWS_WITH(job_with({"dresspack.core_diameter_mm=20", "dresspack.core_parts=a hose", "dresspack.core_components=[" + hose + "]"}),
+                    Contains("both core_parts and core_components"));
+}

@@ -430,6 +430,29 @@ TEST_CASE("ranking: a corkscrew has words and columns, also if none occurs") {
   CHECK_THAT(unvalidated_words(coil), Catch::Contains(". None occurs. Nearest to it is signal cable 2") && Catch::EndsWith(coil.note));
 }
 
+TEST_CASE("ranking: a kink has words and columns, also if none occurs") {
+  const Scratch scratch;
+  UnvalidatedMode kink;
+  kink.mode = UnvalidatedMode::kink, kink.hours = {0.01, 0.01, infinity}, kink.first_share = 0.7, kink.together_p10 = 0.01;
+  kink.position_from_tool = 0.4, kink.place = "air hose", kink.time = 2, kink.margin = 0.88;
+  kink.note = "Its tightest bend has a radius of 25 mm. By its two diameters it kinks at 28.5 mm.";
+  SampleLife life = living(12000);
+  life.planned_hours = 1e5, life.robot_life_hours = 40000, life.unvalidated = unvalidated_text({kink});
+  const auto rows = read_ranking({job_with(scratch, "kinked", life)});
+  CHECK_THAT(action_words(rows[0]), Catch::Contains("air hose may kink in the hose, 0.40 m from the tool. Its tightest bend has"));
+  CHECK(unvalidated_words(rows[0]) ==
+        "Kinks of smooth tubes are not in the hours above. 70 % of such tubes kink. Nearest to it is air hose, 0.40 m from the tool, at "
+        "2.0 s, with 0.88 times the radius of a kink. " + kink.note);
+  const auto table = read_csv(ranking_csv(rows));
+  const auto column = std::find(table[0].begin(), table[0].end(), "kink_margin");
+  REQUIRE(column != table[0].end());
+  CHECK(table[1].at(static_cast<std::size_t>(column - table[0].begin())) == "0.88");
+  kink.first_share = 0, kink.margin = 8;
+  CHECK_THAT(unvalidated_words(kink), Catch::Contains("None kinks.") && Catch::Contains("with 8.0 times the radius"));
+  kink.margin = infinity, kink.note.clear();
+  CHECK(unvalidated_words(kink) == "Kinks: nothing bends.");
+}
+
 TEST_CASE("ranking: ratings have words and columns, and the first action names a rating that may end first") {
   const Scratch scratch;
   UnvalidatedMode rated;

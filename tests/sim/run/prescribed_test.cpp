@@ -194,7 +194,7 @@ TEST_CASE("prescribed: a rig that cannot be is refused with what to do") {
   const std::string twist = "kind: torsion, twist_deg_per_m: 90";
   CHECK(refused(twist, "robot: abb_irb2600_12_165\n").find("robot is given beside motion.rig") !=
         std::string::npos);
-  CHECK(refused(twist, "cell: {boxes: []}\n").find("cell is given beside motion.rig") != std::string::npos);
+  CHECK(refused(twist, "cell: {boxes: []}\n").find("cell.boxes is given beside motion.rig") != std::string::npos);
   CHECK(refused(twist, "routing: {free_length_m: 2}\n").find("routing is given beside motion.rig") !=
         std::string::npos);
 }

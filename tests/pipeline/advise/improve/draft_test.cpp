@@ -205,6 +205,12 @@ TEST_CASE(
   asked.corkscrew = 200;
   CHECK(outcome_of(row, folder, asked).words() == "corkscrew passed by 0.69");
   row.unvalidated.pop_back(), asked.corkscrew.reset();
+  row.unvalidated.push_back(mode(UnvalidatedMode::kink, endless, endless));
+  row.unvalidated.back().margin = 1.5, asked.kink = 3;
+  CHECK(outcome_of(row, folder, asked).words() == "kink passed by 0.69");
+  row.unvalidated.back().margin = endless;  // nothing bends
+  CHECK(outcome_of(row, folder, asked).violation() == 0);
+  row.unvalidated.pop_back(), asked.kink.reset();
   row.unvalidated[0].hours.fill(endless), row.unvalidated[1].hours.fill(endless);
   asked.rating = 1e5;
   CHECK(outcome_of(row, folder, asked).violation() == 0);
