@@ -1,4 +1,5 @@
 // Jobs without a routing, and dresspacks in another size.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include "pipeline/advise/improve/draft.h"
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/scaled.h"
+#include "pipeline/advise/improve/screened.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/files/receipt.h"
@@ -20,7 +22,8 @@ namespace {
 
 /// The folder of a job whose simulation noted these lines of checks.
 std::filesystem::path job_with(const Scratch& scratch, const std::string& checks) {
-  const std::filesystem::path output = scratch.write("job/motion.h5", "what the receipt is of"), folder = output.parent_path();
+  const std::filesystem::path output = scratch.write("job/motion.h5", "what the receipt is of"),
+                              folder = output.parent_path();
   const std::filesystem::path receipt = folder / files_of_stage(0).receipt;
   std::filesystem::create_directories(receipt.parent_path());
   Receipt made;
@@ -97,8 +100,9 @@ TEST_CASE("the worst of several jobs has the least life and the most of each lim
   RankingRow failed;
   failed.failure = "job.yaml: error: routing.free_length_m is too short; make it longer";
   CHECK_FALSE(outcome_of(failed, "nowhere").feasible());
-  for (const std::string other : {"motion.h5: error: cannot be written (No space left on device); free space, then run again",
-                                  "dresslife-sim ended without a word (killed, or out of memory?)"}) {
+  for (const std::string other :
+       {"motion.h5: error: cannot be written (No space left on device); free space, then run again",
+        "dresslife-sim ended without a word (killed, or out of memory?)"}) {
     failed.failure = other;
     CHECK_THROWS_AS(outcome_of(failed, "nowhere"), MachineFault);
   }
@@ -107,16 +111,44 @@ TEST_CASE("the worst of several jobs has the least life and the most of each lim
   CHECK_THROWS_AS(outcome_of(lost, "nowhere"), MachineFault);
 }
 
+TEST_CASE("pieces of the bend radius join those that are there, and other limits keep theirs") {
+  const std::vector<std::string>& names = outcome_limit_names();
+  const auto bend =
+      static_cast<std::size_t>(std::find(names.begin(), names.end(), "bend radius") - names.begin());
+  std::vector<std::vector<double>> pieces;
+  add_bends(pieces, {0.1, -0.2});
+  REQUIRE(pieces.size() > bend);
+  CHECK(pieces[bend] == std::vector<double>{0.1, -0.2});
+  pieces.resize(bend + 3, {7});
+  add_bends(pieces, {0.3});
+  REQUIRE(pieces.size() == bend + 3);
+  CHECK(pieces[bend] == std::vector<double>{0.1, -0.2, 0.3});
+  CHECK(pieces[bend + 2] == std::vector<double>{7});
+}
+
+TEST_CASE("of a screened candidate the violated limits are named, each with its own share") {
+  ScreenedList list;
+  list.limits = {"too short", "bracket", "twisted too far"};
+  CHECK(list.words({"", "", true, {0.25, -1, 0.5}}) == "too short by 0.25, twisted too far by 0.50");
+  CHECK(list.words({"", "", false, {-0.25, 0, -0.5}}) == "");
+  CHECK(ScreenedCandidate{"", "", true, {0.25, -1, 0.5}}.violation() == 0.75);
+}
+
 TEST_CASE("a check counts as passed on the far side of its limit, and as kept on the near side") {
   struct {
     const char* name;
     double value, limit, beyond;  // its limit alone is passed by that much; 0: kept
   } const cases[] = {
-      {check_name::bend_radius, 0.2, 0.25, std::log(1.25)}, {check_name::bend_radius, 0.3, 0.25, 0},
-      {check_name::twist, 3.6, 3, 0.2},                     {check_name::twist, -3.6, 3, 0.2},
-      {check_name::twist, -2.4, 3, 0},                      {check_name::tension, 50, 40, std::log(1.25)},
-      {check_name::tension, 30, 40, 0},                     {check_name::contact_force, 50, 40, std::log(50 / 45.0)},
-      {check_name::contact_force, 43, 40, 0},               {check_name::travel, 0.5, 0.4, 0.25},
+      {check_name::bend_radius, 0.2, 0.25, std::log(1.25)},
+      {check_name::bend_radius, 0.3, 0.25, 0},
+      {check_name::twist, 3.6, 3, 0.2},
+      {check_name::twist, -3.6, 3, 0.2},
+      {check_name::twist, -2.4, 3, 0},
+      {check_name::tension, 50, 40, std::log(1.25)},
+      {check_name::tension, 30, 40, 0},
+      {check_name::contact_force, 50, 40, std::log(50 / 45.0)},
+      {check_name::contact_force, 43, 40, 0},
+      {check_name::travel, 0.5, 0.4, 0.25},
       {check_name::travel, 0.39, 0.4, 0},
   };
   const RankingRow done = [] {
@@ -129,13 +161,15 @@ TEST_CASE("a check counts as passed on the far side of its limit, and as kept on
     const Scratch scratch;
     AskedLimits asked;
     asked.contact_force = 45;
-    const Outcome outcome = outcome_of(done, job_with(scratch, fmt::format("{} {} {}\n", one.value, one.limit, one.name)), asked);
+    const Outcome outcome =
+        outcome_of(done, job_with(scratch, fmt::format("{} {} {}\n", one.value, one.limit, one.name)), asked);
     CHECK(outcome.failure == "");
     CHECK(outcome.violation() == Approx(one.beyond).margin(1e-8));  // a full stroke counts by 1e-9
   }
 }
 
-TEST_CASE("modes beside the wires have limits in hours, and a limit of what a job does not evaluate is refused at its place") {
+TEST_CASE(
+    "modes beside the wires have limits in hours, and a limit of what a job does not evaluate is refused at its place") {
   constexpr double endless = std::numeric_limits<double>::infinity();
   const auto mode = [](const char* name, double early, double median) {
     UnvalidatedMode of;
@@ -169,9 +203,11 @@ TEST_CASE("modes beside the wires have limits in hours, and a limit of what a jo
   CHECK(outcome_of(row, folder, asked).violation() == 0);
   CHECK_NOTHROW(check_evaluated(asked, row));
   asked.abrasion = 1000;
-  CHECK_THROWS_WITH(check_evaluated(asked, row),
-                    Catch::StartsWith("study.yaml:7: error: abrasion_life_h is a limit of 'abrasion', which is not evaluated") &&
-                        Catch::Contains("abrasion, kinks"));
+  CHECK_THROWS_WITH(
+      check_evaluated(asked, row),
+      Catch::StartsWith(
+          "study.yaml:7: error: abrasion_life_h is a limit of 'abrasion', which is not evaluated") &&
+          Catch::Contains("abrasion, kinks"));
   row.failure = "too short";  // its own reason is told instead
   CHECK_NOTHROW(check_evaluated(asked, row));
 }
