@@ -486,6 +486,13 @@ TEST_CASE("fanuc loops: an endless one runs until it repeats itself, or as often
       "JMP LBL[1] ;\n";
   CHECK(stops(run(parts)) == std::vector<int>{1, 2});
   CHECK(stops(run(parts, {.passes = 3})) == std::vector<int>{1, 2, 1, 2, 1, 2});
+  // Two kinds of parts in turn: the second pass moves elsewhere.
+  const std::string turns =
+      "   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:J P[1] 100% FINE ;\n   4:  IF R[1]=1,JMP LBL[2] ;\n   5:  R[1]=1 ;\n"
+      "   6:  JMP LBL[3] ;\n   7:  LBL[2] ;\n   8:J P[2] 100% FINE ;\n   9:  R[1]=0 ;\n  10:  LBL[3] ;\n  11:  JMP LBL[1] ;\n";
+  std::vector<int> two_passes = stops(run(turns));
+  two_passes.resize(3);
+  CHECK(two_passes == std::vector<int>{1, 1, 2});
   // One that only counts is reported with the line that decides it.
   const std::string counts =
       "   1:  R[1]=1 ;\n   2:  R[2]=0 ;\n   3:  LBL[1] ;\n   4:  R[2]=R[2]+1 ;\n   5:  IF R[1]=1,JMP LBL[1] "

@@ -7,6 +7,7 @@
 #include "pipeline/advise/calibrate/emulation.h"
 #include "pipeline/study/ranking.h"
 #include "tests/catch.h"
+#include "tests/pipeline/life/straight_response.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -25,12 +26,13 @@ std::string indented_job() {
 }
 
 struct Made {
-  explicit Made(const std::string& observed) {
+  /// centre: of every parameter [deviations].
+  explicit Made(const std::string& observed, double centre = 0, bool typical = false) {
     tests = read_observed_tests(
         scratch.write("o.yaml", "observations:\n  - name: bench\n    what: bent\n    source: a book\n" +
                                     observed + "    job:\n" + indented_job()));
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(uncertain_count);
-    round.emplace(tests, std::vector<std::string>{}, "round", none,
+    tests[0].typical = typical;
+    round.emplace(tests, std::vector<std::string>{}, "round", Eigen::VectorXd::Constant(uncertain_count, centre),
                   Eigen::VectorXd::Constant(uncertain_count, 0.5));
   }
   /// A row of the only job: half have failed after `median` hours, and the deviation of ln life is `spread`.
@@ -66,6 +68,27 @@ TEST_CASE("learned: a life without a response is that of its row, with the sprea
   const auto made = emulate(cycles.tests, *cycles.round, {cycles.row(500, 0.4)}, places);
   CHECK(made[0].life->variants[0](Eigen::VectorXd::Zero(uncertain_count)).log_median ==
         Approx(std::log(500 * 200)));
+}
+
+TEST_CASE("learned: the response of a row counts from the parameters that the row was computed at") {
+  LifeResponse bent = straight_response(0.1, 0.2, 0.3);
+  for (std::size_t k = 0; k < bent.worst_life.size(); ++k)
+    if (k % bent.strength.size() == 0) bent.worst_life[k] -= 0.5;  // steeper where the wires are weaker
+  std::vector<LifeAt> lives;
+  for (const double centre : {0.0, 0.25, 1.0}) {
+    const Made made("    hours: 300\n", centre, true);
+    RankingRow row = made.row(500, 0.4);
+    row.life_response = bent.text();
+    const auto emulated = emulate(made.tests, *made.round, {row}, {made.scratch.folder(), {}});
+    lives.push_back(emulated[0].life->variants[0](Eigen::VectorXd::Constant(uncertain_count, centre - 0.8)));
+  }
+  CHECK(lives[0].log_median < std::log(500));
+  CHECK(lives[0].between > 0);
+  for (const LifeAt& life : {lives[1], lives[2]}) {
+    CHECK(life.log_median == Approx(lives[0].log_median));
+    CHECK(life.spread == Approx(lives[0].spread));
+    CHECK(life.between == Approx(lives[0].between));
+  }
 }
 
 TEST_CASE("learned: each parameter that a test depends on has its own quantiles and its own width") {

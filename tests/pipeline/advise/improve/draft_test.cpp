@@ -1,4 +1,5 @@
 // Jobs without a routing, and dresspacks in another size.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include "pipeline/advise/improve/draft.h"
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/scaled.h"
+#include "pipeline/advise/improve/screened.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/files/receipt.h"
@@ -139,6 +141,29 @@ TEST_CASE("the worst of several jobs has the least life and the most of each lim
   RankingRow lost;  // done, it says, but what its simulation noted is gone
   lost.planned_hours = {1, 2, 3};
   CHECK_THROWS_AS(outcome_of(lost, "nowhere"), MachineFault);
+}
+
+TEST_CASE("pieces of the bend radius join those that are there, and other limits keep theirs") {
+  const std::vector<std::string>& names = outcome_limit_names();
+  const auto bend =
+      static_cast<std::size_t>(std::find(names.begin(), names.end(), "bend radius") - names.begin());
+  std::vector<std::vector<double>> pieces;
+  add_bends(pieces, {0.1, -0.2});
+  REQUIRE(pieces.size() > bend);
+  CHECK(pieces[bend] == std::vector<double>{0.1, -0.2});
+  pieces.resize(bend + 3, {7});
+  add_bends(pieces, {0.3});
+  REQUIRE(pieces.size() == bend + 3);
+  CHECK(pieces[bend] == std::vector<double>{0.1, -0.2, 0.3});
+  CHECK(pieces[bend + 2] == std::vector<double>{7});
+}
+
+TEST_CASE("of a screened candidate the violated limits are named, each with its own share") {
+  ScreenedList list;
+  list.limits = {"too short", "bracket", "twisted too far"};
+  CHECK(list.words({"", "", true, {0.25, -1, 0.5}}) == "too short by 0.25, twisted too far by 0.50");
+  CHECK(list.words({"", "", false, {-0.25, 0, -0.5}}) == "");
+  CHECK(ScreenedCandidate{"", "", true, {0.25, -1, 0.5}}.violation() == 0.75);
 }
 
 TEST_CASE("a check counts as passed on the far side of its limit, and as kept on the near side") {

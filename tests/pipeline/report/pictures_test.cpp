@@ -1,0 +1,127 @@
+// Pictures of a plan, of a moment and of a motion: where their lines are, read back from the text.
+#include <algorithm>
+#include <cmath>
+#include <regex>
+
+#include "pipeline/files/motion_layout.h"
+#include "pipeline/report/motion_data.h"
+#include "pipeline/report/plan_page.h"
+#include "pipeline/report/scene.h"
+#include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
+#include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/scratch.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// Numbers of the path of this class.
+std::vector<double> path_of(const std::string& page, const std::string& style) {
+  const std::string begin = "<path class=\"" + style + "\" d=\"";
+  const std::size_t at = page.find(begin);
+  if (at == std::string::npos) return {};
+  std::string path = page.substr(at + begin.size(), page.find('"', at + begin.size()) - at - begin.size());
+  std::replace_if(
+      path.begin(), path.end(), [](char c) { return c == 'M' || c == 'L'; }, ' ');
+  std::istringstream in(path);
+  std::vector<double> numbers;
+  for (double number; in >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+/// Two samples of a straight hose along y: three segments of 0.2 m from y = 1 m, then all of it 0.5 m farther.
+void write_motion(const std::filesystem::path& name) {
+  FileWriter file(name, motion_format());
+  file.set_axis("segment", 3);
+  file.set_axis("clamp", 2);
+  file.append("/time", std::vector<double>{0, 1});
+  file.append("/contact/max_depth", std::vector<double>(2));
+  std::vector<double> centres, clamps, upright, turns;
+  for (const double farther : {0.0, 0.5}) {
+    for (const double y : {1.1, 1.3, 1.5}) centres.insert(centres.end(), {1, y + farther, 1});
+    for (const double y : {1.0, 1.6}) clamps.insert(clamps.end(), {1, y + farther, 1});
+    for (int i = 0; i < 3; ++i) turns.insert(turns.end(), {1, 0, 0, 0});
+    for (int i = 0; i < 2; ++i) upright.insert(upright.end(), {1, 0, 0, 0});
+  }
+  file.append("/segment/position", centres);
+  file.append("/segment/orientation", turns);
+  file.append("/segment/length", std::vector<double>(3, 0.2));
+  file.append("/clamp/position", clamps);
+  file.append("/clamp/orientation", upright);
+  for (const char* dataset : {"/program/step", "/contact/count"})
+    file.append(dataset, std::vector<std::int32_t>{0, 0});
+  file.append("/program/text", std::vector<std::string>{"home"});
+  file.append("/energy", std::vector<double>(6));
+  file.append("/tension", std::vector<double>(6));
+  file.attribute("job", sample_job);
+  for (const char* attribute : {"history", "input_sha256"}) file.attribute(attribute, "");
+  file.commit();
+}
+
+}  // namespace
+
+TEST_CASE("pictures: a plan's failures are stairs, a step per week from today to the end") {
+  Fleet fleet;
+  Plan plan;
+  plan.today = *day_from("2026-11-23");
+  plan.end = plan.today + std::chrono::days(28);
+  fleet.rows.push_back({{}, "robot 7", "day", plan.today, {}, 1, 10});
+  plan.rows.resize(1);
+  plan.rows[0].fails_in_week = {0, 0.002, 0.05, 0.5};
+  plan.failures_in_week = {1, 2, 3, 2};
+  plan.failures_in_week_without_windows = {1, 2, 4, 8};
+  const std::string page = plan_page("line", fleet, plan, {}, "plan.csv");
+  for (const auto& [style, heights] : {std::pair("curve", plan.failures_in_week),
+                                       std::pair("curve-hot", plan.failures_in_week_without_windows)}) {
+    const std::vector<double> path = path_of(page, style);
+    REQUIRE(path.size() == 2 * 2 * heights.size());
+    const double week = path[2] - path[0];
+    CHECK(week > 0);
+    const double unit = (path[1] - path[1 + 4]) / (heights[1] - heights[0]);  // of one failure, upwards
+    constexpr double written = 0.2;  // coordinates are written to 0.1
+    for (std::size_t k = 0; k < heights.size(); ++k)
+      for (std::size_t end : {0, 1}) {
+        const std::size_t at = 4 * k + 2 * end;
+        CHECK(path[at] == Approx(path[0] + week * double(k + end)).margin(written * double(k + end + 1)));
+        CHECK(path[at + 1] ==
+              Approx(path[1] - unit * (heights[k] - heights[0])).margin(written * heights[k]));
+      }
+  }
+  // Its row: no colour, then one per ten-fold probability.
+  CHECK(count_of(page, "robot 7, 2026-11-23 ..") == 0);
+  for (const auto& [style, day] :
+       {std::pair("p2", "2026-11-30"), std::pair("p3", "2026-12-07"), std::pair("p4", "2026-12-14")})
+    CHECK(std::regex_search(
+        page, std::regex(fmt::format("class=\"{}\"[^\n]*\n?[^\n]*robot 7, {} \\.\\.", style, day))));
+}
+
+TEST_CASE("pictures: of a scene's hose one segment is hot, counted from the tool") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  const std::regex hot("<line class=\"hose-hot\" x1=\"([0-9.]+)\"");
+  double before = HUGE_VAL;
+  for (const int from_tool : {1, 2, 3}) {
+    const std::string picture = scene_picture(scratch / "motion.h5", 0, from_tool);
+    CHECK(count_of(picture, "class=\"hose-hot\"") == 2);  // half a segment each
+    CHECK(count_of(picture, "class=\"hose\"") == 4);
+    std::smatch found;
+    REQUIRE(std::regex_search(picture, found, hot));
+    CHECK(std::abs(std::stod(found[1])) != before);  // each at a place of its own
+    before = std::stod(found[1]);
+  }
+  CHECK(count_of(scene_picture(scratch / "motion.h5", 0, 0), "hose-hot") == 0);
+}
+
+TEST_CASE("pictures: a motion's data have each sample's own positions") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  const std::string text = motion_data(FileReader(scratch / "motion.h5", motion_format()), nullptr,
+                                       setup_from(parse_yaml(sample_job, "job.yaml")))
+                               .text;
+  // x and z are 1 m, y is between the clamps: 1 .. 1.6 m, and 0.5 m farther.
+  CHECK_THAT(text, Catch::Contains(R"("keys":2)") && Catch::Contains(R"("samples":2)"));
+  CHECK_THAT(text, Catch::Contains(R"("points":{"begin":0,"size":15,"low":1,"high":2.1,)"));
+  CHECK_THAT(text, Catch::Contains(R"("places":[0,0.5,1.5,2.5,3])"));
+}
+
+}  // namespace dresslife::pipeline
