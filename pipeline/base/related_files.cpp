@@ -1,6 +1,7 @@
 #include "pipeline/base/related_files.h"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <set>
 #include <string>
@@ -104,20 +105,50 @@ std::set<std::string> routines_of(const std::string& text) {
   return names;
 }
 
-/// What others can call or read of a file: its first routine, and what it declares as global.
+/// What others can call or read of a file, as used_in() finds it: its first routine, and what it declares as global.
 std::vector<std::string> names_declared(const fs::path& file, const std::string& text) {
-  std::vector<std::string> names{stem_of(file)};
+  if (!is_krl(file)) return {stem_of(file)};
+  std::vector<std::string> names, data;
   bool first = true;
   for (const std::vector<std::string>& words : declarations(text)) {
     const bool routine = begins_a_routine(words);
-    if (has(words, "global") || (routine && first)) names.insert(names.end(), words.begin(), words.end());
+    if (routine && (first || has(words, "global"))) names.push_back(words.back() + '(');
+    if (!routine && has(words, "global")) data.insert(data.end(), words.begin(), words.end());
     first = first && !routine;
   }
-  for (const char* own :
-       {"def", "deffct", "global", "public", "decl", "const", "signal", "to",    "struc",  "enum", "in",
-        "out", "int",    "real",   "bool",   "char", "axis",  "pos",    "frame", "e6axis", "e6pos"})
-    std::erase(names, own);
+  for (const char* own : {"global", "public", "decl", "const", "signal", "to", "struc", "enum", "in", "out",
+                          "int", "real", "bool", "char", "axis", "pos", "frame", "e6axis", "e6pos"})
+    std::erase(data, own);
+  names.insert(names.end(), data.begin(), data.end());
+  for (const char* mark : {":", ".."}) names.push_back(stem_of(file) + mark);
   return names;
+}
+
+/// The words of a text; also with the marks that stand behind them: "grip(" of a call, "weld:" and "weld.." of a file's names. A call
+/// may lack its brackets, alone in its line or behind DO, CONTINUE and RUN.
+std::set<std::string> used_in(const std::string& text) {
+  std::set<std::string> used;
+  std::string before;
+  for (std::size_t at = 0; at < text.size();) {
+    if (!is_name_letter(text[at])) {
+      if (text[at++] == '\n') before.clear();
+      continue;
+    }
+    std::size_t end = at;
+    while (end < text.size() && is_name_letter(text[end])) ++end;
+    const std::string word = text.substr(at, end - at);
+    used.insert(word);
+    const std::size_t next = std::min(text.find_first_not_of(" \t\r", end), text.size());
+    const bool line_ends = next == text.size() || text[next] == '\n';
+    const bool alone =
+        line_ends && (before.empty() || before == "do" || before == "continue" || before == "run");
+    if (alone || text.compare(next, 1, "(") == 0) used.insert(word + '(');
+    for (const char* mark : {":", ".."})
+      if (text.compare(next, std::strlen(mark), mark) == 0) used.insert(word + mark);
+    before = word;
+    at = end;
+  }
+  return used;
 }
 
 /// Whether it belongs to all programs in its folder: registers (.va) and KUKA's own data lists ($config.dat).
@@ -140,9 +171,10 @@ struct Open {
 
 }  // namespace
 
-std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::vector<fs::path> beside) {
+std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::vector<fs::path> beside,
+                                    const std::string& routine) {
   std::vector<fs::path> related;
-  std::vector<Open> open;
+  std::vector<Open> open{{"", lower(routine) + "()"}};
   std::vector<Candidate> candidates;
   bool all = false;
   for (const fs::path& program : programs) {
@@ -151,7 +183,7 @@ std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::
     open.push_back({stem_of(program), std::move(text).value_or("")});
   }
   // Other files may define routines of the same names: those of the first program count (first_file_counts in sim/program/program.h).
-  if (!programs.empty() && is_krl(programs.front())) open.front().own = routines_of(open.front().text);
+  if (!programs.empty() && is_krl(programs.front())) open[1].own = routines_of(open[1].text);
   for (fs::path& file : beside) {
     std::optional<std::string> text = all ? std::nullopt : text_of(file);
     if (text && !is_of_the_controller(file, *text)) {
@@ -165,12 +197,12 @@ std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::
   while (!open.empty()) {
     const Open of = std::move(open.back());
     open.pop_back();
-    const std::vector<std::string> list = words_of(of.text);
-    const std::set<std::string> words(list.begin(), list.end());
-    // A name with other letters than those of words may stand in several: it is looked for as it is.
+    const std::set<std::string> used = used_in(of.text);
     const auto stands_in_text = [&](const std::string& name) {
-      return std::ranges::all_of(name, is_name_letter) ? words.contains(name) && !of.own.contains(name)
-                                                       : of.text.find(name) != std::string::npos;
+      const std::string bare = name.substr(0, name.find_first_of("(:."));
+      // A name with other letters than those of words may stand in several: it is looked for as it is.
+      if (!std::ranges::all_of(bare, is_name_letter)) return of.text.find(bare) != std::string::npos;
+      return used.contains(name) && !of.own.contains(bare);
     };
     std::erase_if(candidates, [&](Candidate& candidate) {
       // What is called like a file belongs to it: weld.dat to weld.src.

@@ -290,7 +290,8 @@ void write_page(const fs::path& job, const fs::path& page) {
 
 /// The winner beside the routing that the job has.
 std::string comparison_words(const Trial& trial) {
-  if (!trial.start) return "";
+  if (!trial.start || trial.rows[*trial.start].job.empty())
+    return "";  // it has none, or the search ended before
   const Outcome &own = trial.outcomes[*trial.start], &best = trial.outcomes[*trial.best];
   if (*trial.best == *trial.start) return "It is the job's own routing: none that was found is better.\n";
   if (!own.failure.empty()) return fmt::format("The job's own routing does not run: {}\n", own.failure);
@@ -420,7 +421,11 @@ Command route_command() {
              "short runs that improve the best of them, for each size",
              &options->rehearsals,
              {.range = {{1, 100'000}}}},
-            {"--seed", "NUMBER", "start of the random numbers", &options->seed, {.range = {{0, 1'000'000'000}}}},
+            {"--seed",
+             "NUMBER",
+             "start of the random numbers",
+             &options->seed,
+             {.range = {{0, 1'000'000'000}}}},
             {"--bracket",
              "MM",
              "longest bracket, written into the job as routing.longest_bracket_mm; else the job's",
@@ -431,8 +436,7 @@ Command route_command() {
              "mounting tolerance of clamps and length; the routing with the longest life within it wins; 0: none",
              &options->off_mm,
              {.range = {{0, 1000}}}},
-            {"--keep", "", "keep the runs of all routings, not only of the best",
-             &options->keep},
+            {"--keep", "", "keep the runs of all routings, not only of the best", &options->keep},
             {"--job", "FILE.yaml", "job to write; else NAME_routed.yaml here", &options->job},
             {"-o,--output", "DIR", "folder of the runs that try it", &options->out}},
            run_options(*options),

@@ -248,7 +248,7 @@ std::vector<std::filesystem::path> files_beside(const Job& job) {
     programs.push_back(module.file);
     for (const auto& file : files_of_program(module.file)) beside.push_back(file);
   }
-  for (const auto& file : related_files(programs, std::move(beside))) files.push_back(file);
+  for (const auto& file : related_files(programs, std::move(beside), job.motion.routine)) files.push_back(file);
   for (const Link& link : job.robot.links)
     for (const MeshFile& mesh : link.meshes) files.push_back(mesh.file);
   for (const MeshFile& mesh : job.cell.meshes) files.push_back(mesh.file);

@@ -130,9 +130,8 @@ Language language_of(const std::filesystem::path& file) {
     if (extension == end) return language;
   throw pipeline::InputError({file.string()},
                              fmt::format("is no robot program by its name ('{}')", extension),
-                             "give RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), INFORM (.jbi), URScript "
-                             "(.script), joints (.csv), ROS (.yaml, .json), or "
-                             "the folder of a backup");
+                             "rename it by its language: RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), INFORM "
+                             "(.jbi), URScript (.script), joints (.csv), ROS (.yaml, .json); or name the folder of a backup");
 }
 
 namespace {

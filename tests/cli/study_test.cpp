@@ -321,3 +321,17 @@ TEST_CASE("a stale result says what changed, also of settings that are not kept 
   scratch.write("grip.src", "DEF grip()\nEND\n");
   CHECK(state().find(" stale    grip.src is new beside the program\n") != std::string::npos);
 }
+
+TEST_CASE("the preview of a job that failed says nothing beside the table's reason") {
+  Scratch scratch;
+  scratch.write("bad.src", "DEF bad()\nPTP {A1 0,, A2 -90,A3 90,A4 0,A5 60,A6 0}\nEND\n");
+  scratch.write("bad.yaml",
+                "robot: kuka_kr16_2\nmotion: bad.src\ndresspack: sensor_cable\nrouting:\n"
+                "  base_clamp: {link: link_3, position_m: [0.083, 0.037, 0.191], direction: [0.87, 0.47, 0.17]}\n"
+                "  tool_clamp: {link: link_6, position_m: [0.233, -0.135, 0.134], direction: [0.08, -0.89, 0.46]}\n"
+                "  free_length_m: 1.205\n");
+  const Outcome failed = run(scratch, "dresslife", "run bad.yaml --quiet");
+  CHECK(failed.status == 1);
+  CHECK(failed.out.find("bad.src:2:11: error: ") != std::string::npos);
+  CHECK(failed.err == "bad.yaml: error: 1 of 1 jobs failed (their reasons are in the table); see the log in each job's folder\n");
+}

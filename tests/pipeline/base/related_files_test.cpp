@@ -32,6 +32,13 @@ TEST_CASE("related files: copies of the program, its comments and routines of ot
   const auto in_comment = file("clean.src", "DEF clean()\nEND\n");
   const auto local = file("cell.src", "DEF cell()\nEND\nDEF home()\nEND\n");  // a file's second routine is its own
   CHECK(related_files({program}, {copy, in_comment, local}).empty());
+  // Calls have brackets, or stand alone: a component of a place or a variable is none.
+  const auto moves = file("moves.src", "DEF moves()\nPTP {X 1,Y 2}\nPTP place\n  last \nEND\n");
+  const auto x = file("x.src", "DEF x()\nEND\n"), place = file("place.src", "DEF place()\nEND\n"), last = file("last.src", "DEF last()\nEND\n");
+  CHECK(related_files({moves}, {x, place, last}) == std::vector{last});
+  CHECK(related_files({moves}, {x, place}, "Place") == std::vector{place});
+  const auto module = file("list.src", "DEF list()\n place:go()\nEND\n");
+  CHECK(related_files({module}, {x, place}) == std::vector{place});
   // The first program's names are its own, those of a module may be in two files.
   CHECK(related_files({in_comment, program}, {copy}) == std::vector{copy});
   const auto system = file("more.dat", "DEFDAT $more\nDECL E6POS anywhere\nENDDAT\n");
