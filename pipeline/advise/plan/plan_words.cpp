@@ -78,7 +78,12 @@ std::string kept_words(const Fleet& fleet, const Plan& plan) {
     if (!plan.by_cost && fails <= plan.risk) most = std::max(most, fails);
   }
   std::string text;
-  const auto add = [&](const std::string& why, const std::vector<std::string>& names) {
+  const auto add = [&](const std::string& why, std::vector<std::string> names) {
+    constexpr std::size_t most_names = 20;  // four lines
+    if (const std::size_t count = names.size(); count > most_names) {
+      names.resize(most_names);
+      names.push_back(fmt::format("and {} more in the table", count - most_names));
+    }
     if (!names.empty()) text += wrapped(fmt::format("{}: {}.", why, fmt::join(names, ", ")), width, "  ");
   };
   add(fmt::format("Until {} the probability of failure between two windows is at most {} (limit {})",

@@ -249,6 +249,9 @@ TEST_CASE("a plan states why a dresspack is in no window") {
   CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}, 1, 6), {0.1, true}),
              Catch::Contains("costs less, on average"));
   CHECK(words(weibull(3, {1000}), fleet_of({10}), {0.1, false}).empty());
+  const std::vector<int> many(25, 4);
+  CHECK_THAT(words(weibull(3, {20000}), fleet_of(many), {0.1, false}), Catch::Contains("r19") && !Catch::Contains("r20") &&
+                                                                            Catch::Contains("and 5 more in the table."));
 }
 
 TEST_CASE("windows are days in order, after today") {
