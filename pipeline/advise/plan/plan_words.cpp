@@ -78,7 +78,12 @@ std::string kept_words(const Fleet& fleet, const Plan& plan) {
     if (!plan.by_cost && fails <= plan.risk) most = std::max(most, fails);
   }
   std::string text;
-  const auto add = [&](const std::string& why, const std::vector<std::string>& names) {
+  const auto add = [&](const std::string& why, std::vector<std::string> names) {
+    constexpr std::size_t most_names = 20;  // four lines
+    if (const std::size_t count = names.size(); count > most_names) {
+      names.resize(most_names);
+      names.push_back(fmt::format("and {} more in the table", count - most_names));
+    }
     if (!names.empty()) text += wrapped(fmt::format("{}: {}.", why, fmt::join(names, ", ")), width, "  ");
   };
   add(fmt::format("Until {} the probability of failure between two windows is at most {} (limit {})",
@@ -174,17 +179,17 @@ std::string check_words(const std::optional<std::vector<CheckValue>>& checks, co
   std::string text =
       best.empty()
           ? "No visual check for abrasion today saves a thousandth of an unplanned replacement (not validated).\n"
-          : "One visual check of a dresspack for abrasion today saves, on average (not validated, not in the cost above):\n";
+          : "One visual check of a dresspack for abrasion today saves, on average (not validated, without other checks, not in the cost above):\n";
   for (std::size_t k = 0; k < std::min(most, best.size()); ++k)
     text += fmt::format("  {:>9}  {}\n", readable((*checks)[best[k]].today), fleet.rows[best[k]].name);
   if (best.size() > most) text += fmt::format("  {:>9}  more dresspacks in the table\n", best.size() - most);
   if (!(fails > 0)) return text;
-  std::string all = fmt::format("Without checks abrasion wears through {} dresspacks until {}.",
-                                readable(fails, 2), day_text(plan.end));
+  text += fmt::format("Without checks abrasion wears through {} dresspacks until {}.\n", readable(fails, 2),
+                      day_text(plan.end));
   if (inspection.interval_weeks > 0)
-    all += fmt::format(" Checks every {:g} weeks find {} of these before and save {}.",
-                       inspection.interval_weeks, readable(found, 2), readable(saves));
-  return text + wrapped(all, width, "");
+    text += fmt::format("Checks every {:g} weeks find {} of these before and save {}.\n",
+                        inspection.interval_weeks, readable(found, 2), readable(saves));
+  return text;
 }
 
 std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {

@@ -6,7 +6,8 @@
 // z > max over i of log10(a_i / T_50) / s. A check sees the wear from the age v T on and finds it with the probability p. What it
 // finds is replaced for C_p before it fails for C_u. l(t): share of the dresspacks whose wires live until then.
 //
-// One check today pays if what it finds would fail within the H hours until the window of its replacement or the end of the plan:
+// One check today, which no other follows, pays if what it finds would fail within the H hours until the window of its replacement
+// or the end of the plan:
 //     p max(0, mean over z, of those with v T <= a, of (C_u - C_p) l(T) if T <= a + H, else -C_n)                     (D9)
 // C_n: C_p, which is spent too early; 0 if the plan replaces the dresspack in a window anyway. The life that is lost, and what the
 // check tells of other dresspacks, are left out.

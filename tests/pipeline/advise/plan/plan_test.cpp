@@ -2,9 +2,11 @@
 #include "pipeline/advise/plan/plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 
 #include "pipeline/advise/plan/plan_words.h"
 #include "tests/catch.h"
@@ -129,6 +131,61 @@ TEST_CASE("without windows a constant failure rate needs so many spare dresspack
   CHECK(plan.years[0].high == Approx(expected + 1.645 * std::sqrt(expected)).margin(3));
 }
 
+TEST_CASE("failures, spare dresspacks and costs are those of plants that are drawn from the Weibull lives themselves") {
+  constexpr double shape = 2.5, planned = 1, unplanned = 6;
+  const std::vector<double> scales{4000, 9000};
+  const std::vector<int> ages{5, 40, 60};  // [weeks]
+  const Plan plan = plan_of(fleet_of(ages, planned, unplanned), {{"d", weibull(shape, scales)}}, windows_in({10}), start, {0.1, true});
+  REQUIRE(std::any_of(plan.rows.begin(), plan.rows.end(), [](const RowPlan& row) { return row.window.has_value(); }));
+  const double window = 10 * week, end = days_between(start, plan.end) * week / 7, year = 365.2425 * week / 7;
+  const auto alive = [&](double scale, double age) { return std::exp(-std::pow(age / scale, shape)); };
+  std::vector<double> weights;
+  for (const double scale : scales) {
+    double& weight = weights.emplace_back(1);
+    for (const int age : ages) weight *= alive(scale, age * week);
+  }
+  std::mt19937 random(3);
+  std::discrete_distribution<std::size_t> world(weights.begin(), weights.end());
+  std::uniform_real_distribution<double> uniform;
+  constexpr int count = 200'000;
+  std::array<double, 2> cost{}, failures{}, replaced{}, without{};  // sums, and of squares
+  std::vector<double> first_year;
+  const auto add = [](std::array<double, 2>& sums, double value) { sums[0] += value, sums[1] += value * value; };
+  for (int k = 0; k < count; ++k) {
+    const double scale = scales[world(random)];
+    double money = 0, failed = 0, exchanged = 0, first = 0, bare = 0;
+    for (std::size_t i = 0; i < ages.size(); ++i) {
+      const double age = ages[i] * week;
+      const auto life = [&](double from) { return scale * std::pow(std::pow(from / scale, shape) - std::log(1 - uniform(random)), 1 / shape); };
+      const double own = life(age) - age;
+      for (const bool by_plan : {true, false}) {
+        double at = own;
+        if (by_plan && plan.rows[i].window && at >= window) {  // one that failed before the window is new
+          money += planned, ++exchanged, first += window < year;
+          at = window + life(0);
+        }
+        for (; at < end; at += life(0)) {
+          (by_plan ? money : bare) += unplanned;
+          if (by_plan) ++failed, first += at < year;
+        }
+      }
+    }
+    add(cost, money), add(failures, failed), add(replaced, exchanged), add(without, bare), first_year.push_back(first);
+  }
+  double all_planned = 0, all_unplanned = 0;
+  for (const YearOfPlan& of : plan.years) all_planned += of.planned, all_unplanned += of.unplanned;
+  // Four standard errors of the 1,000 plants of the plan. Its lives are 20,000 quantiles of each world, whose error is far below that.
+  const auto check = [&](double found, const std::array<double, 2>& sums) {
+    const double mean = sums[0] / count, error = std::sqrt((sums[1] / count - mean * mean) / 1000);
+    CHECK(found == Approx(mean).margin(4 * error));
+  };
+  check(plan.cost, cost), check(all_unplanned, failures), check(all_planned, replaced), check(plan.cost_without_windows, without);
+  std::sort(first_year.begin(), first_year.end());
+  // Whole numbers, of which the neighbour may come first.
+  CHECK(plan.years[0].low == Approx(first_year[count / 20]).margin(1));
+  CHECK(plan.years[0].high == Approx(first_year[count - count / 20]).margin(1));
+}
+
 TEST_CASE("survivors tell which world the plant is in, and the spread between plants stays") {
   // Two worlds with a constant failure rate each; n dresspacks have survived to the age a.
   constexpr double bad = 1000, good = 20000, age = 10 * week;
@@ -249,6 +306,9 @@ TEST_CASE("a plan states why a dresspack is in no window") {
   CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}, 1, 6), {0.1, true}),
              Catch::Contains("costs less, on average"));
   CHECK(words(weibull(3, {1000}), fleet_of({10}), {0.1, false}).empty());
+  const std::vector<int> many(25, 4);
+  CHECK_THAT(words(weibull(3, {20000}), fleet_of(many), {0.1, false}), Catch::Contains("r19") && !Catch::Contains("r20") &&
+                                                                            Catch::Contains("and 5 more in the table."));
 }
 
 TEST_CASE("windows are days in order, after today") {
