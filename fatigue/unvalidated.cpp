@@ -478,7 +478,7 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, bo
       return rating.rig.kind == pipeline::RigKind::torsion;
     };
     const auto of_twist = std::count_if(part.ratings.begin(), part.ratings.end(), twisted);
-    if (part.plain->kind == pipeline::PlainKind::hose) return add(part.name + " but for kinks");
+    if (part.plain->kind == pipeline::PlainKind::hose) return add("fatigue and pressure of " + part.name);
     if (part.ratings.empty()) return add(part.name);
     if (of_twist == 0) add("twist of " + part.name);
     if (of_twist == std::ssize(part.ratings)) add("bending of " + part.name);

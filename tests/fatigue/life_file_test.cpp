@@ -1208,7 +1208,7 @@ TEST_CASE("life.h5: a smooth tube kinks where the tightest bend passes its radiu
     CHECK(wide.time == Approx(0.2 * duration));
     CHECK(std::isinf(wide.hours[0]));
     CHECK(wide.first_share == Approx(0.0013).margin(2e-4));  // of a factor of 2 in 3.01 deviations of 0.1, of 10,000 strata
-    CHECK_THAT(life.text_attribute("not_evaluated"), Catch::StartsWith("air hose but for kinks, water hose but for kinks, abrasion"));
+    CHECK_THAT(life.text_attribute("not_evaluated"), Catch::StartsWith("fatigue and pressure of air hose, fatigue and pressure of water hose, abrasion"));
   }
   f.curvature = 1 / (kinks_at + 0.01);
   const auto near = kink_of(FileReader(run(folder, f, job, "near.h5").file, pipeline::life_format()));
