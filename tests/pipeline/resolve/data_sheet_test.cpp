@@ -164,7 +164,7 @@ TEST_CASE("a sheet's line is what its keys are") {
              Catch::Contains("'screen 85 %' of a data sheet is not understood") &&
                  Catch::Contains("write phrases as in"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, wires 0.1 mm"),
-             Catch::Contains("tells wire_diameter_mm a second time"));
+             Catch::Contains("gives wire_diameter_mm a second time"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, jacket 1 mm"),
              Catch::Contains("data_sheet has no outer_diameter_mm; give it, or conductor_class"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 1.2.3 mm, jacket 1 mm"), Catch::Contains("sheet:1:1: error: "));
