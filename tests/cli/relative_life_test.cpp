@@ -120,7 +120,7 @@ TEST_CASE("relative life: what a study's keep leaves no file for is said") {
   for (const std::string keep : {"lives", "histories"}) {
     scratch.write(keep + ".yaml", "base: rated.yaml\nkeep: " + keep + "\njobs: {only: {}}\n");
     const Outcome outcome = run(scratch, "dresslife", "run " + keep + ".yaml");
-    CHECK((outcome.err.find("no life is told in rated cycles") != std::string::npos) == (keep == "lives"));
+    CHECK((outcome.err.find("no life in rated cycles") != std::string::npos) == (keep == "lives"));
     CHECK((outcome.out.find("rated cycles of lead") != std::string::npos) == (keep == "histories"));
   }
 }

@@ -148,7 +148,7 @@ TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv a
       {"cable", "--set simulation.periodic_tolerance_mm=1e-9", "periodic",
        "after 2 repeats the motion still begins"},
       {"cable", "", "overlap", "the 66 parts 'wire' are 0.1839 mm apart"},
-      {"robot", "", "force", "so that the hours are not believable"},
+      {"robot", "", "force", "that is unrealistic: do not plan with the hours"},
       {"cable", "", "material", "material odd: K' 100 MPa"},
   };
   const Scratch scratch;

@@ -183,7 +183,7 @@ TEST_CASE("a sheet's line is what its keys are") {
   CHECK_THAT(refusal("4 x 0.25 mm2, wire 0.5 mm, OD 5 mm, jacket 0.8 mm"),
              Catch::Contains("0.25 mm2 are 1 wire of 0.5 mm (flexible conductors have 7 and more)") && Catch::Contains("wire_diameter_mm: 0.1"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, wires 0.1 mm"),
-             Catch::Contains("tells wire_diameter_mm a second time"));
+             Catch::Contains("gives wire_diameter_mm a second time"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, jacket 1 mm"),
              Catch::Contains("data_sheet has no outer_diameter_mm; give it, or conductor_class"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 1.2.3 mm, jacket 1 mm"), Catch::Contains("sheet:1:1: error: "));
