@@ -414,7 +414,7 @@ bool FanucRun::waits(std::size_t label) {
   const auto is_power_of_two = [](int number) { return (number & (number - 1)) == 0; };
   const bool again = !moved && is_power_of_two(loop.passes - 1) && loop.states.contains(values_.state());
   loop.states.clear();
-  if (is_power_of_two(loop.passes) && !again) loop.states.insert(values_.state());
+  if (is_power_of_two(loop.passes) && !again) loop.states.emplace(values_.state(), 0);
   return again;
 }
 
@@ -427,6 +427,19 @@ bool FanucRun::still_new(std::size_t label) {
   return loop.barren < enough;
 }
 
+/// The values behind the last pass are those behind pass `known`: the passes between repeat. If the first passes move as the
+/// last ones do, they belong to the repeats, and the last ones are dropped: each repeated pass stands once.
+void FanucRun::drop_repeated(const Endless& loop, std::size_t known) {
+  auto& made = program_.instructions;
+  if (known == 0) return;
+  const std::size_t begin = loop.ends[loop.ends.size() - known - 1], count = made.size() - begin,
+                    before = loop.ends[known - 1];
+  bool alike = count <= before;
+  for (std::size_t i = 0; alike && i < count; ++i)
+    alike = same_move(made[begin + i], made[before - count + i]);
+  if (alike) made.resize(begin);
+}
+
 /// Whether an endless loop that is back at its label runs once more: as often as the user wants, else until
 /// it finds all values as before, or moves as in its first pass.
 bool FanucRun::goes_on(std::size_t label) {
@@ -434,14 +447,16 @@ bool FanucRun::goes_on(std::size_t label) {
   auto& made = program_.instructions;
   ++loop.passes;
   if (around_.options.passes > 0) return loop.passes < around_.options.passes;
-  const bool again = !loop.states.insert(values_.state()).second;
+  loop.ends.push_back(made.size());
+  const auto [known, fresh] = loop.states.try_emplace(values_.state(), loop.ends.size());
   const std::size_t length = made.size() - loop.begin;
   bool alike = loop.passes > 1 && length > 0 && 2 * length <= made.size();
   for (std::size_t i = 0; alike && i < length; ++i)
     alike = same_move(made[loop.begin + i], made[loop.begin - length + i]);
   if (alike) made.resize(loop.begin);
+  if (!fresh && !alike) drop_repeated(loop, known->second);
   loop.begin = made.size();
-  if (again || alike) return false;
+  if (!fresh || alike) return false;
   if (loop.passes < ImportLimits::passes) return true;
   complain(fmt::format("does not repeat itself within {} passes", ImportLimits::passes),
            "say how many are wanted: --passes N (motion.passes)");

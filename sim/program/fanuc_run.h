@@ -47,8 +47,9 @@ class FanucRun {
   };
   /// How an endless loop went so far, for the pass after which it repeats itself.
   struct Endless {
-    std::set<std::string> states;
-    std::size_t begin = 0;  // of the pass: number of instructions
+    std::map<std::string, std::size_t> states;  // behind which pass; 0: behind none that moved
+    std::vector<std::size_t> ends;              // (pass) number of instructions behind it
+    std::size_t begin = 0;                      // of the pass: number of instructions
     int passes = 0;
     long news = -1;  // of the exploration at the last pass
     int barren = 0;  // passes in a row that met nothing new
@@ -68,6 +69,7 @@ class FanucRun {
   void block(const std::string& word);
   void jump(FanucCursor& at, bool certain);
   void jump_to(std::size_t target, bool certain);
+  void drop_repeated(const Endless& loop, std::size_t known);
   bool goes_on(std::size_t label);  // an endless loop for another pass
   bool waits(std::size_t label);
   bool still_new(std::size_t label);
