@@ -49,6 +49,9 @@ constexpr double steepest_strength = -0.3, steepest_ductility = -1.2,
 constexpr double heaviest_filling =
     2500;  // [kg/m3]: hydraulic hoses with four layers of steel wire have 1500 to 2000
 constexpr double least_grams = 50;         // [kg/m]: more is g/m; less may be the mass of a whole dresspack
+constexpr double lightest_part = 50;       // [kg/m3] over the section of a part without wires: foam; an air hose of 8/5.5 mm has 630
+constexpr double narrowest_bore = 0.1;     // of the outer diameter: hoses for air and water have 0.5 to 0.8
+constexpr double shortest_pitch = 0.3e-3;  // [m]: the finest corrugated hoses have 1 mm
 constexpr double largest_grip = 1e5;       // [N]: ten times what tears a power cable
 
 /// Of all wires in a metre of the part, lays along: as if of aluminium [kg/m].
@@ -109,6 +112,16 @@ class Judge {
                         *of.laying.mass, copper * section),
             "grams instead of kilograms",
             fmt::format("mass_kg_per_m: {:.4g} if that was g/m, or no key", *of.laying.mass / 1000));
+      if (const double least = lightest_part * pi * of.radius * of.radius; of.plain && of.laying.mass && *of.laying.mass < least)
+        add(of.where,
+            fmt::format("mass_kg_per_m of '{}' is {:.3g} (limit {:.3g}: foam)", of.name, *of.laying.mass, least),
+            "tonnes instead of kilograms, or kg/mm",
+            fmt::format("mass_kg_per_m: {:.4g} if that was kg/mm, or no key", 1e3 * *of.laying.mass));
+      if (of.plain && of.plain->bore && *of.plain->bore < narrowest_bore * 2 * of.radius)
+        add(of.plain->where,
+            fmt::format("bore_mm of '{}' is {:.3g} (limit {:.3g}: a tenth of its outer diameter)", of.name, 1e3 * *of.plain->bore,
+                        2e3 * narrowest_bore * of.radius),
+            "metres instead of millimetres", fmt::format("bore_mm: {:.3g} if that was metres", 1e6 * *of.plain->bore));
       if (const double least = least_wire_mass(of.components); of.laying.mass && *of.laying.mass < least)
         add(of.where,
             fmt::format(
@@ -238,6 +251,10 @@ void plausible_size(const Dresspack& dresspack, Judge& judge) {
               diameter > widest_hose ? "tenths of a millimetre, or an extra zero" : "centimetres or metres",
               diameter > widest_hose ? fmt::format("diameter_mm: {:.4g} if there is an extra zero", 1e2 * diameter)
                                      : fmt::format("diameter_mm: {:.4g} if that was metres", 1e6 * diameter));
+  if (dresspack.hose_corrugation && dresspack.hose_corrugation->pitch < shortest_pitch)
+    judge.add(dresspack.hose_corrugation->where,
+              fmt::format("pitch_mm is {:.3g} (limit {:g} or more)", 1e3 * dresspack.hose_corrugation->pitch, 1e3 * shortest_pitch),
+              "metres instead of millimetres", fmt::format("pitch_mm: {:.3g} if that was metres", 1e6 * dresspack.hose_corrugation->pitch));
   if (dresspack.inner_diameter) {
     const double wall = (diameter - *dresspack.inner_diameter) / 2;
     if (wall > thickest_wall * diameter || wall < thinnest_wall)

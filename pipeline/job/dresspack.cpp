@@ -357,7 +357,9 @@ void check_room(const Dresspack& dresspack) {
     throw InputError(dresspack.where,
                      fmt::format("inner_diameter_mm is {:.4g} (diameter_mm is {:.4g})", 2e3 * *inner,
                                  1e3 * dresspack.diameter),
-                     "the inner one is the smaller");
+                     dresspack.diameter < 1e-3  // thinner than any dresspack
+                         ? fmt::format("give diameter_mm: {:.4g} if that was metres", 1e6 * dresspack.diameter)
+                         : "the inner one is the smaller");
   if (dresspack.core_diameter > 2 * *inner)
     throw InputError(dresspack.where,
                      fmt::format("core_diameter_mm is {:.4g} (the hose is {:.4g} wide inside)",
@@ -370,6 +372,7 @@ void check_room(const Dresspack& dresspack) {
 void check_place(const Dresspack& dresspack, const Component& component) {
   if (!(dresspack.diameter > 0)) return;  // refused: a problem of its own
   const PartsRoom room = room_of_parts(dresspack);
+  if (!(room.bore > 0)) return;  // refused, too
   const bool has_core = room.core > 0 || dresspack.core_bending_stiffness.value_or(0) > 0;
   if (component.helix_radius == 0 && has_core && inner_radius(dresspack))
     throw InputError(

@@ -92,12 +92,12 @@ std::string bend_words(const SpanPreview& span, bool bends) {
   const double allowed = 1e3 * span.least_bend_radius;
   if (!first)
     return fmt::format(
-        " At rest and without the robot, none of the lengths that were tried keeps the bend radius of {:.0f} mm. {:.2f} m comes nearest, with "
+        " At rest and without the robot, none of the lengths that were tried keeps the bend radius of {:.4g} mm. {:.2f} m comes nearest, with "
         "{:.0f} mm: turn the clamps toward each other, or move them apart.",
         allowed, best->length, 1e3 * best->bend_radius);
   const bool keeps_with_robot = !bends && span.works() && (span.length < first->length || span.length > last->length);
   return fmt::format(
-      " At rest and without the robot, {} the bend radius of {:.0f} mm.{} Motion and contact bend the hose more.",
+      " At rest and without the robot, {} the bend radius of {:.4g} mm.{} Motion and contact bend the hose more.",
       first == last ? fmt::format("{:.2f} m keeps", first->length) : fmt::format("{:.2f} .. {:.2f} m keep", first->length, last->length),
       allowed, keeps_with_robot ? fmt::format(" With the robot, {:.3f} m keeps it, too.", span.length) : "");
 }

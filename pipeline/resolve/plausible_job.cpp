@@ -51,7 +51,10 @@ constexpr double longest_ramp = 5,
 constexpr double farthest = 20;          // [m] from the origin: a cell
 constexpr double widest_spread = 20;  // a factor in one deviation: friction of seven published cables has 2.2
 constexpr double least_pre_twist = 6.2832 * degree, largest_pre_twist = 3600 * degree;
+constexpr double longest_hose = 20;      // [m]: as long as a cell; hoses on robots are 0.5 to 6 m long
+constexpr double farthest_clamp = 3;     // [m] from its link's frame: arms of large robots are 1.5 m long, brackets 0.3
 constexpr int few_segments = 16;  // with more, a hose whose segments are too long is too long itself
+constexpr double inside_robot = 0.01;    // [m] below a box's surface: floors and tables end at the base
 constexpr double shortest_bracket = 1e-3, longest_built = 2;  // [m]
 constexpr double widest_ring = 10;                            // of the dresspack's diameter
 constexpr double longest_stroke = 5, largest_pull = 2000, stiffest_spring = 1e4,
@@ -215,6 +218,41 @@ void doubt_robot(const Robot& robot, const AddDoubt& add) {
   }
 }
 
+/// Origins of the frames that a robot's stand and its first two joints have in the zero pose: inside the robot.
+std::vector<std::pair<std::string, Eigen::Vector3d>> points_in(const Robot& robot) {
+  const auto turn = [](const Eigen::Vector3d& angles) {  // roll, pitch, yaw about fixed axes x, y, z
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
+                              Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
+                              Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()));
+  };
+  Eigen::Vector3d at = robot.base_position;
+  Eigen::Quaterniond orientation = turn(robot.base_orientation);
+  std::vector<std::pair<std::string, Eigen::Vector3d>> points{{"the robot's base", at}};
+  for (std::size_t k = 0; k < std::min<std::size_t>(2, robot.joints.size()); ++k) {
+    at += orientation * robot.joints[k].origin;
+    orientation = orientation * turn(robot.joints[k].orientation);
+    points.emplace_back(robot.joints[k].name + " in the zero pose", at);
+  }
+  return points;
+}
+
+/// Contact of robot and cell is not evaluated, so that such a box changes no result until the dresspack lies in it, too.
+void doubt_boxes(const Cell& cell, const Robot& robot, const AddDoubt& add) {
+  if (!robot.external_axes.empty()) return;  // they carry the robot elsewhere
+  for (std::size_t k = 0; k < cell.boxes.size(); ++k) {
+    const Box& box = cell.boxes[k];
+    if (!box.orientation.isZero()) continue;
+    for (const auto& [name, point] : points_in(robot)) {
+      const Eigen::Vector3d off = (point - box.position).cwiseAbs() - box.sides / 2;
+      if (off.maxCoeff() >= -inside_robot) continue;
+      add({}, fmt::format("cell.boxes[{}] contains {} at [{:.3g}, {:.3g}, {:.3g}] m", k + 1, name, point.x(), point.y(), point.z()),
+          "a box in another frame than the world's, or sides_m that are twice as long as they are",
+          "position_m of its centre in the world, and sides_m, its full lengths");
+      break;
+    }
+  }
+}
+
 void doubt_cell(const Cell& cell, const SimulationSettings& simulation, const AddDoubt& add) {
   const std::size_t shapes = cell.boxes.size() + cell.capsules.size() + cell.meshes.size();
   if (shapes > 0 && !simulation.contact)
@@ -258,6 +296,17 @@ void doubt_mounting(const Routing& routing, const AddDoubt& add) {
 
 void doubt_routing(const Routing& routing, const Dresspack& dresspack, int segments, const AddDoubt& add) {
   doubt_mounting(routing, add);
+  if (const double length = routing.free_length; length > longest_hose)
+    add(routing.where, fmt::format("routing.free_length_m is {:.6g} (limit {:g})", length, longest_hose),
+        "millimetres instead of metres", fmt::format("routing.free_length_m: {:g} if that was millimetres", length / 1e3));
+  for (const auto& [key, clamp] : {std::pair{"base_clamp", &routing.base_clamp}, {"tool_clamp", &routing.tool_clamp}})
+    if (*clamp && (*clamp)->position.norm() > farthest_clamp) {
+      const Eigen::Vector3d& at = (*clamp)->position;
+      add((*clamp)->where,
+          fmt::format("routing.{}.position_m lies {:.4g} m from the frame of its link (limit {:g})", key, at.norm(), farthest_clamp),
+          "centimetres instead of metres, or a place in the world",
+          fmt::format("position_m: [{:g}, {:g}, {:g}] if those were centimetres", at.x() / 100, at.y() / 100, at.z() / 100));
+    }
   if (const double limit = least_bend_radius(dresspack), segment = routing.free_length / segments;
       routing.base_clamp && segments < few_segments && limit > 0 && segment > limit)
     add(routing.where,
@@ -367,6 +416,7 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
   if (job.motion.is_prescribed()) return warnings;
   doubt_robot(job.robot, doubt);
   doubt_cell(job.cell, job.simulation, doubt);
+  doubt_boxes(job.cell, job.robot, doubt);
   for (const MountedDresspack& mounted : job.dresspacks)
     doubt_routing(mounted.routing, mounted.dresspack, job.simulation.segments, doubt);
   warnings = joined(std::move(warnings), radians_in(echo_fields(job.robot), "robot"));
@@ -387,6 +437,9 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
   if (job.motion.spot_time > longest_spot)
     add(WarningKind::motion, "motion.spot_time_s", job.motion.spot_time, fmt::format("{:g} or less", longest_spot),
         "milliseconds instead of seconds", fmt::format("motion.spot_time_s: {:g} if that was milliseconds", job.motion.spot_time / 1000));
+  if (job.motion.speed_percent < least_percent)
+    add(WarningKind::motion, "motion.speed_percent", job.motion.speed_percent, fmt::format("{:g} or more", least_percent),
+        "a share instead of per cent", fmt::format("motion.speed_percent: {:g} if that was a share", 100 * job.motion.speed_percent));
   if (job.motion.zone > widest_zone)
     add(WarningKind::motion, "motion.zone_deg", job.motion.zone / degree, fmt::format("{:g} or less", widest_zone / degree),
         "another unit, such as mm or per cent", "motion.zone_deg: 0, or the zone that the controller uses");

@@ -327,7 +327,7 @@ class QuickChecks {
         limits_of(setup_.dresspacks[static_cast<std::size_t>(dresspack)].dresspack).least_bend_radius;
     notes.push_back(fmt::format(
         "Between these clamps {} has {} stable shapes at rest. In the shape with which a run begins its smallest bend radius "
-        "over the program is {:.0f} mm, in the other{} {} mm (limit {:.0f} mm). Clamp it as the preview of the run shows",
+        "over the program is {:.0f} mm, in the other{} {} mm (limit {:.4g} mm). Clamp it as the preview of the run shows",
         pipeline::dresspack_words(setup_, dresspack), radii.size(), 1e3 * radii.front(), radii.size() > 2 ? "s" : "", others,
         1e3 * limit));
   }

@@ -91,7 +91,25 @@ TEST_CASE("new: clamps of which none runs are left to be filled in, without a pl
   scratch.write("hose.yaml",
                 "name: hose\nsource: a guess\ndiameter_mm: 150\nmass_kg_per_m: 10\nbending_stiffness_Nm2: 400\n"
                 "torsional_stiffness_Nm2: 400\naxial_stiffness_N: 1e5\ndamping_time_ms: 20\ndamping_source: a guess\n");
-  const Outcome made = make(scratch, "--robot kuka_kr16_2 --program easy --dresspack hose.yaml mine.yaml");
+  // An arm of bare cylinders with the lengths of a KR 16: a hose of 150 mm finds no way past its wrist.
+  struct Axis {
+    const char *name, *place, *axis;
+    double limit, speed;
+  };
+  std::string arm = "<robot name=\"arm\"><link name=\"base_link\"/>";
+  std::string parent = "base_link";
+  for (const Axis& of : {Axis{"1", "0 0 0.675", "0 0 -1", 3.2289, 2.7227}, {"2", "0.26 0 0", "0 1 0", 2.7053, 2.7227},
+                         {"3", "0.68 0 0", "0 1 0", 2.6878, 2.7227}, {"4", "0.67 0 -0.035", "-1 0 0", 6.1087, 5.7596},
+                         {"5", "0 0 0", "0 1 0", 2.2689, 5.7596}, {"6", "0.158 0 0", "-1 0 0", 6.1087, 10.7338}}) {
+    const std::string link = std::string("link_") + of.name;
+    arm += "<link name=\"" + link + "\"><collision><geometry><cylinder radius=\"0.08\" length=\"0.3\"/></geometry></collision></link>";
+    arm += "<joint name=\"joint_" + std::string(of.name) + "\" type=\"revolute\"><parent link=\"" + parent + "\"/><child link=\"" + link +
+           "\"/><origin xyz=\"" + of.place + "\"/><axis xyz=\"" + of.axis + "\"/><limit effort=\"1\" lower=\"" +
+           std::to_string(-of.limit) + "\" upper=\"" + std::to_string(of.limit) + "\" velocity=\"" + std::to_string(of.speed) + "\"/></joint>";
+    parent = link;
+  }
+  scratch.write("arm.urdf", arm + "</robot>\n");
+  const Outcome made = make(scratch, "--robot arm.urdf --program hard --dresspack hose.yaml mine.yaml");
   INFO(made.out << made.err);
   REQUIRE(made.status == 0);
   const std::string text = content(scratch / "mine.yaml");
@@ -100,7 +118,6 @@ TEST_CASE("new: clamps of which none runs are left to be filled in, without a pl
   CHECK(has(text, "# FILL IN clamps, or let dresslife route mine.yaml search. No routing that was tried runs."));
   CHECK(has(text, "\n# routing:\n#   base_clamp: "));
   for (const std::string& words : {made.out, text}) CHECK_FALSE(has(words, "job.yaml"));
-  CHECK(has(run(scratch, "dresslife", "check mine.yaml").err, "routing is missing"));
 }
 
 TEST_CASE("new: what is missing is to be filled in, and check asks for it") {

@@ -297,6 +297,12 @@ Doubtful own_metal(const std::string& modulus, const std::string& strength, cons
 }
 
 const Doubtful doubtful[] = {
+    {"job.yaml", "2.035", "985", "job.yaml:11:3", "routing.free_length_m is 985 (limit 20). Likely cause: millimetres", "routing.free_length_m: 0.985 if"},
+    {"job.yaml", "[-0.1, 0, 0.45]", "[-10, 0, 20]", "job.yaml:11:15", "routing.base_clamp.position_m lies 22.36", "[-0.1, 0, 0.2] if those were centimetres"},
+    setting("motion.speed_percent: 0.5", "motion.speed_percent is 0.5 (limit 1 or more). Likely cause: a share", "motion.speed_percent: 50 if"),
+    setting("cell: {boxes: [{position_m: [0, 0, 0.5], sides_m: [1, 1, 1]}]}", "cell.boxes[1] contains joint_1 in the zero pose", "position_m of its centre"),
+    {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: tube, radius_mm: 3, helix_radius_mm: 0, mass_kg_per_m: 0.00003, without_wires: {kind: hose, bore_mm: 0.004}}", "hose.yaml:19:5", "mass_kg_per_m of 'tube' is 3e-05 (limit 0.00141: foam)", "mass_kg_per_m: 0.03 if"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: tube, radius_mm: 3, helix_radius_mm: 0, without_wires: {kind: hose, bore_mm: 0.004}}", "hose.yaml:19:67", "bore_mm of 'tube' is 0.004 (limit 0.6: a tenth", "bore_mm: 4 if that was metres"},
     {"job.yaml", "30, 0]}\n    - {text: nod, joints_deg: [20, 0, 0, 0, 60, 90]", "0.52, 0]}\n    - {text: nod, joints_deg: [0.35, 0, 0, 0, 1.05, 1.57]", "job.yaml:6:7", "no joint angle of the motion is larger than 1.57 deg (limit 6.28 or more). Likely cause: radians", "joints_deg in degrees"},
     {"job.yaml", "speed_percent: 50", "speed_percent: 0.5", "job.yaml:7:7", "speed_percent is 0.5 (limit 1 or more). Likely cause: a share", "speed_percent: 50 if that was a share"},
     {"job.yaml", "dwell_s: 0.5", "dwell_s: 500", "job.yaml:8:7", "dwell_s is 500 (limit 100 or less). Likely cause: milliseconds", "dwell_s: 0.5 if"},
