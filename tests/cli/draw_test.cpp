@@ -54,7 +54,8 @@ TEST_CASE(
   Scratch scratch;
   const auto hose = [&](int angle) {
     std::string text =
-        "name: hose\nsource: made up\ndiameter_mm: 40\ninner_diameter_mm: 34\nhose_material: hose_polyamide\ncomponents:\n";
+        "name: hose\nsource: made up\ndiameter_mm: 40\ninner_diameter_mm: 34\nhose_material: hose_polyamide\n"
+        "hose_corrugation: {pitch_mm: 3.4, height_mm: 3, wall_mm: 0.5}\ncomponents:\n";
     for (const auto& [name, phase] : {std::pair("a", 0), std::pair("b", angle)})
       text += fmt::format(
           "  - {{name: {}, radius_mm: 5, helix_radius_mm: 10, phase_deg: {}, components: [{{name: wire, count: 6, radius_mm: "
@@ -70,7 +71,7 @@ TEST_CASE(
   CHECK(count_of(content(scratch / "hose.svg"), "(overlap: red)") == 2);
   const Outcome same = hose(0);
   CHECK(same.status == 1);
-  CHECK(same.err.find("hose.yaml:8:5: error: 'a' and 'b' come as near as 0 mm") == 0);
+  CHECK(same.err.find("hose.yaml:9:5: error: 'a' and 'b' come as near as 0 mm") == 0);
   CHECK(hose(180).err.empty());
   CHECK(count_of(content(scratch / "hose.svg"), "class=\"over\"") == 0);
 }

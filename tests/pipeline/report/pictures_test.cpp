@@ -68,6 +68,7 @@ TEST_CASE("pictures: a plan's failures are stairs, a step per week from today to
   fleet.rows.push_back({{}, "robot 7", "day", plan.today, {}, 1, 10});
   plan.rows.resize(1);
   plan.rows[0].fails_in_week = {0, 0.002, 0.05, 0.5};
+  plan.rows[0].fails_until_next = {0.5};
   plan.failures_in_week = {1, 2, 3, 2};
   plan.failures_in_week_without_windows = {1, 2, 4, 8};
   const std::string page = plan_page("line", fleet, plan, {}, "plan.csv");

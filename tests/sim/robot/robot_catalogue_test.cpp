@@ -1,10 +1,14 @@
 // The robots that come with dresslife: the reach in their names, their zero poses, and which arm each maker's
 // configuration words choose on each of them.
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/urdf_request.h"
 #include "pipeline/settings/fields.h"
 #include "sim/robot/inverse_kinematics.h"
 #include "tests/catch.h"
@@ -83,6 +87,19 @@ double distance(const Frame& a, const Frame& b) {
 }
 
 }  // namespace
+
+TEST_CASE("shipped robots: the range of accelerations that dresslife new names is that of the catalogue, rounded outward") {
+  double least = HUGE_VAL, largest = 0;
+  for (const Shipped& each : robots)
+    for (const pipeline::Joint& joint : shipped(each.name).joints)
+      least = std::min(least, joint.acceleration / degree), largest = std::max(largest, joint.acceleration / degree);
+  double low = 0, high = 0;
+  std::string words = pipeline::shipped_accelerations;
+  std::erase(words, ',');
+  REQUIRE(std::sscanf(words.c_str(), "%lf to %lf deg/s2", &low, &high) == 2);
+  CHECK((low <= least * 1.001 && low > 0.9 * least));  // three digits
+  CHECK((high >= largest * 0.999 && high < 1.1 * largest));
+}
 
 TEST_CASE("shipped robots: each reaches as far as its name says") {
   for (const Shipped& robot : robots) {
