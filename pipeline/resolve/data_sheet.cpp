@@ -470,6 +470,16 @@ std::string jacket_material(const std::string& phrase) {
   return "";
 }
 
+/// Of "outer jacket purr", the words that name neither the jacket, nor its place, nor a usual material; empty: none.
+std::string unknown_material(const std::string& words) {
+  static const std::regex own(R"(\b(outer|outside|inner|jacket|sheath|material|wall|thickness|thick|of|the)\b)"), space(" +"),
+      without_wear_rate(R"(\b(pe|hdpe|ldpe|xlpe|pp|pa|nylon|polyamide|silicone?|rubber|neoprene|cr|nbr|epr|epdm|hypalon|csm|)"
+                        R"(fep|pfa|ptfe|etfe|lszh|lsoh|frnc|hffr|halogen|free|black|grey|gray|orange|green|blue|yellow)\b)");
+  std::string rest = std::regex_replace(std::regex_replace(std::regex_replace(words, own, ""), without_wear_rate, ""), space, " ");
+  rest.erase(0, rest.find_first_not_of(" -"));
+  return rest.substr(0, rest.find_last_not_of(" -") + 1);
+}
+
 /// Decimal commas as points: "12 x 0,25 mm2, OD 9,5 mm". A comma behind a unit, or before a number of cores, separates.
 std::string with_points(const std::string& text) {
   static const std::regex comma(R"((^|[^a-zA-Z0-9.²^])(\d+),(\d+)(?![\d.]* *[xX*]))");
@@ -533,7 +543,12 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
       if (std::regex_match(found[1].str(), words)) {
         std::vector<std::pair<const char*, std::string>> keys{{key, found[2]}};
         if (key == std::string_view("jacket_thickness_mm"))
-          if (const std::string material = jacket_material(phrase); !material.empty()) keys.emplace_back("jacket_material", material);
+          if (const std::string material = jacket_material(phrase); !material.empty())
+            keys.emplace_back("jacket_material", material);
+          else if (const std::string unknown = unknown_material(found[1]); !unknown.empty())
+            throw InputError(where, fmt::format("the jacket's material '{}' of a data sheet is not known", unknown),
+                             fmt::format("write PUR, PVC or TPE; of another material 'jacket {} mm', and its wear is not evaluated",
+                                         found[2].str()));
         return keys;
       }
   static const std::regex jacket(R"((outer |outside )?(jacket|sheath)( material)? *:? *[a-z -]+|[a-z-]+ (outer )?(jacket|sheath))");

@@ -41,7 +41,8 @@ const std::array<ColumnWords, column_count>& columns() {
         "dateofreplacement"}},
       {"reason",
        {"reason", "removalreason", "replacementreason", "cause", "grund", "ausbaugrund", "ursache"}},
-      {"hours_per_week", {"hoursperweek", "hperweek", "operatinghoursperweek", "stundenprowoche"}},
+      {"hours_per_week", {"hoursperweek", "hperweek", "operatinghoursperweek", "stundenprowoche",
+                          "betriebsstundenprowoche", "hprowoche", "stundenwoche", "betriebsstundenwoche", "hwoche"}},
       {"job", {"job", "program", "programm"}},
   }};
   return all;
@@ -137,6 +138,11 @@ class Export {
         at_[c] = k;
       }
     }
+    if (!at_[hours_per_week])  // left out, a usual value counts: a column that seems to hold it is asked about
+      for (const CsvCell& title : titles_)
+        if (has_any(letters_of(title.text), {"week", "woche", "semana", "semaine", "settimana"}))
+          throw InputError(reader_.where(title), fmt::format("column '{}' may mean hours_per_week, and is not known", title.text),
+                           "name it hours_per_week, or without a word for a week if it means something else");
     for (const Column needed : {robot, installed, replaced})
       if (!at_[needed])
         throw InputError(

@@ -160,6 +160,9 @@ TEST_CASE("a sheet's line is what its keys are") {
           "wire_lay_length_mm: 12, core_diameter_mm: 1.2, outer_diameter_mm: 9, jacket_thickness_mm: 0.9, "
           "jacket_material: polyurethane}"));
   const auto refusal = [&](const std::string& sheet) { return message_of([&] { expanded(sheet); }); };
+  CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, outer diameter 8.2 mm, jacket PURR 1.1 mm"),
+             Catch::Contains("material 'purr' of a data sheet is not known") && Catch::Contains("'jacket 1.1 mm'"));
+  CHECK(refusal("7 x 0.5 mm2, wire 0.1 mm, outer diameter 8.2 mm, jacket thickness 1.1 mm") == "");
   CHECK_THAT(refusal("7 x 0.5 mm2, sausage, wire 0.1 mm"),
              Catch::Contains("'sausage' of a data sheet is not understood") && Catch::Contains("dresslife manual data_sheet"));
   // A jacket's material without its thickness, and words that change nothing.

@@ -124,6 +124,8 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
       {titles + "A,a,2024-02-03,2025-01-03,failed\nA,a,2025-01-02,,\n",
        "plant.csv:3:1: error: 'A, a' is in use from 2025-01-02 on, and line 2 has it until 2025-01-03",
        "there twice"},
+      {"robot,installed,replaced,hours in a week\nA,2024-02-03,,20\n",
+       "plant.csv:1:26: error: column 'hours in a week' may mean hours_per_week, and is not known", "name it hours_per_week"},
       {"robot,installed,replaced,hours_per_week\nA,2024-02-03,,200\n",
        "plant.csv:2:15: error: hours_per_week is '200'", "hours"}};
   for (const auto& [table, problem, remedy] : cases) {
