@@ -25,7 +25,7 @@ struct PlainPart {
   Medium medium = Medium::air;              ///< that fills it
   std::optional<double> bending_stiffness;  ///< E I [N m2]; absent: of polymer
   std::optional<double> damage_exponent;    ///< m of (F31), of a cable; absent: usual_damage_exponent
-  std::optional<double> least_bend_radius;  ///< of a hose, at its axis, by its maker [m]; absent: by its wall (pipeline/cable/kink.h)
+  std::optional<double> least_bend_radius{};  ///< of a hose, at its axis, by its maker [m]; absent: by its wall (pipeline/cable/kink.h)
   double stiffness_factor = 1;              ///< of its polymer, by the temperature of the cell (pipeline/cable/warmth.h)
   Where where{};
 };
