@@ -480,6 +480,13 @@ std::string unknown_material(const std::string& words) {
   return rest.substr(0, rest.find_last_not_of(" -") + 1);
 }
 
+/// A misspelt material would take the wear of the jacket out of the result. Errors: InputError.
+void refuse_unknown_material(const std::string& words, const Where& where) {
+  if (const std::string unknown = unknown_material(words); !unknown.empty())
+    throw InputError(where, fmt::format("the jacket's material '{}' of a data sheet is not known", unknown),
+                     "write PUR, PVC or TPE; of another material the thickness alone, and its wear is not evaluated");
+}
+
 /// Decimal commas as points: "12 x 0,25 mm2, OD 9,5 mm". A comma behind a unit, or before a number of cores, separates.
 std::string with_points(const std::string& text) {
   static const std::regex comma(R"((^|[^a-zA-Z0-9.²^])(\d+),(\d+)(?![\d.]* *[xX*]))");
@@ -545,15 +552,16 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
         if (key == std::string_view("jacket_thickness_mm"))
           if (const std::string material = jacket_material(phrase); !material.empty())
             keys.emplace_back("jacket_material", material);
-          else if (const std::string unknown = unknown_material(found[1]); !unknown.empty())
-            throw InputError(where, fmt::format("the jacket's material '{}' of a data sheet is not known", unknown),
-                             fmt::format("write PUR, PVC or TPE; of another material 'jacket {} mm', and its wear is not evaluated",
-                                         found[2].str()));
+          else
+            refuse_unknown_material(found[1], where);
         return keys;
       }
   static const std::regex jacket(R"((outer |outside )?(jacket|sheath)( material)? *:? *[a-z -]+|[a-z-]+ (outer )?(jacket|sheath))");
-  if (const std::string material = jacket_material(phrase); std::regex_match(phrase, jacket))
+  if (std::regex_match(phrase, jacket)) {
+    const std::string material = jacket_material(phrase);
+    if (material.empty()) refuse_unknown_material(phrase, where);
     return {{material.empty() ? "unused" : "jacket_material", material.empty() ? phrase : material}};
+  }
   if (changes_nothing(phrase)) return {{"unused", phrase}};
   const std::string meant = meant_section(phrase), other = other_key(phrase);
   throw InputError(

@@ -127,15 +127,8 @@ std::string mixture_words(const DutyResult& duty) {
                               duty.modes[m], duty.changes[m]),
                   118, "  ");
   }
-  // Two pairs of shipped programs in turns, each beside one motion of both (README.md).
-  if (duty.parts.size() > 1)
-    text += wrapped(
-        duty.has_order
-            ? "Against one motion of two programs in turns, such a duty had 2 and 2 % more damage at the medians, a p10 0 % and 62 % "
-              "longer, and a p50 2 % shorter and 24 % longer (two pairs). Loose cables of other slack find another rest in each motion."
-            : "Cycles across a change of programs are not counted. Against one motion of two programs in turns, such a duty had 0 and "
-              "11 % more damage at the medians, and a p10 4 and 42 % longer (two pairs). An order counts these cycles.",
-        118, "  ");
+  if (duty.parts.size() > 1 && !duty.has_order)
+    text += wrapped("Cycles that begin in one program and end in another are not counted. With `order` they are.", 118, "  ");
   return text;
 }
 
