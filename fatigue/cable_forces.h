@@ -15,8 +15,8 @@ struct CableForces {
   std::vector<std::vector<double>> tension;  ///< (cable, sample) of the file, largest along each by size [N]; empty: not known
 };
 
-/// Writes tensions, moments and their shares into the life file. Of a file that has no strains of cables what
-/// it tells itself is handed on. Errors: InputError when the file names a cable that the job does not have.
+/// Writes tensions, moments and their shares into the life file. A file without strains of
+/// cables has these values, and they are copied. Errors: InputError when the file names a cable that the job does not have.
 CableForces write_cable_forces(const pipeline::FileReader& strain, const pipeline::Job& job, pipeline::FileWriter& life);
 
 }  // namespace dresslife::fatigue

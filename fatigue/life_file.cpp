@@ -253,8 +253,8 @@ void write_layers(const Context& c) {
   put(c.life, "/layer/damage", damage_at(c, worst));
 }
 
-/// One layer of wires in one segment is a group: what relaxes of the worst of them tells what does of the
-/// others (F24).
+/// One layer of wires in one segment is a group. The relaxation of the worst wire stands for
+/// that of the others (F24).
 struct SettledGroups {
   Layers layers;
   std::size_t count;
@@ -499,12 +499,12 @@ void write_mean_stress(const Context& c) {
   pipeline::Fatigue without = c.job.fatigue;
   without.mean_stress = pipeline::MeanStress::none;
   const std::vector<Reversal> reversals = c.reversals_of(c.worst);
-  const auto told = [&](const pipeline::Fatigue& settings) {
+  const auto hours_with = [&](const pipeline::Fatigue& settings) {
     const double damage = sum_of_damage(evaluate_cycles(reversals, material, settings));
     return hours(life_in_repeats(damage), c.repeat_seconds());
   };
-  c.life.attribute("life_hours_mean_stress_kept", told(c.job.fatigue));
-  c.life.attribute("life_hours_without_mean_stress", told(without));
+  c.life.attribute("life_hours_mean_stress_kept", hours_with(c.job.fatigue));
+  c.life.attribute("life_hours_without_mean_stress", hours_with(without));
   c.life.attribute("mean_stress_left", c.offset_share(c.worst));
 }
 

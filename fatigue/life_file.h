@@ -15,7 +15,7 @@ struct Job;
 
 namespace dresslife::fatigue {
 
-/// What the stage tells on a terminal.
+/// What the stage prints on a terminal.
 struct Notes {
   std::vector<pipeline::Warning> warnings;
   std::string summary;  ///< one line: life, place, wire

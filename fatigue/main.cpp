@@ -10,13 +10,13 @@ int main(int argc, char** argv) {
   using namespace dresslife;
   const pipeline::StageInfo info{
       .program = "dresslife-fatigue",
-      .purpose = "Tells how long every wire of a dresspack lives, and which breaks first.",
+      .purpose = "Predicts the life of every wire of a dresspack, and which wire breaks first.",
       .input = "strain.h5",
       .output = "life.h5",
       .example = "dresslife-fatigue strain.h5 -o life.h5 --set fatigue.stress=elastic",
       .part = pipeline::JobPart::fatigue,
-      .told = [](const std::filesystem::path& life) {
-        return pipeline::told_by(life, pipeline::life_format());
+      .results = [](const std::filesystem::path& life) {
+        return pipeline::results_in(life, pipeline::life_format());
       }};
   return pipeline::run_stage(
       info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {

@@ -1,4 +1,4 @@
-// dresslife: runs studies, tells how they stand, reports their results and prints the manual.
+// dresslife: runs studies, prints their state, reports their results and prints the manual.
 #include <unistd.h>
 
 #include <algorithm>

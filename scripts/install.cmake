@@ -55,7 +55,7 @@ install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/dresslife/config)
 install(FILES ${shared}/dresslife/commit DESTINATION ${CMAKE_INSTALL_DATADIR}/dresslife OPTIONAL)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)  # Debian's name for it
-# HDF5 is within the programs, and its licence asks to be told with them.
+# HDF5 is within the programs, and its licence must be shipped with them.
 install(FILES /usr/share/doc/libhdf5-dev/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright.hdf5 OPTIONAL)
 # The pages keep their places among each other, so that their links lead on.
 file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} *.md)

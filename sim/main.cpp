@@ -30,7 +30,7 @@ struct Request {
 };
 
 /// What is asked for without a run. Returns false when it is the run that is asked for.
-bool told_at_rest(const Request& request, const pipeline::StageCall& call, pipeline::Job& job,
+bool written_without_run(const Request& request, const pipeline::StageCall& call, pipeline::Job& job,
                   pipeline::Progress& progress) {
   if (!request.preview && request.screen.empty() && !request.propose) return false;
   if (job.motion.is_prescribed())
@@ -142,11 +142,11 @@ int main(int argc, char** argv) {
            {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about",
             &request.exercise}},
       .part = pipeline::JobPart::sim,
-      .told = pipeline::told_checks};
+      .results = pipeline::results_of_checks};
   return pipeline::run_stage(
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
         pipeline::Job job = pipeline::read_job(call.input, call.sets);
-        if (told_at_rest(request, call, job, progress)) return;
+        if (written_without_run(request, call, job, progress)) return;
         if (job.motion.is_prescribed()) return prescribe(call, job, progress);
         try {
           simulate(call, job, progress);

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   using namespace dresslife;
   const pipeline::StageInfo info{
       .program = "dresslife-strain",
-      .purpose = "Tells what every wire of a dresspack feels while the robot moves.",
+      .purpose = "Computes the strain of every wire of a dresspack while the robot moves.",
       .input = "motion.h5",
       .output = "strain.h5",
       .example = "dresslife-strain motion.h5 -o strain.h5 --set strain.slip=stick",

@@ -100,14 +100,14 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   const std::vector<double> lengths = motion.read<double>("/segment/length");
   pipeline::MemoryNeed need;
   need.add(program, "the program");
-  if (samples == 0 || segments == 0) return need;  // write_strain() tells of it
+  if (samples == 0 || segments == 0) return need;  // write_strain() reports it
 
   // Of each span: lists of parts and wires with their names.
   double sites = 0, listed = 0;
   constexpr double of_a_part = 400, of_a_wire = 120;
   const std::vector<pipeline::MotionSpan> spans = pipeline::motion_spans(motion);
   for (const pipeline::MotionSpan& span : spans) {
-    if (span.dresspack >= job.dresspacks.size()) continue;  // write_strain() tells of it
+    if (span.dresspack >= job.dresspacks.size()) continue;  // write_strain() reports it
     const Parts parts = parts_in(job.dresspacks[span.dresspack].dresspack.components);
     sites += static_cast<double>(span.segments) * parts.wires * std::max(1, job.strain.surface_fibres);
     listed += of_a_part * parts.parts + of_a_wire * parts.wires;

@@ -6,7 +6,7 @@
 
 namespace dresslife::strain {
 
-/// Until the first range as wide as the gate tells a direction.
+/// Until the first range as wide as the gate gives a direction.
 void TurningPoints::begin(float strain, TurningList& out) {
   const std::uint32_t now = sample_++;
   last_ = strain;

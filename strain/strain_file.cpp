@@ -81,7 +81,7 @@ class MotionReader {
   bool ends_freely(const pipeline::Job& job, std::size_t k) const {
     const auto dresspack = static_cast<std::size_t>(spans_[k].dresspack);
     const bool last = k + 1 == spans_.size() || spans_[k + 1].dresspack != spans_[k].dresspack;
-    if (dresspack >= job.dresspacks.size()) return false;  // check() tells of it
+    if (dresspack >= job.dresspacks.size()) return false;  // check() reports it
     return last && !is_clamped(job.dresspacks[dresspack].routing.tool_end);
   }
 
@@ -331,11 +331,11 @@ struct Evaluations {
   std::vector<std::unique_ptr<Evaluation>> of_span;  // refer to them
   int levels = 0;                                    // of the deepest wire
 
-  /// as_told: the same dresspacks without further factors, with whose cables these lie side by side, in as
+  /// as_given: the same dresspacks without further factors, with whose cables these lie side by side, in as
   /// many pieces.
   Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t threads,
               const pipeline::StrainFactors& factors, const Scratch& scratch,
-              const Evaluations* as_told = nullptr) {
+              const Evaluations* as_given = nullptr) {
     for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
       constructions.emplace_back(mounted.dresspack, job.strain.kinematics, factors);
       levels = std::max(levels, constructions.back().levels());
@@ -361,8 +361,8 @@ struct Evaluations {
       place.clamped_length = pipeline::clamped_length(job);
       const std::vector<double> lengths = reader.lengths_of(spans[k]);
       pipeline::Strain settings = settings_of(job, d);
-      if (as_told)
-        settings.cable_elements = static_cast<int>(as_told->of_span[k]->cables().elements_per_segment());
+      if (as_given)
+        settings.cable_elements = static_cast<int>(as_given->of_span[k]->cables().elements_per_segment());
       of_span.push_back(std::make_unique<Evaluation>(constructions[d], settings, lengths, reader.samples(),
                                                      threads, place, scratch));
       place.first_arc += std::accumulate(lengths.begin(), lengths.end(), 0.0);

@@ -73,23 +73,23 @@ std::size_t placements_at_most(const pipeline::Job& job) {
          (rubs(job.strain.slip.front()) && any_component(job, rubs_on_hose) ? other_nodes : 0);
 }
 
-Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Build& build)
-    : enabled_(job.uncertainty.enabled), as_told_(as_told) {
+Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Build& build)
+    : enabled_(job.uncertainty.enabled), as_given_(as_given) {
   if (!job.uncertainty.enabled) return;
-  const bool rubs_inside = std::any_of(as_told.begin(), as_told.end(),
+  const bool rubs_inside = std::any_of(as_given.begin(), as_given.end(),
                                        [](const auto& evaluation) { return evaluation->rubs_inside(); });
   std::vector<Friction> around, all{{}};
   // Where rubbing is little, lives bend away toward those without damage.
   if (rubs_inside) around = {{-reach}, {-reach / 2}, {reach}, {0, Inside::glued}, {0, Inside::free}};
   all.insert(all.end(), around.begin(), around.end());
-  if (!around.empty()) add(as_told, {}, around);
+  if (!around.empty()) add(as_given, {}, around);
   const auto lay = [&](Uncertain parameter, const auto& nodes, const std::vector<Friction>& friction) {
-    if (!matters(job, as_told, parameter)) return;
+    if (!matters(job, as_given, parameter)) return;
     for (const double z : nodes) {
       Point point{};
       point[index_of(parameter)] = z;
       const Spans& placed = build(moved(job.strain.factors, parameter, z));
-      for (std::size_t span = 0; span < placed.size(); ++span) placed[span]->share_loose(*as_told[span]);
+      for (std::size_t span = 0; span < placed.size(); ++span) placed[span]->share_loose(*as_given[span]);
       add(placed, point, friction);
     }
   };
@@ -101,13 +101,13 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Bui
 void Variations::go_on() const {
   for (const Placement& placement : placements_)
     for (std::size_t span = 0; span < placement.spans->size(); ++span)
-      if (placement.spans != &as_told_) (*placement.spans)[span]->go_on_from(*as_told_[span]);
+      if (placement.spans != &as_given_) (*placement.spans)[span]->go_on_from(*as_given_[span]);
 }
 
 void Variations::add(const Starts& starts) {
   if (!enabled_) return;
   for (Placement& placement : placements_)
-    if (placement.spans != &as_told_)
+    if (placement.spans != &as_given_)
       for (const std::size_t variation : placement.variation)
         rests_[variation] = static_cast<std::int32_t>(starts.rest_of_variations());
   for (std::size_t rest = 1; rest < starts.rests(); ++rest) {
@@ -138,25 +138,25 @@ void Variations::add(const Spans& spans, Point z, const std::vector<Friction>& f
 std::vector<Evaluation*> Variations::placed(std::size_t span) const {
   std::vector<Evaluation*> all;
   for (const Placement& placement : placements_)
-    if (placement.spans != &as_told_) all.push_back((*placement.spans)[span].get());
+    if (placement.spans != &as_given_) all.push_back((*placement.spans)[span].get());
   return all;
 }
 
 void Variations::evaluate(std::size_t span, std::size_t segment, const DeformationHistory& history,
                           std::size_t row, const Put& put) const {
-  const std::vector<Evaluation::Site>& likely = as_told_[span]->likely_worst();
+  const std::vector<Evaluation::Site>& likely = as_given_[span]->likely_worst();
   if (likely.empty()) return;
   for (const Placement& placement : placements_) {
     Evaluation& placed = *(*placement.spans)[span];
     std::vector<Evaluation::Site> wires = likely;
-    if (placement.spans != &as_told_) {  // where cables rest elsewhere, other wires may be the worst
+    if (placement.spans != &as_given_) {  // where cables rest elsewhere, other wires may be the worst
       const std::vector<Evaluation::Site>& own = placed.likely_of_bent(segment, history, row);
       wires.insert(wires.end(), own.begin(), own.end());
       std::ranges::sort(wires);
       wires.erase(std::unique(wires.begin(), wires.end()), wires.end());
     }
     std::vector<std::size_t> sites;
-    for (const Evaluation::Site site : wires) sites.push_back(as_told_[span]->row_of(segment, site));
+    for (const Evaluation::Site site : wires) sites.push_back(as_given_[span]->row_of(segment, site));
     const std::vector<SiteRows> rows = placed.varied(wires, placement.factors, segment, history, row);
     for (std::size_t k = 0; k < rows.size(); ++k) put(placement.variation[k], sites, rows[k]);
   }

@@ -32,7 +32,7 @@ class Variations {
   using Build = std::function<const Spans&(const pipeline::StrainFactors&)>;
 
   /// Nothing is varied where the job's uncertainty is off, or nothing can slide.
-  Variations(const pipeline::Job& job, const Spans& as_told, const Build& build);
+  Variations(const pipeline::Job& job, const Spans& as_given, const Build& build);
 
   bool empty() const { return points_.empty(); }
   const std::vector<Point>& points() const { return points_; }  ///< (variation)
@@ -69,7 +69,7 @@ class Variations {
   void add(const Spans& spans, Point z, const std::vector<Friction>& friction);
 
   bool enabled_;
-  const Spans& as_told_;
+  const Spans& as_given_;
   std::vector<Point> points_;
   std::vector<pipeline::Inside> inside_;
   std::vector<std::int32_t> rests_;

@@ -58,8 +58,8 @@ fs::path program_called(const std::string& name) {
 
 fs::path program_file() {
   std::error_code failure;
-  const fs::path told = fs::read_symlink("/proc/self/exe", failure);
-  if (!failure) return told;
+  const fs::path target = fs::read_symlink("/proc/self/exe", failure);
+  if (!failure) return target;
   // The path that the kernel started, from the auxiliary vector. A relative one is valid as long as the current
   // folder is unchanged, and our programs do not change it.
   const char* const name = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));

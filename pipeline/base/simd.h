@@ -7,7 +7,7 @@
 // x86-64, and there number by number where clang or a sanitizer compiles it; else the build's own), includes
 // this one, and puts its loops between DRESSLIFE_BEGIN_MACHINE and DRESSLIFE_END_MACHINE. What comes from
 // outside must be compiled for any machine, so it is included before: standard headers of all loops here.
-// pipeline/base/instruction_set.h tells which of them run on the machine at hand.
+// pipeline/base/instruction_set.h selects those that run on the machine at hand.
 #pragma once
 
 #ifndef DRESSLIFE_MACHINE

@@ -86,7 +86,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
   check.limits =
       "The dresspack was checked at rest and in a short run. A run may also warn of tension, and of strains and forces of its "
       "cables.";
-  if (tell_preview(file, sets, {}, preview_file) != 0) fail_motion(file);
+  if (print_preview(file, sets, {}, preview_file) != 0) fail_motion(file);
   try {
     check.refusal = refusal_of(preview_file);
     const FileReader preview(preview_file, preview_format(), FileReader::Scope::attributes);

@@ -148,18 +148,18 @@ std::string draft_text(const Draft& draft, const fs::path& folder) {
 
 /// The best routing that geometry and short runs find, in some seconds.
 Choice proposed(const Draft& draft) {
-  const PassingFile job("draft.yaml"), told("screening.h5");
+  const PassingFile job("draft.yaml"), screening("screening.h5");
   write_text_if_changed(job.path(), with_mark(draft_text(draft, job.path().parent_path()), Mark::yaml));
   std::vector<std::string> arguments{
       job.path().string(),  "--propose", "1", "--tried", "300", "--rehearsals", "80", "--further", "16", "-o",
-      told.path().string(), "--quiet"};
+      screening.path().string(), "--quiet"};
   if (draft.exercise) arguments.emplace_back("--exercise");
   if (run_stage_program("dresslife-sim", arguments) != 0)
     throw InputError({"dresslife new"}, "no routing can be proposed (see above), nothing was written",
                      draft.exercise ? "mend what is named there"
                                     : "mend what is named there; what it calls motion.KEY belongs to a job: make one without "
                                       "--program, and write motion: {program: FILE, KEY: VALUE} into it");
-  const ScreenedList found = read_screening(told.path());
+  const ScreenedList found = read_screening(screening.path());
   const ScreenedCandidate& best = found.candidates.front();
   Choice choice{parse_yaml(best.changes, "proposal"),
                 "proposed from the robot's shape; put your brackets here"};

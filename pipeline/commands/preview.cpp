@@ -29,10 +29,10 @@ int preview(const Options& options) {
   const fs::path page =
       options.page.empty() ? fs::path(job.stem().string() + "_preview.html") : fs::path(options.page);
   check_replaceable(page);
-  const PassingFile told("preview.h5");
-  const JobCheck check = check_of(job, options.sets, told.path());
-  if (kind_of(told.path()) != FileKind::file) return tell_preview(job, options.sets, {}, told.path());  // prints why
-  write_text_if_changed(page, preview_page(told.path(), job.stem().string(), xxh3(shell_digest())));
+  const PassingFile file("preview.h5");
+  const JobCheck check = check_of(job, options.sets, file.path());
+  if (kind_of(file.path()) != FileKind::file) return print_preview(job, options.sets, {}, file.path());  // prints why
+  write_text_if_changed(page, preview_page(file.path(), job.stem().string(), xxh3(shell_digest())));
   print_check(check);
   print(shown("Preview: " + page.string() + "\n"));
   return 0;

@@ -30,7 +30,7 @@ int report(const StudyOptions& options) {
                      "run it: dresslife run " + options.study);
   check_source(folder, request.file);
   StudyState standing = standing_of(request);
-  tell_changes(standing.study, standing.places, standing.states);
+  report_changes(standing.study, standing.places, standing.states);
   const auto& [study, places, states, remembered, looks, digests] = standing;
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, nullptr, rows);

@@ -17,12 +17,12 @@ namespace dresslife::pipeline {
 
 namespace fs = std::filesystem;
 
-int tell_preview(const fs::path& job, const std::vector<std::string>& sets, const StageLimits& limits,
-                 const fs::path& told, StageWords said) {
+int print_preview(const fs::path& job, const std::vector<std::string>& sets, const StageLimits& limits,
+                 const fs::path& preview, StageWords said) {
   std::vector<std::string> arguments{job.string(),
                                      "--preview",
                                      "-o",
-                                     told.string(),
+                                     preview.string(),
                                      "--quiet",
                                      "--job-time",
                                      std::to_string(limits.seconds),
@@ -43,10 +43,10 @@ bool refresh_preview(const fs::path& job, const fs::path& page, const JobState& 
   const std::string made_from = xxh3(shell_digest() + state.recipes[0] + state.failure + name);
   if (made_from_of(page) == made_from) return true;
   const bool on_its_way = state.failure.find("is drawn taut") != std::string::npos;
-  const PassingFile told("preview.h5");
-  if (tell_preview(job, {}, limits, told.path(), StageWords::dropped) != 0) return false;
-  if (!on_its_way && refusal_of(told.path()).empty()) return false;
-  write_text_if_changed(page, preview_page(told.path(), name, made_from, state.failure), Sync::never);
+  const PassingFile preview("preview.h5");
+  if (print_preview(job, {}, limits, preview.path(), StageWords::dropped) != 0) return false;
+  if (!on_its_way && refusal_of(preview.path()).empty()) return false;
+  write_text_if_changed(page, preview_page(preview.path(), name, made_from, state.failure), Sync::never);
   return true;
 }
 
@@ -86,7 +86,7 @@ std::string why_old(const RankingRow& row) {
              : "";
 }
 
-/// Whether a step with a job's page could be taken; tells why not.
+/// Whether a step with a job's page could be taken; prints why not.
 bool taken(const std::string& job, const std::function<void()>& step) {
   try {
     step();

@@ -25,8 +25,8 @@ std::vector<std::filesystem::path> refresh_previews(const Study& study, const St
                                                     const std::vector<JobState>& states);
 
 /// Lets dresslife-sim tell into a file what stands where. Returns its exit status.
-int tell_preview(const std::filesystem::path& job, const std::vector<std::string>& sets,
-                 const StageLimits& limits, const std::filesystem::path& told,
+int print_preview(const std::filesystem::path& job, const std::vector<std::string>& sets,
+                 const StageLimits& limits, const std::filesystem::path& preview,
                  StageWords said = StageWords::shown);
 
 }  // namespace dresslife::pipeline

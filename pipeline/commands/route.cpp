@@ -83,7 +83,7 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
   if (factor != 1) document["dresspack"] = *routed(draft, "{}", "{}", factor).find("dresspack");
   const fs::path job = folder / "draft.yaml";
   write_text_if_changed(job, with_mark(to_yaml(document), Mark::yaml));
-  const PassingFile told("screening.h5");
+  const PassingFile passing("screening.h5");
   std::vector<std::string> arguments{job.string(),
                                      "--propose",
                                      std::to_string(trials),
@@ -96,13 +96,13 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
                                      "--seed",
                                      std::to_string(options.seed),
                                      "-o",
-                                     told.path().string()};
+                                     passing.path().string()};
   if (options.quiet) arguments.push_back("--quiet");
   if (draft.exercise) arguments.push_back("--exercise");
   if (!options.ring.empty()) arguments.insert(arguments.end(), {"--ring", options.ring});
   if (run_stage_program("dresslife-sim", arguments) != 0)
     throw StageFailed({draft.name}, "no routing can be proposed (see above)", "mend what is named there");
-  return read_screening(told.path());
+  return read_screening(passing.path());
 }
 
 /// Runs a routing through the whole chain.
@@ -283,9 +283,9 @@ std::vector<double> factors_of(const Options& options) {
 }
 
 void write_page(const fs::path& job, const fs::path& page) {
-  const PassingFile told("preview.h5");
-  if (tell_preview(job, {}, {}, told.path()) == 0)
-    write_text_if_changed(page, preview_page(told.path(), job.stem().string(), xxh3(shell_digest())));
+  const PassingFile passing("preview.h5");
+  if (print_preview(job, {}, {}, passing.path()) == 0)
+    write_text_if_changed(page, preview_page(passing.path(), job.stem().string(), xxh3(shell_digest())));
 }
 
 /// The winner beside the routing that the job has.

@@ -47,7 +47,7 @@ int dry_run(const RunOptions& options) {
   const StudyRequest request = request_of(options);
   check_source(request.out / study_name(request.file), request.file);
   StudyState standing = standing_of(request);
-  tell_changes(standing.study, standing.places, standing.states);
+  report_changes(standing.study, standing.places, standing.states);
   std::size_t to_make = 0, refused = 0;
   std::vector<Json> jobs;
   const auto show_job = [&](const std::string& job, const std::string& state) {
@@ -93,7 +93,7 @@ int run(const Options& options) {
   if (standing.remembered && !standing.all_done()) standing = expanded(request);
   if (!begun) look_again(standing);
   const int executed = make_rest(request, standing, options);
-  tell_changes(standing.study, standing.places, standing.states);
+  report_changes(standing.study, standing.places, standing.states);
   const auto& [study, places, states, remembered, looks, digests] = standing;
   const bool any = std::any_of(study.jobs.begin(), study.jobs.end(),
                                [](const StudyJob& job) { return job.failure.empty(); });

@@ -17,7 +17,7 @@ int status(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
   check_source(request.out / study_name(request.file), request.file);
   StudyState standing = standing_of(request);
-  tell_changes(standing.study, standing.places, standing.states);
+  report_changes(standing.study, standing.places, standing.states);
   std::size_t done = 0;
   std::vector<Json> jobs;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {

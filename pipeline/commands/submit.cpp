@@ -96,12 +96,12 @@ int submit(const SubmitOptions& options) {
     return 0;
   }
   std::string last = submitted(cluster, array, script);
-  std::string told = fmt::format("{}: job {}", standing.study.name, last);
+  std::string message = fmt::format("{}: job {}", standing.study.name, last);
   if (shards > 1) {  // the whole, which finds the rest and ranks
     last = submitted(cluster, " --dependency=afterany:" + last, script);
-    told += fmt::format(" of {} shards, ranked by job {}", shards, last);
+    message += fmt::format(" of {} shards, ranked by job {}", shards, last);
   }
-  print(shown(fmt::format("{}\nFollow it: dresslife status {}; what it says: {}\n", told, options.study,
+  print(shown(fmt::format("{}\nFollow it: dresslife status {}; what it says: {}\n", message, options.study,
                           (standing.places.folder / "submit.log").string())));
   return 0;
 }

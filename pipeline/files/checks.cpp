@@ -12,7 +12,7 @@ constexpr char checks_name[] = "checks";
 
 }  // namespace
 
-std::vector<ResultValue> told_checks(const std::filesystem::path& motion_file) {
+std::vector<ResultValue> results_of_checks(const std::filesystem::path& motion_file) {
   const FileReader file(motion_file, motion_format());
   if (!file.has("/check/name")) return {};
   const auto names = file.read<std::string>("/check/name");
@@ -23,9 +23,9 @@ std::vector<ResultValue> told_checks(const std::filesystem::path& motion_file) {
   return {{checks_name, lines}};
 }
 
-std::vector<CheckedValue> checks_in(const std::vector<ResultValue>& told) {
+std::vector<CheckedValue> checks_in(const std::vector<ResultValue>& results) {
   std::vector<CheckedValue> checks;
-  for (const ResultValue& one : told) {
+  for (const ResultValue& one : results) {
     if (one.name != checks_name) continue;
     for (Words lines(one.text); lines.any();) {
       const double value = lines.number<double>(' '), limit = lines.number<double>(' ');

@@ -1,4 +1,4 @@
-// The checks of a motion (/check/*) beside it: its receipt tells them, so that they are known where motion.h5
+// The checks of a motion (/check/*) beside it: its receipt contains them, so that they are known where motion.h5
 // is not kept.
 #pragma once
 
@@ -18,9 +18,9 @@ struct CheckedValue {
 
 /// For the receipt of a motion; nothing of a motion without checks. Errors: InputError when it cannot be
 /// read.
-std::vector<ResultValue> told_checks(const std::filesystem::path& motion_file);
+std::vector<ResultValue> results_of_checks(const std::filesystem::path& motion_file);
 
-/// The checks in the results of told_checks().
-std::vector<CheckedValue> checks_in(const std::vector<ResultValue>& told);
+/// The checks in the results of results_of_checks().
+std::vector<CheckedValue> checks_in(const std::vector<ResultValue>& results);
 
 }  // namespace dresslife::pipeline

@@ -184,10 +184,10 @@ namespace {
 std::optional<std::string> checksum(const std::filesystem::path& file, bool compare) {
   try {
     InputBytes bytes(file);
-    const std::string told = bytes.read_checksum("");
-    if (told.empty()) return bytes.digest();
-    if (compare) bytes.check(told, "");
-    return told;
+    const std::string stored = bytes.read_checksum("");
+    if (stored.empty()) return bytes.digest();
+    if (compare) bytes.check(stored, "");
+    return stored;
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -195,7 +195,7 @@ std::optional<std::string> checksum(const std::filesystem::path& file, bool comp
 
 }  // namespace
 
-std::optional<std::string> told_checksum(const std::filesystem::path& file) { return checksum(file, false); }
+std::optional<std::string> stored_checksum(const std::filesystem::path& file) { return checksum(file, false); }
 std::optional<std::string> checksum_of(const std::filesystem::path& file) { return checksum(file, true); }
 
 bool begins_with_checksum(const std::filesystem::path& file) {

@@ -71,7 +71,7 @@ class InputBytes {
 
 /// The digest that a file's block names, its bytes unread; of a file without a block, the digest of all its
 /// bytes. Nothing when there is no file or its block is damaged. Errors: DiskError.
-std::optional<std::string> told_checksum(const std::filesystem::path& file);
+std::optional<std::string> stored_checksum(const std::filesystem::path& file);
 
 /// SHA-256 of a file, by a reading that is held to the file's own checksum. A file without one is digested as it is.
 /// Errors: InputError when the bytes read are not those of the checksum; DiskError.

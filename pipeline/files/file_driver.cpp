@@ -46,7 +46,7 @@ herr_t close_file(H5FD_t* file) {
 }
 
 /// As the library's own driver: it gathers small pieces before it calls.
-herr_t tell_abilities(const H5FD_t*, unsigned long* flags) {
+herr_t print_abilities(const H5FD_t*, unsigned long* flags) {
   if (flags)
     *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
              H5FD_FEAT_AGGREGATE_SMALLDATA;
@@ -96,7 +96,7 @@ H5FD_class_t driver_table() {
   table.fapl_size = sizeof(Target);
   table.open = open_file;
   table.close = close_file;
-  table.query = tell_abilities;
+  table.query = print_abilities;
   table.get_eoa = get_end_of_use;
   table.set_eoa = set_end_of_use;
   table.get_eof = get_end_of_file;

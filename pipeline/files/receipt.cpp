@@ -45,17 +45,17 @@ std::string recipe_of(std::string_view settings, const std::vector<std::filesyst
   return digest.hex();
 }
 
-std::vector<ResultValue> told_by(const std::filesystem::path& file, const Format& format) {
+std::vector<ResultValue> results_in(const std::filesystem::path& file, const Format& format) {
   const FileReader reader(file, format, FileReader::Scope::attributes);
   std::vector<ResultValue> all;
   for (const AttributeInfo& attribute : format.attributes) {
     if (!reader.has_attribute(attribute.name)) continue;
-    ResultValue& told = all.emplace_back();
-    told.name = attribute.name;
+    ResultValue& results = all.emplace_back();
+    results.name = attribute.name;
     if (attribute.is_text)
-      told.text = reader.text_attribute(attribute.name);
+      results.text = reader.text_attribute(attribute.name);
     else
-      told.number = reader.number_attribute(attribute.name);
+      results.number = reader.number_attribute(attribute.name);
   }
   return all;
 }
@@ -106,9 +106,9 @@ FileState state_in(Words& words, char end) {
 std::string text_of(const Receipt& receipt) {
   std::string text = fmt::format("recipe {}\ninput {}\noutput {}\nstate {}\n", receipt.recipe, receipt.input,
                                  receipt.output, words_of(receipt.state));
-  for (const ResultValue& told : receipt.told)
-    text += told.text.empty() ? fmt::format("number {} {}\n", told.name, told.number)
-                              : fmt::format("text {} {}\n", told.name, in_line(told.text));
+  for (const ResultValue& results : receipt.results)
+    text += results.text.empty() ? fmt::format("number {} {}\n", results.name, results.number)
+                              : fmt::format("text {} {}\n", results.name, in_line(results.text));
   for (const auto& [what, digest] : receipt.made_with)
     text += fmt::format("with {} {}\n", digest, in_line(what));
   return text;
@@ -160,12 +160,12 @@ std::optional<Receipt> read_receipt(const std::filesystem::path& file) {
       std::string digest(lines.until(' '));
       receipt.made_with.emplace_back(out_of_line(lines.until('\n')), std::move(digest));
     } else {
-      ResultValue& told = receipt.told.emplace_back();
-      told.name = lines.until(' ');
+      ResultValue& results = receipt.results.emplace_back();
+      results.name = lines.until(' ');
       if (what == "text")
-        told.text = out_of_line(lines.until('\n'));
+        results.text = out_of_line(lines.until('\n'));
       else
-        told.number = lines.number<double>('\n');
+        results.number = lines.number<double>('\n');
     }
   }
   return receipt;

@@ -10,7 +10,7 @@
 //           them, if the file system's clock moved on between the output and its receipt. Both times come
 //           from the file system; no program can set them. Where the receipt is not younger than the output, the
 //           bytes are compared;
-//   told:   the results in the root of life.h5 and the checks of motion.h5 (checks.h), so that a study of ten thousand
+//   results:   the results in the root of life.h5 and the checks of motion.h5 (checks.h), so that a study of ten thousand
 //           jobs is ranked without opening these files;
 //   with:   digests of the program and of each file, one by one: they show which of them changed.
 //
@@ -38,12 +38,12 @@ struct ResultValue {
   bool operator==(const ResultValue&) const = default;
 };
 /// Those that the format names, of a file. Errors: InputError.
-std::vector<ResultValue> told_by(const std::filesystem::path& file, const Format& format);
+std::vector<ResultValue> results_in(const std::filesystem::path& file, const Format& format);
 
 struct Receipt {
   std::string recipe, input, output;
   FileState state;
-  std::vector<ResultValue> told{};
+  std::vector<ResultValue> results{};
   /// What else the recipe is of, with digests: the program by its name, and files as seen from the folder of the
   /// output.
   std::vector<std::pair<std::string, std::string>> made_with{};
@@ -81,7 +81,7 @@ void write_receipt(const std::filesystem::path& file, Receipt receipt, const std
 /// Notes the state of an output whose bytes are as noted, so that they need no look the next time.
 void renew_receipt(const std::filesystem::path& file, const std::filesystem::path& output);
 
-/// Whether `output` is the file that the receipt tells of.
+/// Whether `output` is the file that the receipt describes.
 bool is_as_noted(const Receipt& receipt, const std::filesystem::path& output);
 
 }  // namespace dresslife::pipeline

@@ -5,7 +5,7 @@
 
 namespace dresslife::pipeline {
 
-/// One dresspack by two keys of the job itself, or a list. The manual tells of both.
+/// One dresspack by two keys of the job itself, or a list. The manual describes both.
 struct JobForms {
   bool one = true, list = false;
 };

@@ -38,7 +38,7 @@ std::vector<double> free_lengths(const Setup& setup);
 /// Of a rig's cable from clamp to clamp (rig.h) [m]; 0: no rig.
 double clamped_length(const Setup& setup);
 
-/// What tells a dresspack from the others: its name, or nothing where it is the only one; and the same as the
+/// The words for one of several dresspacks: its name, or nothing where it is the only one; and the same as the
 /// subject of a sentence: "dresspack 'main hose'", "dresspack".
 std::string name_among(const Setup& setup, std::size_t dresspack);
 std::string dresspack_words(const Setup& setup, std::size_t dresspack);

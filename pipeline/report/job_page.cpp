@@ -248,14 +248,14 @@ class Page {
 
 /// Errors: InputError where a file is there and its checksum is damaged.
 std::string made_from(const JobFolder& files) {
-  std::string told = shell_digest() + files.name;
+  std::string sources = shell_digest() + files.name;
   for (const auto& file : {files.motion(), files.strain(), files.life()}) {
-    const std::optional<std::string> checksum = told_checksum(file);
+    const std::optional<std::string> checksum = stored_checksum(file);
     if (!checksum && kind_of(file) == FileKind::file)  // readers refuse anything else
       throw InputError({file.string()}, "is damaged (it has no checksum)", "make it again with dresslife run");
-    told += checksum.value_or("-");
+    sources += checksum.value_or("-");
   }
-  return xxh3(told);
+  return xxh3(sources);
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ function showSection() {
     return;
   }
   const section = crossSections[row.dresspack], damages = damagesOf(row, section.wires.length);
-  const worst = row.worst.length ? section.wires[row.worst[0][0]] : null, told = make('p', {class: 'soft', 'aria-live': 'polite'});
+  const worst = row.worst.length ? section.wires[row.worst[0][0]] : null, hint = make('p', {class: 'soft', 'aria-live': 'polite'});
   let larger = section.nearPart(worst);
   const label = `Cross-section of ${placeWords(state.segment)}, worst ${worst ? worst.path : 'none'}`;
   const all = make('canvas', {role: 'img', 'aria-label': label}),
@@ -119,7 +119,7 @@ function showSection() {
   const tell = (canvas, view) => event => {
     const at = under(canvas, view(), event), wire = section.at(...at, section.wires), part = wire || section.at(...at, section.parts);
     const damage = wire ? damages[section.wires.indexOf(wire)] : 0;
-    told.textContent = wire ? `${wire.path}: ${damage ? `about ${readable(damage, 2)} per repeat` : `less than ${readable(sectionScale.low, 2)}`}` :
+    hint.textContent = wire ? `${wire.path}: ${damage ? `about ${readable(damage, 2)} per repeat` : `less than ${readable(sectionScale.low, 2)}`}` :
                               part ? part.path : '\u00a0';
   };
   all.addEventListener('pointermove', tell(all, () => section.whole()));
@@ -129,7 +129,7 @@ function showSection() {
     larger = part ? part.holders.find(one => one.radius < .5 * section.of.radius) || part : section.whole();
     draw();
   });
-  told.textContent = 'A click on the left shows a cable larger; the pointer names a wire.';
+  hint.textContent = 'A click on the left shows a cable larger; the pointer names a wire.';
   place.replaceChildren(
       make('h2', {}, `Across ${placeWords(state.segment)}: every wire by its damage`),
       make(
@@ -141,7 +141,7 @@ function showSection() {
               make(
                   'table', {}, make('thead', {}, make('tr', {}, make('th', {}, 'damaged most here'), make('th', {class: 'number'}, 'per repeat'), make('th', {class: 'number'}, 'life [h]'))),
                   make('tbody', {}, ...wireRows(row, section))),
-              told)));
+              hint)));
   sectionView = {draw, row};
   draw();
 }

@@ -78,7 +78,7 @@ void merge_by_name(Node& base, const Node& over) {
   }
 }
 
-/// Accelerations are in no URDF: without this check the URDF's lines would be told to miss them.
+/// Accelerations are in no URDF: without this check the URDF's lines would be reported as incomplete.
 void check_accelerations(const Node& robot, const fs::path& urdf, const Where& asked) {
   std::vector<std::string> without;
   std::size_t driven = 0;
@@ -231,7 +231,7 @@ void add_materials(Node& dresspack, const Node& job, const std::string& path, Pr
 
   Node& materials = dresspack["materials"];
   if (materials.kind == Node::Kind::null) materials.kind = Node::Kind::list;
-  std::set<std::string> unknown;  // each is told where it is named first
+  std::set<std::string> unknown;  // each is reported where it is named first
   for (const Node& name : wanted) {
     const bool there = std::any_of(materials.items.begin(), materials.items.end(), [&](const Node& material) {
       const Node* known = material.find("name");

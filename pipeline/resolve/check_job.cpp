@@ -143,7 +143,7 @@ void check_uses(const Dresspack& dresspack) {
 }
 
 /// Of one dresspack. path: of what holds its keys, "" or "dresspacks[2].". Returns how many levels of parts
-/// it has, where that can be told.
+/// it has, where that is known.
 std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted, const std::string& path,
                                  Problems& problems) {
   const std::string dresspack = path + "dresspack", routing = path + "routing";
@@ -182,15 +182,15 @@ void check_dresspacks(const Job& job, const Where& strain, Problems& problems) {
                              job.dresspacks.size()),
                  "describe the motion by a robot, or keep one dresspack", "motion");
   int depth = 0;
-  bool told = true;  // how deep each is
+  bool known = true;  // how deep each is
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     const std::string path = forms.one ? "" : fmt::format("dresspacks[{}].", d + 1);
     const std::optional<int> levels = check_mounted(job, job.dresspacks[d], path, problems);
-    told = told && levels;
+    known = known && levels;
     depth = std::max(depth, levels.value_or(0));
   }
-  if (told) problems.attempt("", job.motion.where, [&] { check_shared(job.dresspacks); });
-  if (told && job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
+  if (known) problems.attempt("", job.motion.where, [&] { check_shared(job.dresspacks); });
+  if (known && job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
     problems.add(
         strain,
         fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),

@@ -549,11 +549,13 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
     for (const auto& [words, key] : lengths)
       if (std::regex_match(found[1].str(), words)) {
         std::vector<std::pair<const char*, std::string>> keys{{key, found[2]}};
-        if (key == std::string_view("jacket_thickness_mm"))
-          if (const std::string material = jacket_material(phrase); !material.empty())
-            keys.emplace_back("jacket_material", material);
-          else
+        if (key == std::string_view("jacket_thickness_mm")) {
+          const std::string material = jacket_material(phrase);
+          if (material.empty())
             refuse_unknown_material(found[1], where);
+          else
+            keys.emplace_back("jacket_material", material);
+        }
         return keys;
       }
   static const std::regex jacket(R"((outer |outside )?(jacket|sheath)( material)? *:? *[a-z -]+|[a-z-]+ (outer )?(jacket|sheath))");

@@ -1,4 +1,4 @@
-// A cable as its data sheet tells it ("7 x 0.5 mm2, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm,
+// A cable as its data sheet describes it ("7 x 0.5 mm2, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm,
 // jacket 1.1 mm"), as the layers of cores and wires that it stands for.
 //
 // Equal parts of diameter D are packed as a stranding machine packs them: a first ring of s parts that touch,

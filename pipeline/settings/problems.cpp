@@ -63,7 +63,7 @@ void Problems::finish(const std::string& first_file) const {
                    [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
   if (more_)
     sorted.push_back({Where{first_file, 0, 0}, "",
-                      fmt::format("{}: error: only the first {} problems are told; mend them first",
+                      fmt::format("{}: error: only the first {} problems are shown; correct them first",
                                   first_file, most_problems)});
   throw InputErrors(std::move(sorted));
 }

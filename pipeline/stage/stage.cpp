@@ -73,13 +73,13 @@ StageInput input_as_it_is(const std::filesystem::path& file) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const std::int64_t age = std::chrono::nanoseconds(now).count() - state.changed_ns;
   const bool young = age < std::chrono::nanoseconds(tick).count();
-  return {file, state, told_checksum(file), young};
+  return {file, state, stored_checksum(file), young};
 }
 
 /// A file that only another name of it was given or taken has other times, and the same bytes.
 bool is_unchanged(const StageInput& input) {
   FileState now = input_state(input.file);
-  if (now == input.state) return !input.young || told_checksum(input.file) == input.checksum;
+  if (now == input.state) return !input.young || stored_checksum(input.file) == input.checksum;
   now.changed_ns = input.state.changed_ns;
   return now == input.state && input.checksum && checksum_of(input.file) == input.checksum;
 }
@@ -148,7 +148,7 @@ const Format& format_of_output(JobPart part) {
   return part == JobPart::sim ? motion_format() : part == JobPart::strain ? strain_format() : life_format();
 }
 
-/// A log tells what its stage warned of, too, where the output is from an earlier run.
+/// A log contains the warnings of its stage, too, where the output is from an earlier run.
 void say_known_warnings(const StageCall& call) {
   std::vector<Warning> before;
   if (*call.info.part != JobPart::sim) {
@@ -163,7 +163,7 @@ void say_known_warnings(const StageCall& call) {
 }
 
 /// Jobs of a study that are alike up to here get what one of them made, each under its own name. The names
-/// come before the receipts, as each changes what the file system tells of the file.
+/// come before the receipts, as each changes what the file system states of the file.
 void give_to_likes(const StageCall& call, const StageFlags& flags, const Receipt& receipt) {
   if (flags.likes.empty()) return write_receipt(flags.receipt, receipt, call.output);
   const std::filesystem::path name = call.output.filename(),
@@ -189,19 +189,19 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
   wanted.made_with.emplace_back(call.info.program, digests.of(program_file()));
   for (const std::filesystem::path& file : settings.files)
     wanted.made_with.emplace_back(as_seen_from(call.output.parent_path(), file).string(), digests.of(file));
-  wanted.input = call.info.input_is_job ? "-" : told_checksum(call.input).value_or("damaged");
+  wanted.input = call.info.input_is_job ? "-" : stored_checksum(call.input).value_or("damaged");
   const std::optional<Receipt> known = read_receipt(flags.receipt);
   const bool made = known && known->recipe == wanted.recipe && known->input == wanted.input &&
                     is_as_noted(*known, call.output);
   if (made) {
     say_known_warnings(call);
     wanted.output = known->output;
-    wanted.told = known->told;
+    wanted.results = known->results;
   } else {
     remove_ours(flags.receipt);  // it is of a file that is about to go
     body();
-    wanted.output = told_checksum(call.output).value_or("damaged");
-    if (call.info.told) wanted.told = call.info.told(call.output);
+    wanted.output = stored_checksum(call.output).value_or("damaged");
+    if (call.info.results) wanted.results = call.info.results(call.output);
   }
   check_inputs_unchanged(call);
   give_to_likes(call, flags, wanted);

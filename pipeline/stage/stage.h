@@ -37,7 +37,7 @@ struct StageInfo {
   std::optional<JobPart> part =
       {};  ///< of the job, on which the result depends; nothing: no stage of a study
   /// What the receipt of its output tells, for who does not keep or open that; empty: nothing.
-  std::function<std::vector<ResultValue>(const std::filesystem::path& output)> told = {};
+  std::function<std::vector<ResultValue>(const std::filesystem::path& output)> results = {};
 };
 
 /// A file that is read, as it was when the stage began.

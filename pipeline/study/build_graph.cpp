@@ -99,7 +99,7 @@ void follow_receipts(JobState& state, const fs::path& folder) {
     if (!removed && (now != receipt->state || !receipt->state_suffices()))
       state.compared.push_back(state.next);
     if (state.next + 1 < stage_count) state.inputs[state.next + 1] = receipt->output;
-    if (state.next + 1 == stage_count) state.told = std::move(receipt->told);
+    if (state.next + 1 == stage_count) state.results = std::move(receipt->results);
   }
 }
 
@@ -119,8 +119,8 @@ void find_last(JobState& state, const fs::path& folder) {
     return;
   }
   state.has_last = there ? is_as_noted(*receipt, folder / last.output)
-                         : state.keep == Keep::lives && !receipt->told.empty();
-  if (state.has_last) state.told = receipt->told;
+                         : state.keep == Keep::lives && !receipt->results.empty();
+  if (state.has_last) state.results = receipt->results;
 }
 
 std::string failure_key(const JobState& state) { return fmt::format("{}", fmt::join(state.recipes, " ")); }
@@ -381,7 +381,7 @@ void forget_damaged(const fs::path& folder) {
 void look_at(JobState& state, const fs::path& folder) {
   state.damaged.clear();
   state.compared.clear();
-  state.told.clear();
+  state.results.clear();
   if (kind_of(folder) == FileKind::absent) {  // of thousands that are new
     state.failure.clear();
     state.changed.clear();

@@ -46,7 +46,7 @@ struct JobState {
   bool foreign = false;                         ///< whether `damaged` is a file of the user
   std::string failure;                          ///< why the last attempt with these recipes failed
   bool has_results = false;                     ///< of any settings
-  std::vector<ResultValue> told;                ///< attributes of its life.h5, if its receipt has them
+  std::vector<ResultValue> results;                ///< attributes of its life.h5, if its receipt has them
   /// Of a job that is not done: whether there is a complete result of other settings, files or programs.
   bool has_last = false;
   std::string changed;  ///< changes since that result, as text (changes.h); empty: not compared

@@ -150,14 +150,14 @@ std::vector<std::string> changed_keys(const Node& was, const Node& now) {
   return std::move(comparison.found);
 }
 
-void tell_changes(const Study& study, const StudyPlaces& places, std::vector<JobState>& states) {
+void report_changes(const Study& study, const StudyPlaces& places, std::vector<JobState>& states) {
   constexpr std::size_t most = 50;  // 10 ms each where programs are long
-  std::size_t told = 0;
+  std::size_t named = 0;
   Digests digests;
-  for (std::size_t k = 0; k < states.size() && told < most; ++k) {
+  for (std::size_t k = 0; k < states.size() && named < most; ++k) {
     const StudyJob& job = study.jobs[k];
     if (!states[k].has_last || !job.failure.empty()) continue;
-    ++told;
+    ++named;
     try {
       std::vector<std::string> changed = changed_settings(job, places);
       for (std::string& file : changed_files(job, places, digests)) changed.push_back(std::move(file));

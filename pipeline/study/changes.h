@@ -40,6 +40,6 @@ std::vector<std::string> changed_keys(const Node& was, const Node& now);
 
 /// Sets `changed` of the first 50 stale jobs: compares the settings in life.h5 with the present ones key by key, and
 /// the files and programs of the receipts by their digests.
-void tell_changes(const Study& study, const StudyPlaces& places, std::vector<JobState>& states);
+void report_changes(const Study& study, const StudyPlaces& places, std::vector<JobState>& states);
 
 }  // namespace dresslife::pipeline

@@ -32,26 +32,26 @@ namespace {
 class LifeRoot {
  public:
   explicit LifeRoot(const JobResult& result) : result_(result) {
-    if (result.told.empty()) file_.emplace(result.life_file, life_format(), FileReader::Scope::attributes);
+    if (result.results.empty()) file_.emplace(result.life_file, life_format(), FileReader::Scope::attributes);
   }
   bool has_attribute(const std::string& name) const {
     return file_ ? file_->has_attribute(name) : find(name) != nullptr;
   }
   double number_attribute(const std::string& name) const {
-    return file_ ? file_->number_attribute(name) : told(name).number;
+    return file_ ? file_->number_attribute(name) : stored(name).number;
   }
   std::string text_attribute(const std::string& name) const {
-    return file_ ? file_->text_attribute(name) : told(name).text;
+    return file_ ? file_->text_attribute(name) : stored(name).text;
   }
   Where where() const { return {result_.life_file.string()}; }
 
  private:
   const ResultValue* find(const std::string& name) const {
-    const auto found = std::find_if(result_.told.begin(), result_.told.end(),
+    const auto found = std::find_if(result_.results.begin(), result_.results.end(),
                                     [&](const ResultValue& one) { return one.name == name; });
-    return found == result_.told.end() ? nullptr : &*found;
+    return found == result_.results.end() ? nullptr : &*found;
   }
-  const ResultValue& told(const std::string& name) const {
+  const ResultValue& stored(const std::string& name) const {
     if (const ResultValue* const found = find(name)) return *found;
     throw InputError(where(), fmt::format("attribute '{}' is missing", name),
                      "make the file again with dresslife-fatigue");
@@ -239,7 +239,7 @@ void order_beyond_robot(std::vector<RankingRow>& rows, std::vector<std::vector<d
 /// Order of the jobs beyond the robot's life, ranks, and the share of samples in which each job outlives the next.
 /// Parameters that jobs share have the same samples in both. A job shares the rank of the first job before it from
 /// which it cannot be separated. More jobs have fewer samples; more than `most` jobs are not compared.
-void tell_orders(std::vector<RankingRow>& rows) {
+void report_orders(std::vector<RankingRow>& rows) {
   // 500 samples: a share of 90 % is known to 1.3 %. 10,000 jobs then take 1.5 s for each failure mode.
   constexpr std::size_t most = 20'000, samples_in_all = 2'000'000, fewest = 500;
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k].rank = rows[k].done() ? k + 1 : 0;
@@ -363,14 +363,14 @@ std::string relative_words(const RelativeLife& relative) {
 
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results) {
   std::vector<RankingRow> rows = sorted_rows(results);
-  tell_orders(rows);
+  report_orders(rows);
   return rows;
 }
 
 std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places,
                                    const std::vector<JobState>& states) {
   std::vector<RankingRow> rows = results_of(study, places, states);
-  tell_orders(rows);
+  report_orders(rows);
   return rows;
 }
 
@@ -379,7 +379,7 @@ std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places
   std::vector<JobResult> results;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
-    JobResult result{job.name, places.life(job.name), first_problem(job), states[k].settings, states[k].told};
+    JobResult result{job.name, places.life(job.name), first_problem(job), states[k].settings, states[k].results};
     result.stale = states[k].has_last;
     result.changed = states[k].changed;
     const bool found = states[k].done() || states[k].has_last;
@@ -441,7 +441,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
 }
 
 std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width) {
-  constexpr std::size_t told_at_length = 3;  // jobs of a long ranking with sentences on the terminal
+  constexpr std::size_t shown_at_length = 3;  // jobs of a long ranking with sentences on the terminal
   std::array<Column, 7> columns{{{"", true, {}},
                                  {"job", false, {}},
                                  {"replace after [h]", true, {}},
@@ -486,7 +486,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     if (i > 0 && selected.indices[i] != selected.indices[i - 1] + 1) text += indent + "(more)\n";
     if (!above[i].empty()) text += indent + above[i] + '\n';
     text += line([i](const Column& column) { return column.cells[i]; });
-    if (row.done() && selected.indices[i] >= told_at_length && !selected.summary.empty()) continue;
+    if (row.done() && selected.indices[i] >= shown_at_length && !selected.summary.empty()) continue;
     std::string words;
     if (const std::string action = action_words(row); rows.size() > 1 && row.done() && !action.starts_with("Plan"))
       words += below(action);

@@ -23,7 +23,7 @@ struct JobResult {
   std::filesystem::path life_file;
   std::string failure;       ///< one line: why there is no life file; empty: the job is done
   std::string settings{};    ///< digest of its settings (JobState)
-  std::vector<ResultValue> told{};  ///< attributes from its receipt; empty: read the file
+  std::vector<ResultValue> results{};  ///< attributes from its receipt; empty: read the file
   bool stale = false;  ///< the file is its last result, of other settings; `failure` says how the job stands
   std::string changed{};  ///< since then
 };

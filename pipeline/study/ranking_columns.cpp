@@ -278,10 +278,10 @@ class Table {
   }
 
   void add_warnings() {
-    const auto told = [](const RankingRow& row) { return row.warnings.has_value(); };
-    add(where("warnings", "1", "how many warnings the job has", told,
+    const auto known = [](const RankingRow& row) { return row.warnings.has_value(); };
+    add(where("warnings", "1", "how many warnings the job has", known,
               [](const RankingRow& row) { return static_cast<int>(row.warnings->size()); }));
-    add(where("warning_words", "text", "all warnings", told, [](const RankingRow& row) {
+    add(where("warning_words", "text", "all warnings", known, [](const RankingRow& row) {
       std::vector<std::string> words;
       for (const Warning& warning : *row.warnings) words.push_back(warning.text());
       return fmt::format("{}", fmt::join(words, "; "));
@@ -291,7 +291,7 @@ class Table {
       if (kind == WarningKind::force) continue;  // force_ok
       add(where(
           fmt::format("{}_ok", word(kind)), "yes or no",
-          fmt::format("no: it has a warning of kind {}", title(kind)), told, [kind](const RankingRow& row) {
+          fmt::format("no: it has a warning of kind {}", title(kind)), known, [kind](const RankingRow& row) {
             const auto& all = *row.warnings;
             const bool warned =
                 std::any_of(all.begin(), all.end(), [kind](const Warning& one) { return one.kind == kind; });

@@ -30,11 +30,11 @@ std::string problem_words(const Study& study) {
       if (jobs.empty()) lines.push_back(line);
       jobs.push_back(job.name);
     }
-  const bool told = std::all_of(study.jobs.begin(), study.jobs.end(), [&](const StudyJob& job) {
+  const bool complete = std::all_of(study.jobs.begin(), study.jobs.end(), [&](const StudyJob& job) {
     return job.failure.empty() ||
            (problem_lines(job.failure).size() == 1 && jobs_of[job.failure].size() == 1);
   });
-  if (told) return "";
+  if (complete) return "";
   std::string text;
   for (const std::string& line : lines) {
     const std::vector<std::string>& jobs = jobs_of[line];

@@ -107,7 +107,7 @@ Value Interpreter::why_unknown(const std::vector<Expression>& expressions) {
 
 // ---- variables --------------------------------------------------------------------------------------------
 
-/// Tells data of all modules from that of one, and finds names that are given twice.
+/// Separates data of all modules from that of one, and finds names that are given twice.
 void Interpreter::index_data() {
   module_data_.assign(code_.modules.size(), {});
   std::map<std::string, std::set<const Scope*>, std::less<>> scopes;  // of the names that the user gives

@@ -21,7 +21,7 @@ bool Exploration::next_reading() {
   if (readings_ > 0) barren_ = news_ == news_before_ ? barren_ + 1 : 0;
   news_before_ = news_;
   guessing_ = false;
-  if (news_ > news_told_) tell_ways();
+  if (news_ > news_printed_) report_ways();
   last_ways_.clear();
   taken_here_.clear();
   return ++readings_ <= most_readings && barren_ < barren_in_a_row && spent_ <= most_work;
@@ -46,13 +46,13 @@ int Exploration::choose(const std::string& place, int ways) {
   way->taken = true;
   if (last_ways_.size() == remembered_ways) last_ways_.pop_front();
   last_ways_.emplace_back(&known, way - begin);
-  if (news_ > news_told_) tell_ways();
+  if (news_ > news_printed_) report_ways();
   return before = static_cast<int>(way - begin);
 }
 
 /// The last ways led to something new.
-void Exploration::tell_ways() {
-  news_told_ = news_;
+void Exploration::report_ways() {
+  news_printed_ = news_;
   for (const auto& [known, way] : last_ways_) (*known)[static_cast<std::size_t>(way)].led_to = news_;
 }
 

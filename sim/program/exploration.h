@@ -53,7 +53,7 @@ class Exploration {
   void spend(long executed) { spent_ += executed; }
 
  private:
-  void tell_ways();
+  void report_ways();
 
   struct Way {
     bool taken = false;
@@ -68,7 +68,7 @@ class Exploration {
   std::set<std::string> asked_, followed_;
   std::map<std::string, std::string> supposed_;  // name -> name of the delivered value
   bool guessing_ = false;
-  long news_ = 0, news_before_ = 0, news_told_ = 0, spent_ = 0;
+  long news_ = 0, news_before_ = 0, news_printed_ = 0, spent_ = 0;
   int readings_ = 0, barren_ = 0;
 };
 

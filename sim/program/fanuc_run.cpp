@@ -523,9 +523,9 @@ void FanucRun::assign_position(FanucCursor& at) {
     return values_.set_component(number, whole(*index->part), value);
   }
   const auto sum = position_sum(at);
-  const bool told = values_.given(fmt::format("pr[{}]", number)).has_value();  // counts where this is unknown
+  const bool known = values_.given(fmt::format("pr[{}]", number)).has_value();  // counts where this is unknown
   if (sum && sum->known()) return values_.set_position(number, *sum);
-  values_.forget_position(number, told ? FanucCauses{} : values_.causes());
+  values_.forget_position(number, known ? FanucCauses{} : values_.causes());
 }
 
 std::optional<FanucPosition> FanucRun::position_sum(FanucCursor& at) {
@@ -700,7 +700,7 @@ void FanucRun::if_statement(FanucCursor& at) {
     routine().decided.insert(here);
     last_decision_ = where();
   }
-  if (const auto told = assumed(s.line)) decision = told;
+  if (const auto known = assumed(s.line)) decision = known;
   if (lower_case(s.text).ends_with("then")) {
     if (!decision) {
       if (no_matter(outlook_.effects(*routine().listing, here + 1, s.end))) {
@@ -802,18 +802,18 @@ std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, Fanu
   FanucNumber value = selected;
   for (const std::string& key :
        {line_name(), fmt::format("{}:{}", file, where().line), fmt::format("{}", where().line)})
-    if (const auto told = around_.options.choose.find(key); told != around_.options.choose.end()) {
-      FanucCursor at(told->second);  // --assume FILE:LINE=2
+    if (const auto known = around_.options.choose.find(key); known != around_.options.choose.end()) {
+      FanucCursor at(known->second);  // --assume FILE:LINE=2
       value = at.number();
     }
   if (assumed(where().line) == std::optional(false))  // FILE:LINE=else, of the whole SELECT
     return cases.empty() || !cases.back().otherwise ? cases.size() : cases.size() - 1;
-  std::vector<std::optional<bool>> told;  // --assume FILE:LINE=then of one case
-  for (const Case& one : cases) told.push_back(assumed(routine().listing->statements[one.statement].line));
-  if (const auto taken = std::find(told.begin(), told.end(), true); taken != told.end())
-    return static_cast<std::size_t>(taken - told.begin());
+  std::vector<std::optional<bool>> known;  // --assume FILE:LINE=then of one case
+  for (const Case& one : cases) known.push_back(assumed(routine().listing->statements[one.statement].line));
+  if (const auto taken = std::find(known.begin(), known.end(), true); taken != known.end())
+    return static_cast<std::size_t>(taken - known.begin());
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (told[i]) continue;
+    if (known[i]) continue;
     if (cases[i].otherwise) return value ? std::optional(i) : std::nullopt;
     if (!value || !cases[i].value) return {};
     if (*value == *cases[i].value) return i;

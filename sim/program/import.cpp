@@ -165,7 +165,7 @@ namespace {
 constexpr int listed_reasons = 5;
 
 /// A program without a move: statements that ran and were left out may explain it.
-void tell_nothing(const Program& program, const ImportOptions& options, Problems& problems) {
+void report_nothing(const Program& program, const ImportOptions& options, Problems& problems) {
   std::string left_out;
   int listed = 0;
   for (const bool may_move : {true, false})
@@ -187,7 +187,7 @@ void tell_nothing(const Program& program, const ImportOptions& options, Problems
 }
 
 /// External axes that move, with what a job's robot needs of them: programs give positions alone.
-void tell_external_axes(Program& program) {
+void report_external_axes(Program& program) {
   struct Way {
     double low = INFINITY, high = -INFINITY;
   };
@@ -291,8 +291,8 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
   }
   drop_unused(program.tools, &Instruction::tool, program.instructions);
   drop_unused(program.work_objects, &Instruction::work_object, program.instructions);
-  if (problems.empty() && !moves_anywhere(program)) tell_nothing(program, options, problems);
-  tell_external_axes(program);
+  if (problems.empty() && !moves_anywhere(program)) report_nothing(program, options, problems);
+  report_external_axes(program);
   return program;
 }
 

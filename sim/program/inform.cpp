@@ -322,8 +322,8 @@ class Inform final : public Dialect {
     const auto rule = run_->given("rconf_flip");
     const bool by_b = rule ? rule->text == "B" || rule->text == "b" : position.configuration.size() > 8;
     if (by_b) made.numbers[0] += 2;
-    if (!rule && !flip_told_) {
-      flip_told_ = true;
+    if (!rule && !flip_reported_) {
+      flip_reported_ = true;
       run_->note(
           place,
           fmt::format("RCONF: its first number (flip) is taken as {}; controllers differ: --value "
@@ -507,11 +507,11 @@ class Inform final : public Dialect {
   /// V= counts mm/s as controllers are delivered; their setting may be cm/min.
   double unit_of_v(const Place& place) {
     const auto given = run_->given("speed_unit");
-    if (!given && !unit_told_)
+    if (!given && !unit_reported_)
       run_->note(
           place,
           "note: V= counts mm/s; where the controller counts cm/min give --value 'speed_unit=\"cm/min\"'");
-    unit_told_ = true;
+    unit_reported_ = true;
     if (!given || given->text == "mm/s") return millimetre;
     if (given->text == "cm/min") return 10 * millimetre / 60;
     run_->complain(place, fmt::format("has '{}' as speed_unit", given->text), "give \"mm/s\" or \"cm/min\"");
@@ -593,13 +593,13 @@ class Inform final : public Dialect {
       bool moved = !at || (!before.empty() && before.size() != at->numbers.size());
       for (std::size_t i = 0; !moved && i < before.size(); ++i)
         moved = std::abs(at->numbers[i] - before[i]) > (at->type == "pulse" ? same_place : same_place / 1000);
-      if (moved && !told_.contains(option))
+      if (moved && !reported_.contains(option))
         run.note(statement.place,
                  fmt::format(
                      "{}: {} axes move with the robot, and are left out: the {} is taken to stand still",
                      statement.text, option, std::string_view(option) == "base" ? "robot's base" : "station"),
                  true);
-      if (moved) told_.insert(option);
+      if (moved) reported_.insert(option);
       if (at && before.empty()) externals_[option] = at->numbers;
     }
   }
@@ -731,8 +731,8 @@ class Inform final : public Dialect {
   std::optional<Reached> reached_;
   std::map<std::size_t, bool> arc_points_;
   std::map<std::string, std::vector<double>> externals_;  // where base and station stand
-  std::set<std::string> told_;
-  bool unit_told_ = false, flip_told_ = false;
+  std::set<std::string> reported_;
+  bool unit_reported_ = false, flip_reported_ = false;
 };
 
 /// MOVC: the first of some leads straight to where the circle begins, each further one along the circle through it

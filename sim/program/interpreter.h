@@ -285,7 +285,7 @@ class Interpreter {
   bool changes_nothing(const Statement& statement, int module, int depth = 0);
   bool changes_nothing(const std::vector<Statement>& body, int module, int depth = 0);
   const Branch* waited_for(const Statement& statement);
-  void tell_handler(const Routine& routine);
+  void report_handler(const Routine& routine);
   bool leaves(const Statement& statement, bool in_loop) const;
   void forget_assigned(const std::vector<Statement>& body, const Cause& why, std::set<const Routine*>& done);
   void forget_written(const Statement& statement, const Cause& why, std::set<const Routine*>& done);
@@ -352,7 +352,7 @@ class Interpreter {
   std::optional<Passes> within_itself_;  // of the routine that was started, by its calls of itself
   std::vector<Loop> loops_;              // that are running, outermost first
   std::vector<const std::vector<Statement>*> endless_;  // bodies that run again and again, outermost first
-  std::set<const Routine*> told_handlers_;
+  std::set<const Routine*> reported_handlers_;
   std::vector<const Routine*> routines_;
   Value result_;
   const Statement* jump_ = nullptr;  // on its way to its label

@@ -219,7 +219,7 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
   }
   for (const Problem& problem : routine.problems)
     problems_.add(problem.where, problem.what, problem.remedy, routine.written);
-  tell_handler(routine);
+  report_handler(routine);
   Scope variables;
   std::vector<std::pair<const Parameter*, const Expression*>> given;
   std::size_t position = 0;

@@ -97,8 +97,8 @@ bool Interpreter::changes_nothing(const std::vector<Statement>& body, int module
 }
 
 /// A handler runs on an error alone. Its possible moves are reported once.
-void Interpreter::tell_handler(const Routine& routine) {
-  if (routine.handler_words.empty() || !told_handlers_.insert(&routine).second) return;
+void Interpreter::report_handler(const Routine& routine) {
+  if (routine.handler_words.empty() || !reported_handlers_.insert(&routine).second) return;
   const bool may_move =
       std::any_of(routine.handler_words.begin(), routine.handler_words.end(), [&](const std::string& word) {
         const Routine* called = code_.find(word, routine.module);

@@ -361,19 +361,19 @@ void Interpreter::run_cycles(const Routine& routine) {
   Barren barren(exploration_);
   bool asking = false;
   while (true) {
-    const Problems told = problems_;
+    const Problems before = problems_;
     const bool ended = ends_within(routine);
     constexpr std::size_t few_moves = 2;  // make no motion
     const bool one_cycle = passes.count() > 0 && passes.end(passes.count()) >= few_moves;
-    if (!asking && problems_.count() > told.count() && one_cycle && !passes.only_lines_of_the_first()) {
-      problems_.hint(told.count(), fmt::format("in pass {} of {}: --passes {} ends before",
+    if (!asking && problems_.count() > before.count() && one_cycle && !passes.only_lines_of_the_first()) {
+      problems_.hint(before.count(), fmt::format("in pass {} of {}: --passes {} ends before",
                                                passes.count() + 1, routine.written, passes.count()));
       asking = true;
     }
-    if (!asking && problems_.count() > told.count() && one_cycle) {
-      const Problem& first = problems_.list()[told.count()];
+    if (!asking && problems_.count() > before.count() && one_cycle) {
+      const Problem& first = problems_.list()[before.count()];
       const std::string why = fmt::format("{} ({})", first.what, first.where.text());
-      problems_ = told;
+      problems_ = before;
       const std::size_t kept = passes.by_motion() ? passes.by_motion() : 1;
       program_.instructions.resize(passes.end(kept));
       return note(routine.place,
@@ -381,7 +381,7 @@ void Interpreter::run_cycles(const Routine& routine) {
                               routine.written, why, passes_text(static_cast<long>(kept))),
                   true);
     }
-    asking |= problems_.count() > told.count() || exploration_.guessing();
+    asking |= problems_.count() > before.count() || exploration_.guessing();
     if (ended) return;
     passes.add(state());
     if (asking) {  // what later cycles ask counts, too

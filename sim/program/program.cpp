@@ -103,11 +103,11 @@ void Problems::add_use(Problem problem) {
 namespace {
 
 /// How an answer is written is seen where the value itself is used, not where others depend on it.
-void tell_forms(std::vector<Problem>& problems, const Problem& by) {
-  for (const Question& told : by.questions)
+void note_forms(std::vector<Problem>& problems, const Problem& by) {
+  for (const Question& asked : by.questions)
     for (Problem& problem : problems)
       for (Question& question : problem.questions)
-        if (question.form.empty() && question.kind == told.kind && question.name == told.name) question.form = told.form;
+        if (question.form.empty() && question.kind == asked.kind && question.name == asked.name) question.form = asked.form;
 }
 
 /// Whether a branch depends on nothing but what other problems ask for.
@@ -126,7 +126,7 @@ bool asked_already(const std::vector<Problem>& problems, const Problem& branch) 
 
 void Problems::add_all(const Problems& others) {
   for (const Problem& problem : others.list()) {
-    tell_forms(problems_, problem);
+    note_forms(problems_, problem);
     if (problem.about.empty())
       add(problem.where, problem.what, problem.remedy, problem.routine);
     else if (!asked_already(problems_, problem))
@@ -159,12 +159,12 @@ std::string further_uses(const Problem& problem) {
   if (!problem.decision)
     return count == 1 ? " (here and once more)" : fmt::format(" (here and {} times more)", count);
   std::string lines;
-  int told = 0;
+  int shown = 0;
   for (const auto& [file, line] : problem.more_uses)
-    if (++told <= listed)
-      lines += fmt::format("{}{}:{}", told == 1 ? "" : ", ", std::filesystem::path(file).filename().string(),
+    if (++shown <= listed)
+      lines += fmt::format("{}{}:{}", shown == 1 ? "" : ", ", std::filesystem::path(file).filename().string(),
                            line);
-  return fmt::format(" (here and in {}{})", lines, told > listed ? ", ..." : "");
+  return fmt::format(" (here and in {}{})", lines, shown > listed ? ", ..." : "");
 }
 
 }  // namespace

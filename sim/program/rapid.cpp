@@ -72,7 +72,7 @@ bool Rapid::writes(const std::string& name, int position, const Expression& argu
       {"gettrapdata", 0},  {"camgetresult", 1},  {"clkread", -1},     {"bitset", 0},
       {"bitclear", 0},     {"getdataval", 1}};
   if (const auto found = outputs.find(name); found != outputs.end()) return found->second == position;
-  return !harmless(name) && !rapid_told_effect(name) && !rapid_asks_the_robot(name);
+  return !harmless(name) && !rapid_named_effect(name) && !rapid_asks_the_robot(name);
 }
 
 Value Rapid::initial(const std::string& type) const { return rapid_initial(code_, type); }
@@ -271,7 +271,7 @@ bool Rapid::instruction(const Statement& statement, Interpreter& run) {
                   "the number behind the routine's name");
     else
       run.run_named(routine.text + fmt::format("{:g}", number.number), {}, statement.place);
-  } else if (const char* effect = rapid_told_effect(name)) {
+  } else if (const char* effect = rapid_named_effect(name)) {
     run.note(statement.place, fmt::format("{}: {}", statement.text, effect), true);
   } else {
     return arithmetic(statement, run) || named_data(statement, run);

@@ -53,7 +53,7 @@ class Rapid final : public Dialect {
   std::optional<NamedFrame> tool_of(const Expression& written, Interpreter& run);
   std::optional<NamedFrame> work_object_of(const Expression& written, Interpreter& run);
   bool read_options(const Statement& statement, Instruction& move, Interpreter& run);
-  static void tell_options(const Statement& statement, Interpreter& run);
+  static void print_options(const Statement& statement, Interpreter& run);
   std::optional<Value> typed(const Expression& written, const char* type, const char* what, Interpreter& run);
   void displace(const Statement& statement, Interpreter& run);
   std::optional<Value> position_with(const Expression* tool, const Expression* work_object, Interpreter& run);

@@ -282,7 +282,7 @@ bool Rapid::read_options(const Statement& statement, Instruction& move, Interpre
 }
 
 /// What an option adds to a move and is not read.
-void Rapid::tell_options(const Statement& statement, Interpreter& run) {
+void Rapid::print_options(const Statement& statement, Interpreter& run) {
   for (const Expression& argument : statement.arguments) {
     if (argument.option == "id")
       run.note(argument.place,
@@ -332,7 +332,7 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
   whole &= read_options(statement, move, run);
   if (is_weld(statement.name)) read_weld_speed(statement, move, run);
   if (!whole || run.problem_count() != problems) return true;
-  tell_options(statement, run);
+  print_options(statement, run);
   if (statement.name.starts_with("search")) {
     run.note(statement.place, statement.text + ": the search goes to its end point", true);
     run.assign(*given[1], reached_->target);

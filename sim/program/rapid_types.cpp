@@ -146,7 +146,7 @@ const std::vector<std::string>& harmless_rapid_instructions() {
   return names;
 }
 
-const char* rapid_told_effect(const std::string& instruction) {
+const char* rapid_named_effect(const std::string& instruction) {
   static const std::map<std::string, const char*> effects{
       {unwritten_statement, "no statement is written in this place: the controller stops here"},
       {"raise", "an error of the program's own: the motion goes on behind it, handlers are not followed"},

@@ -17,6 +17,6 @@ Value rapid_initial(const Code& code, const std::string& type, int depth = 0);
 /// Input, output and logic, sorted.
 const std::vector<std::string>& harmless_rapid_instructions();
 /// Possible effect of a skipped instruction on the motion; null: not known.
-const char* rapid_told_effect(const std::string& instruction);
+const char* rapid_named_effect(const std::string& instruction);
 
 }  // namespace dresslife::sim

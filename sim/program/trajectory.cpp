@@ -192,13 +192,13 @@ class Columns {
     double largest = 0;
     for (const Row& row : rows_)
       for (double angle : row.angles) largest = std::max(largest, std::abs(angle));
-    const std::string told = answer(options_, "unit");
+    const std::string answered = answer(options_, "unit");
     std::vector<double> made;
     for (std::size_t column : axes_) {
       ColumnName::Unit unit = units_[column];
       if (unit == ColumnName::Unit::unknown && largest > widest) unit = ColumnName::Unit::degrees;
-      if (told == "deg") unit = ColumnName::Unit::degrees;
-      if (told == "rad") unit = ColumnName::Unit::radians;
+      if (answered == "deg") unit = ColumnName::Unit::degrees;
+      if (answered == "rad") unit = ColumnName::Unit::radians;
       if (unit == ColumnName::Unit::unknown) return {};
       made.push_back(unit == ColumnName::Unit::radians ? 1 : degree);
     }
@@ -335,12 +335,12 @@ const Node* chosen_trajectory(const SourceFile& file, const std::vector<Node>& d
                               const ImportOptions& options, Problems& problems) {
   std::vector<const Node*> found;
   for (const Node& document : documents) trajectories_in(document, found);
-  const auto told = number_in(answer(options, "trajectory"));
+  const auto answered = number_in(answer(options, "trajectory"));
   if (found.empty())
     problems.add({file.name(), 1, 1}, "holds no trajectory with points",
                  "give a trajectory_msgs/JointTrajectory");
-  else if (told && *told >= 1 && *told <= static_cast<double>(found.size()))
-    return found[static_cast<std::size_t>(*told) - 1];
+  else if (answered && *answered >= 1 && *answered <= static_cast<double>(found.size()))
+    return found[static_cast<std::size_t>(*answered) - 1];
   else if (found.size() > 1)
     problems.add(found[1]->where, fmt::format("is one of {} trajectories in the file", found.size()),
                  fmt::format("choose with --value trajectory=1 .. {}", found.size()));

@@ -10,7 +10,7 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double far_away = 1;  // [m], farther than any bracket: distances beyond it are not told apart
+constexpr double far_away = 1;  // [m], farther than any bracket: distances beyond it are not distinguished
 constexpr double clear = 0.3;   // [m] from a neighbour; meshes are the slower, the farther they are searched
 
 struct PlacedMesh {

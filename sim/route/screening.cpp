@@ -127,7 +127,7 @@ double largest_curvature(const Rod& rod, const RodState& state) {
 /// What is left of the length in a sag, or in a round arch: that which bends less.
 StartCurve smoother_curve(const Rod& rod, const ClampFrames& clamps) {
   constexpr double of_an_arch = 4;  // lengths: of half a circle 1.3
-  constexpr int halvings = 22;      // a millionth of the length; a grade is told to a hundredth
+  constexpr int halvings = 22;      // a millionth of the length; a grade is shown to a hundredth
   const StartCurve sagging = start_curve(rod, clamps, 1, halvings);
   const StartCurve arch = start_curve(rod, clamps, of_an_arch, halvings);
   return largest_curvature(rod, arch.state) < largest_curvature(rod, sagging.state) ? arch : sagging;

@@ -21,7 +21,7 @@ class TurningList {
   std::size_t size() const { return size_; }
   void clear() { size_ = 0; }
 
-  /// Where the next point goes, with room for `more` points; set_end() tells how far they came.
+  /// Where the next point goes, with room for `more` points; set_end() states their end.
   TurningPoint* room(std::size_t more) {
     if (size_ + more > capacity_) grow(size_ + more);
     return points_.get() + size_;

@@ -35,7 +35,7 @@ Eigen::Vector2d bend_at_clamp(const Eigen::Vector2d& at_clamp, const Eigen::Vect
 
 class CableLines {
  public:
-  /// hose: of so many nodes; it is read again in every call. presses: whether end() tells how they press.
+  /// hose: of so many nodes; it is read again in every call. presses: whether end() computes how they press.
   CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature, bool presses);
   CableLines(CableLines&&) = default;  // rows stay where they are
 

@@ -17,7 +17,7 @@ struct LooseSettings {
   double length = 0;          ///< of the hose's axis between the clamps [m]
   std::size_t elements = 64;  ///< of equal length
   double rest_curvature = 0;  ///< about d2, of the hose in which the cables were laid [1/m]
-  bool presses = true;        ///< tells how they press on what they lie against
+  bool presses = true;        ///< computes how they press on what they lie against
 
   bool operator==(const LooseSettings&) const = default;
 };

@@ -58,8 +58,8 @@ int main(int argc, char** argv) {
                        .part = stage == "sim"      ? JobPart::sim
                                : stage == "strain" ? JobPart::strain
                                                    : JobPart::fatigue,
-                       .told = [&](const fs::path& output) {
-                         return stage == "fatigue" ? told_by(output, life_format())
+                       .results = [&](const fs::path& output) {
+                         return stage == "fatigue" ? results_in(output, life_format())
                                                    : std::vector<ResultValue>();
                        }};
   return run_stage(info, argc, argv, [&](const StageCall& call, Progress&) { make(call, stage); });

@@ -129,7 +129,7 @@ TEST_CASE("factors of what is not known reach friction, slack and grips, each wh
   cable.components[0].friction = 0.4, cable.components[0].radial_line_load = 100;
   dresslife::pipeline::StrainFactors factors;
   factors.friction = 2, factors.hose_friction = 3, factors.slack = 0.5, factors.grip = 0.1;
-  const Construction as_told(dresspack, Kinematics::exact), changed(dresspack, Kinematics::exact, factors);
+  const Construction as_given(dresspack, Kinematics::exact), changed(dresspack, Kinematics::exact, factors);
   const Layer& in_hose = changed.layers()[0];
   CHECK(in_hose.friction == Approx(0.9));
   CHECK(in_hose.laying.slack == Approx(0.5));
@@ -138,6 +138,6 @@ TEST_CASE("factors of what is not known reach friction, slack and grips, each wh
   CHECK(changed.layers()[1].friction == Approx(0.8));
   const std::vector<Slip> rubbing{Slip::free, Slip::friction, Slip::free};
   CHECK(plan_slip(changed, rubbing, 2.0)[1].cap.constant ==
-        Approx(2 * plan_slip(as_told, rubbing, 2.0)[1].cap.constant).epsilon(rounding));
-  CHECK(as_told.layers()[0].friction == 0.3);
+        Approx(2 * plan_slip(as_given, rubbing, 2.0)[1].cap.constant).epsilon(rounding));
+  CHECK(as_given.layers()[0].friction == 0.3);
 }

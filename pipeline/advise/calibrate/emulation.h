@@ -25,7 +25,7 @@ struct EmulatedTest {
 };
 
 /// rows: of the round's jobs, in any order, with their files at `places`. Errors: InputError at the row of a
-/// test whose job at the centre failed, or tells nothing of how its cable bends.
+/// test whose job at the centre failed, or contains no bending of its cable.
 std::vector<EmulatedTest> emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
                   const std::vector<RankingRow>& rows, const StudyPlaces& places);
 

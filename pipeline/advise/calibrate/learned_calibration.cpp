@@ -111,9 +111,9 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
   if (calibration.typical) calibration.under.cables.clear();  // it belongs to none of them
   calibration.within = within_of(tests, round, places);
   for (std::size_t t = 0; t < tests.size(); ++t) {
-    const LearnedTest& told = learned.tests[t];
-    calibration.observations.push_back({told.observation.name, observed_text(told.observation),
-                                        words_of(told.before), words_of(told.after), digest_of(tests[t])});
+    const LearnedTest& test = learned.tests[t];
+    calibration.observations.push_back({test.observation.name, observed_text(test.observation),
+                                        words_of(test.before), words_of(test.after), digest_of(tests[t])});
   }
   return calibration;
 }

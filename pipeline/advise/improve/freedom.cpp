@@ -398,7 +398,7 @@ Index Freedom::variables() const {
 
 std::vector<std::string> Freedom::at_ends(const VectorXd& place) const {
   constexpr double end = 0.02;  // of a range: as near as a search of some dozen trials comes to it
-  std::vector<std::string> told;
+  std::vector<std::string> notes;
   Index at = 0;
   for (const FreeVariable& freed : keys_) {
     std::string words;
@@ -407,10 +407,10 @@ std::vector<std::string> Freedom::at_ends(const VectorXd& place) const {
       const std::string one = u < end || u > 1 - end ? freed.key->end_words(k, u > 1 - end) : "";
       if (!one.empty() && words.find(one) == std::string::npos) words += ", " + one;
     }
-    if (!words.empty()) told.push_back(freed.path + words);
+    if (!words.empty()) notes.push_back(freed.path + words);
     at += freed.key->variables();
   }
-  return told;
+  return notes;
 }
 
 std::vector<std::string> Freedom::sets_at(const VectorXd& place) const {

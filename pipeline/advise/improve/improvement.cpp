@@ -278,8 +278,8 @@ class Improver {
     if (screened_.empty()) return beyond;
     std::vector<std::vector<std::string>> sets;
     for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
-    const std::vector<ScreeningResult> told = screened(sets);
-    for (std::size_t k = 0; k < places.size(); ++k) beyond[k] = told[k].rejected ? told[k].violation : 0;
+    const std::vector<ScreeningResult> results = screened(sets);
+    for (std::size_t k = 0; k < places.size(); ++k) beyond[k] = results[k].rejected ? results[k].violation : 0;
     return beyond;
   }
 
@@ -316,15 +316,15 @@ class Improver {
     if (screened_.empty()) return;
     std::vector<std::vector<std::string>> sets;
     for (const Trial& trial : trials) sets.push_back(trial.sets);
-    const std::vector<ScreeningResult> told = screened(sets);
+    const std::vector<ScreeningResult> results = screened(sets);
     for (std::size_t k = 0; k < trials.size(); ++k) {
       Outcome& worst = trials[k].worst;
       if (worst.failure.empty()) {
-        worst.beyond[bracket_limit] = std::max(worst.beyond[bracket_limit], told[k].bracket);
+        worst.beyond[bracket_limit] = std::max(worst.beyond[bracket_limit], results[k].bracket);
         continue;
       }
-      trials[k].screened = told[k].words;
-      worst.beyond = told[k].beyond;
+      trials[k].screened = results[k].words;
+      worst.beyond = results[k].beyond;
     }
   }
 

@@ -137,7 +137,7 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
   constexpr std::size_t simulation = 0;
   const std::filesystem::path receipt = folder / files_of_stage(simulation).receipt;
   if (const std::optional<Receipt> made = read_receipt(receipt))
-    for (const CheckedValue& check : checks_in(made->told)) see_check(outcome, check, asked);
+    for (const CheckedValue& check : checks_in(made->results)) see_check(outcome, check, asked);
   else
     throw MachineFault({receipt.string()}, "is damaged", "remove it");
   return outcome;

@@ -54,15 +54,15 @@ ScreenedList screening_of(const Job& job, const std::string& candidates, Screene
   const std::filesystem::path draft = folder / "screened.yaml", list = folder / "candidates.yaml";
   write_text_if_changed(draft, with_mark(job_text(job), Mark::yaml), Sync::never);
   write_text_if_changed(list, with_mark(candidates, Mark::yaml), Sync::never);
-  const PassingFile told("screening.h5");
+  const PassingFile screening("screening.h5");
   std::vector<std::string> arguments{draft.string(), "--screen",           list.string(),
-                                     "-o",           told.path().string(), "--quiet"};
+                                     "-o",           screening.path().string(), "--quiet"};
   if (longest_bracket)
     arguments.insert(arguments.end(), {"--bracket", fmt::format("{:.6g}", 1e3 * *longest_bracket)});
   if (by == ScreenedBy::short_runs) arguments.push_back("--rehearse");
   if (run_stage_program("dresslife-sim", arguments) != 0)
     throw StageFailed({draft.string()}, "cannot be screened (see above)", "mend what is named there");
-  return read_screening(told.path());
+  return read_screening(screening.path());
 }
 
 }  // namespace dresslife::pipeline

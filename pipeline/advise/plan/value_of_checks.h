@@ -9,8 +9,8 @@
 // One check today, which no other follows, pays if what it finds would fail within the H hours until the window of its replacement
 // or the end of the plan:
 //     p max(0, mean over z, of those with v T <= a, of (C_u - C_p) l(T) if T <= a + H, else -C_n)                     (D9)
-// C_n: C_p, which is spent too early; 0 if the plan replaces the dresspack in a window anyway. The life that is lost, and what the
-// check tells of other dresspacks, are left out.
+// C_n: C_p, which is spent too early; 0 if the plan replaces the dresspack in a window anyway. The remaining life of
+// a replaced dresspack and the result's meaning for other dresspacks are left out.
 // Checks every tau hours: the mean over z of (C_u - C_p) times the sum of (F32) over the failures until the end of the plan, of the
 // dresspack, with l(T), and of its successors, with W = (1 - v) T and, of what is worn already, the hours that remain.
 #pragma once

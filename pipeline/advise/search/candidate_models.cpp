@@ -67,7 +67,7 @@ double tamed(double g) {
 void CandidateModels::FunctionModel::add(const VectorXd& place, const VectorXd& pieces) {
   const Index row = places.rows();
   if (row > 0 && values.cols() != pieces.size())
-    throw std::logic_error("a limit is told in pieces of another number");
+    throw std::logic_error("a limit has pieces of another number");
   places.conservativeResize(row + 1, place.size());
   places.row(row) = place.transpose();
   values.conservativeResize(row + 1, pieces.size());
@@ -83,18 +83,18 @@ void CandidateModels::FunctionModel::build(const Shape& shape, const GaussianPro
 }
 
 GaussianProcess::Prediction CandidateModels::Limit::at(const VectorXd& place, double deviations) const {
-  GaussianProcess::Prediction told;
+  GaussianProcess::Prediction predicted;
   if (rehearsed.model) {
     const GaussianProcess::Predictions each = rehearsed.model->of_each(place);
     Index largest = 0;
     (each.means + deviations * each.deviations).maxCoeff(&largest);
-    told = {each.means[largest], each.deviations[largest]};
+    predicted = {each.means[largest], each.deviations[largest]};
   }
   if (difference.model) {
     const GaussianProcess::Prediction missed = difference.model->at(place);
-    told = {told.mean + missed.mean, std::hypot(told.deviation, missed.deviation)};
+    predicted = {predicted.mean + missed.mean, std::hypot(predicted.deviation, missed.deviation)};
   }
-  return told;
+  return predicted;
 }
 
 CandidateModels::CandidateModels(const std::vector<Candidate>& looks,
@@ -208,8 +208,8 @@ void CandidateModels::learn(const std::vector<Candidate>& rehearsals) {
 
 VectorXd CandidateModels::beyond(const VectorXd& place, double deviations) const {
   std::vector<double> g;
-  const auto bound = [&](const GaussianProcess::Prediction& told) {
-    g.push_back(told.mean + deviations * told.deviation);
+  const auto bound = [&](const GaussianProcess::Prediction& predicted) {
+    g.push_back(predicted.mean + deviations * predicted.deviation);
   };
   for (const Limit& limit : limits_)
     if (limit.varies) bound(limit.at(place, deviations));
@@ -223,8 +223,8 @@ double CandidateModels::excess(const VectorXd& place, double deviations) const {
 
 double CandidateModels::aim_at(const VectorXd& place, double deviations) const {
   if (!aim_.model) return 0;
-  const GaussianProcess::Prediction told = aim_.model->at(place);
-  return told.mean - deviations * told.deviation;
+  const GaussianProcess::Prediction predicted = aim_.model->at(place);
+  return predicted.mean - deviations * predicted.deviation;
 }
 
 }  // namespace dresslife::pipeline

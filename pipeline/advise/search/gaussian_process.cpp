@@ -107,8 +107,8 @@ GaussianProcess::Predictions GaussianProcess::of_each(const VectorXd& place) con
 }
 
 GaussianProcess::Prediction GaussianProcess::at(const VectorXd& place) const {
-  const Predictions told = of_each(place);
-  return {told.means[0], told.deviations[0]};
+  const Predictions predicted = of_each(place);
+  return {predicted.means[0], predicted.deviations[0]};
 }
 
 }  // namespace dresslife::pipeline

@@ -170,7 +170,7 @@ bool SurrogateSearch::is_rehearsed(const VectorXd& place) const {
 }
 
 void SurrogateSearch::rehearse(const std::vector<VectorXd>& places) {
-  for (Candidate& told : rehearse_(places)) rehearsals_.push_back(std::move(told));
+  for (Candidate& rehearsed : rehearse_(places)) rehearsals_.push_back(std::move(rehearsed));
 }
 
 /// Rehearses candidates that were evaluated without a rehearsal, so that the difference is known there.

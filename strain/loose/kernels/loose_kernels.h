@@ -86,7 +86,7 @@ struct RingSystem {
 
 struct LooseKernels {
   /// Every cable to the minimum of its energy, in at most `most` iterations. They may be kept in several batches of one hose at one
-  /// sample; the first ones take the lanes of the bench, and as one rests the next takes its place. Their paths are told, and how
+  /// sample; the first ones take the lanes of the bench, and as one rests the next takes its place. Their paths are recorded, and how
   /// they press where their batch asks.
   void (*relax)(const LineBatch& bench, const WaitingCable* cables, std::size_t count, int most);
   /// The next sample: K0 and A0, and the path from its frame to the untwisted one, `ahead` seconds on.

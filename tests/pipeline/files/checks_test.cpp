@@ -37,12 +37,12 @@ TEST_CASE("checks: a receipt tells those of its motion, bit for bit, when the mo
                                          {"largest net twist", -1.0 / 3, endless},
                                          {"least slack: too short below", 0.1 + 0.2, 1e-300}};
   write_motion(motion, checks);
-  write_receipt(note, {"recipe", "-", "output", {}, told_checks(motion)}, motion);
+  write_receipt(note, {"recipe", "-", "output", {}, results_of_checks(motion)}, motion);
   std::filesystem::remove(motion);
-  CHECK(checks_in(read_receipt(note)->told) == checks);
+  CHECK(checks_in(read_receipt(note)->results) == checks);
 
   write_motion(motion, {});
-  CHECK(told_checks(motion).empty());
+  CHECK(results_of_checks(motion).empty());
   CHECK(checks_in({}).empty());
 }
 

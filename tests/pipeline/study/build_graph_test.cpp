@@ -78,7 +78,7 @@ class Bench {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
   }
-  void tell_stage(const std::string& job, const std::string& order) const {
+  void report_stage(const std::string& job, const std::string& order) const {
     fs::create_directories(places_.job(job));
     std::ofstream(places_.job(job) / order) << "";
   }
@@ -186,7 +186,7 @@ TEST_CASE(
   Study study = bench.study({{"one", "simulation.segments=20"}});
   study.keep = Keep::lives;
   const fs::path folder = bench.places().job("one");
-  bench.tell_stage("one", "fail-fatigue");
+  bench.report_stage("one", "fail-fatigue");
   bench.run(study);
   CHECK(fs::exists(folder / "motion.h5"));
   CHECK(fs::exists(folder / "strain.h5"));
@@ -205,7 +205,7 @@ TEST_CASE(
 TEST_CASE("build graph: a launcher starts every stage, and its exit status is the stage's") {
   Bench bench;
   const Study study = bench.study({{"one", "simulation.segments=20"}, {"two", "simulation.segments=40"}});
-  bench.tell_stage("two", "fail-strain");
+  bench.report_stage("two", "fail-strain");
   std::vector<JobState> states = states_of(study, bench.places());
   write_build_graph(
       study, bench.places(), states, {},
@@ -257,7 +257,7 @@ TEST_CASE("build graph: jobs that are alike up to a stage make it once, and each
 TEST_CASE("build graph: jobs that share a stage share its failure, which runs once") {
   Bench bench;
   const Study study = bench.study({{"one", "fatigue.stress=elastic"}, {"two", "fatigue.scatter_log10=0.3"}});
-  bench.tell_stage("one", "fail-sim");
+  bench.report_stage("one", "fail-sim");
   bench.run(study);
   for (const std::string& words : bench.words(study)) {
     INFO(words);
@@ -267,7 +267,7 @@ TEST_CASE("build graph: jobs that share a stage share its failure, which runs on
   CHECK(bench.calls("one") == "sim ");
   CHECK(bench.calls("two") == "");
   fs::remove(bench.places().job("one") / "fail-sim");
-  bench.tell_stage("one", "fail-fatigue");
+  bench.report_stage("one", "fail-fatigue");
   bench.run(study);
   CHECK(bench.words(study)[0].find("fatigue broke") != std::string::npos);
   CHECK(bench.words(study)[1] == "done");
@@ -454,7 +454,7 @@ TEST_CASE("build graph: a file beside the job counts by its content") {
   CHECK(bench.calls("one") == "sim strain fatigue sim strain fatigue ");
   // Edited while the simulation runs.
   bench.scratch().write("poses.csv", "0, 3\n");
-  bench.tell_stage("one", "wait-sim");
+  bench.report_stage("one", "wait-sim");
   std::thread editor([&] {
     while (bench.calls("one").size() < std::string("sim strain fatigue sim strain fatigue sim ").size())
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -479,7 +479,7 @@ TEST_CASE("build graph: a file beside the job counts by its content") {
 TEST_CASE("build graph: a failed stage stops its job only, is told with its reason and tried again") {
   Bench bench;
   const Study study = bench.study({{"bad", "simulation.segments=20"}, {"good", "simulation.segments=40"}});
-  bench.tell_stage("bad", "fail-strain");
+  bench.report_stage("bad", "fail-strain");
   bench.run(study);
   CHECK(bench.states()[0].failure == "job.yaml:1:1: error: strain broke; mend it");
   CHECK(bench.states()[1].done());
@@ -504,7 +504,7 @@ TEST_CASE("build graph: a stage that is killed or ends without a word is told") 
   bench.run(study);
   CHECK(bench.states()[0].failure == "dresslife-sim ended without a message (killed, or out of memory?)");
   bench.write_stage("sim");
-  bench.tell_stage("one", "silent-sim");
+  bench.report_stage("one", "silent-sim");
   bench.run(study);
   CHECK(bench.states()[0].failure == "dresslife-sim ended without a message (killed, or out of memory?)");
 }
@@ -522,7 +522,7 @@ TEST_CASE("build graph: a place that one job leaves is taken by the next, howeve
                                    {"b", "simulation.segments=21"},
                                    {"c", "simulation.segments=22"},
                                    {"d", "simulation.segments=23"}});
-  bench.tell_stage("b", "wait-sim");
+  bench.report_stage("b", "wait-sim");
   bool others_ended = false;
   std::thread watcher([&] {
     constexpr int steps = 3000;  // of 10 ms, in which stages that compute nothing end on any machine
@@ -549,8 +549,8 @@ TEST_CASE("build graph: when ninja dies, what it did not reach is not done and s
   };
   bench.run(study(20));
   const Study changed = study(24);
-  bench.tell_stage("a", "fail-sim");
-  for (const char* job : {"b", "c", "d"}) bench.tell_stage(job, "wait-sim");
+  bench.report_stage("a", "fail-sim");
+  for (const char* job : {"b", "c", "d"}) bench.report_stage(job, "wait-sim");
   std::thread killer([&] {
     const auto begun = [&](const std::string& job) {
       return bench.calls(job).size() >= std::string("sim strain fatigue sim ").size();

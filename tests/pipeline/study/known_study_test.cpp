@@ -55,7 +55,7 @@ void check_same(const StudyState& one, const StudyState& other) {
     CHECK(one.states[k].recipes == other.states[k].recipes);
     CHECK(one.states[k].settings == other.states[k].settings);
     CHECK(one.states[k].words() == other.states[k].words());
-    CHECK(one.states[k].told == other.states[k].told);
+    CHECK(one.states[k].results == other.states[k].results);
   }
 }
 
@@ -84,9 +84,9 @@ TEST_CASE("known study: its jobs are read back as the study expands them") {
   REQUIRE(known.remembered);
   REQUIRE_FALSE(known.study.jobs.front().job);
   read_jobs(known);
-  const StudyState anew = expanded(bench.request());
+  const StudyState made_again = expanded(bench.request());
   REQUIRE(known.study.jobs.size() == 3);
-  for (std::size_t k = 0; k < 3; ++k) CHECK(job_text(*known.study.jobs[k].job) == job_text(*anew.study.jobs[k].job));
+  for (std::size_t k = 0; k < 3; ++k) CHECK(job_text(*known.study.jobs[k].job) == job_text(*made_again.study.jobs[k].job));
   CHECK(known.study.jobs[0].job == known.study.jobs[1].job);  // the same recipes
   CHECK(known.study.jobs[0].job != known.study.jobs[2].job);
 }
@@ -152,9 +152,9 @@ TEST_CASE("known study: receipts tell what the life files say, bit by bit") {
   bench.run();
   const StudyState known = bench.standing();
   std::vector<RankingRow> by_receipts = ranking_of(known.study, known.places, known.states);
-  std::vector<JobState> untold = known.states;
-  for (JobState& state : untold) state.told.clear();
-  CHECK(ranking_csv(by_receipts) == ranking_csv(ranking_of(known.study, known.places, untold)));
+  std::vector<JobState> without_results = known.states;
+  for (JobState& state : without_results) state.results.clear();
+  CHECK(ranking_csv(by_receipts) == ranking_csv(ranking_of(known.study, known.places, without_results)));
   // A receipt with a turned bit is none.
   const fs::path receipt = known.places.job(known.study.jobs[0].name) / ".stage/fatigue.receipt";
   const std::string bytes = bytes_of(receipt);

@@ -29,7 +29,7 @@ std::filesystem::path job_with(const Scratch& scratch, const std::string& checks
   std::filesystem::create_directories(receipt.parent_path());
   Receipt made;
   made.recipe = "recipe", made.input = "-", made.output = "output";
-  made.told = {{"checks", checks}};
+  made.results = {{"checks", checks}};
   write_receipt(receipt, made, output);
   return folder;
 }
