@@ -144,31 +144,33 @@ struct Trial {
   std::string refusal;  ///< why the short run ended; empty: it did not
 };
 
-/// Most that cure nothing are found with few segments.
+/// least_radius: of a trial that is better than those before [m].
 Trial trial_of(const CheckedMotion& motion, const pipeline::Setup& changed, const Kinds& kinds, int dresspack,
-               const std::vector<Check>& now, int segments = rest_segments) {
+               const std::vector<Check>& now, double least_radius = 0) {
   if (motion.work > most_work) return {};
-  const QuickFindings found = quick_findings(changed, segments);
+  const auto keeps = [&](const Check& check) {
+    return check.dresspack != dresspack || !check.warning ||
+           (!is_among(kinds, check) && std::any_of(now.begin(), now.end(), [&](const Check& before) {
+             return before.warning && before.kind == check.kind && before.dresspack == dresspack;
+           }));
+  };
+  const auto rejects = [&](const QuickFindings& found) { return !std::all_of(found.checks.begin(), found.checks.end(), keeps); };
+  const double limit = limits_of(changed.dresspacks[static_cast<std::size_t>(dresspack)].dresspack).least_bend_radius;
+  const QuickFindings found = findings_unless(changed, rejects, std::min(least_radius, limit), dresspack);
   motion.work += found.run.work;
   Trial trial;
   trial.refusal = found.run.refusal;
   if (!trial.refusal.empty()) return trial;
   if (const Check* const bend = find(found.run.checks, check_name::bend_radius, dresspack))
     trial.radius = bend->value;
-  trial.keeps = std::all_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
-    if (check.dresspack != dresspack) return true;
-    return !check.warning || (!is_among(kinds, check) && std::any_of(now.begin(), now.end(), [&](const Check& before) {
-      return before.warning && before.kind == check.kind && before.dresspack == dresspack;
-    }));
-  });
+  trial.keeps = !rejects(found);
   trial.cured = trial.keeps && std::none_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
     return check.dresspack == dresspack && is_among(kinds, check) && check.name == check_name::bend_radius &&
            check.value < margin * check.limit;
   });
   for (const Check& check : found.checks)
     if (check.dresspack == dresspack && check.warning && check.kind != WarningKind::bend_radius) trial.other = check.name;
-  const bool coarse = segments < std::min(short_run_segments, changed.simulation.segments);
-  return trial.keeps && coarse ? trial_of(motion, changed, kinds, dresspack, now, short_run_segments) : trial;
+  return trial;
 }
 
 bool cures(const CheckedMotion& motion, const pipeline::Setup& changed, const Kinds& kinds, int dresspack,
@@ -284,7 +286,7 @@ class RemedySearch {
     to.pre_twist = change.pre_twist;
     if (change.turned[0]) to.base_clamp->direction = direction(0);
     if (change.turned[1]) to.tool_clamp->direction = direction(1);
-    return trial_of(motion_, changed, {WarningKind::bend_radius, WarningKind::slack}, dresspack_, checks_);
+    return trial_of(motion_, changed, {WarningKind::bend_radius, WarningKind::slack}, dresspack_, checks_, best_.trial.radius);
   }
 
   std::string words_of(const Change& change) const {

@@ -49,35 +49,47 @@ struct Rests {
 
 class QuickChecks {
  public:
-  QuickChecks(const pipeline::Setup& setup, int segments)
+  explicit QuickChecks(const pipeline::Setup& setup)
       : setup_(setup),
-        segments_(segments),
         rod_(rod_of(setup)),
-        short_rod_(rod_of(with_segments(setup, segments))),
+        short_rod_(rod_of(with_segments(setup, short_run_segments))),
         rest_rod_(rod_of(with_segments(setup, rest_segments))),
         path_(path_of(setup)),
         robot_(dynamic_cast<const RobotPath*>(path_.get())) {}
 
   QuickFindings findings() {
     QuickFindings found;
-    found.run = short_run(setup_, segments_);
+    found.run = short_run(setup_, short_run_segments);
     add_slack(found.checks);
     if (robot_) found.others = robot_->doubts();
     add_rests(found);
+    add_bends(found);
     if (found.run.stopped_at)
       found.notes.push_back(fmt::format("The short run of the checks ended after {:.3g} s of {:.6g} s, because the program is long "
                                         "or the dresspack touches much. `dresslife run` checks all of it",
                                         *found.run.stopped_at, path_->duration()));
-    for (const Check& check : found.run.checks) {
-      if (check.name != check_name::bend_radius) continue;
-      // At rest the hose hangs free of the robot, on which it may lie: a bend that the short run has not is none.
-      for (Check& other : found.checks)
-        if (other.name == check_name::bend_radius_at_rest && other.dresspack == check.dresspack)
-          other.warning &= check.warning || found.run.stopped_at.has_value();
-      found.checks.push_back(check);
-    }
     add_winding(found.others);
     found.others = pipeline::joined(std::move(found.others), one_link_warnings(setup_));
+    return found;
+  }
+
+  QuickFindings findings_unless(const std::function<bool(const QuickFindings&)>& rejects, double useless_below, int dresspack) {
+    QuickFindings found;
+    add_slack(found.checks);
+    const std::vector<Check> slack = found.checks;
+    if (rejects(found)) return found;
+    double work = 0;
+    for (const int segments : {rest_segments, short_run_segments}) {
+      if (segments > rest_segments && setup_.simulation.segments <= rest_segments) break;  // the same run
+      found.checks = slack;
+      found.run = short_run(setup_, segments, useless_below, dresspack);
+      found.run.work = work += found.run.work;
+      add_bends(found);
+      if (!found.run.refusal.empty() || rejects(found)) return found;
+    }
+    found.checks = slack;
+    add_rests(found);
+    add_bends(found);
     return found;
   }
 
@@ -97,6 +109,16 @@ class QuickChecks {
   }
 
  private:
+  static void add_bends(QuickFindings& found) {
+    for (const Check& check : found.run.checks) {
+      if (check.name != check_name::bend_radius) continue;
+      // At rest the hose hangs free of the robot, on which it may lie: a bend that the short run has not is none.
+      for (Check& other : found.checks)
+        if (other.name == check_name::bend_radius_at_rest && other.dresspack == check.dresspack)
+          other.warning &= check.warning || found.run.stopped_at.has_value();
+      found.checks.push_back(check);
+    }
+  }
   std::string moment(double time) const {
     const int step = path_->step(time);
     return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1,
@@ -360,7 +382,6 @@ class QuickChecks {
   }
 
   const pipeline::Setup& setup_;
-  int segments_;
   Rod rod_, short_rod_, rest_rod_;
   std::unique_ptr<ClampPath> path_;
   const RobotPath* robot_;
@@ -369,7 +390,7 @@ class QuickChecks {
 
 }  // namespace
 
-ShortRun short_run(pipeline::Setup setup, int segments) {
+ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, int of) {
   ShortRun result;
   // One repeat that leads in, and one that counts: what the first leaves wound may draw the next one taut.
   setup.simulation.most_repeats = std::min(setup.simulation.most_repeats, 2);
@@ -379,6 +400,11 @@ ShortRun short_run(pipeline::Setup setup, int segments) {
     RunSinks sinks{[](const Sample&) {}};
     sinks.goes_on = [&](double work, bool leads_in) {
       return (result.work += work) <= (leads_in ? lead_in_share : 1) * short_run_work;
+    };
+    sinks.still_of_use = [&](const MotionChecks& checks) {
+      for (int j = 0; j < simulation.rod().links(); ++j)
+        if (simulation.rod().span_of_link(j).dresspack == of && checks.curvature()[j].value * useless_below > 1) return false;
+      return true;
     };
     RunSummary summary = simulation.run(sinks);
     result.checks = std::move(summary.checks);
@@ -394,7 +420,11 @@ ShortRun short_run(pipeline::Setup setup, int segments) {
   return result;
 }
 
-QuickFindings quick_findings(const pipeline::Setup& setup, int segments) { return QuickChecks(setup, segments).findings(); }
-QuickWarnings quick_warnings(const pipeline::Setup& setup) { return QuickChecks(setup, short_run_segments).warnings(); }
+QuickFindings quick_findings(const pipeline::Setup& setup) { return QuickChecks(setup).findings(); }
+QuickFindings findings_unless(const pipeline::Setup& setup, const std::function<bool(const QuickFindings&)>& rejects,
+                              double useless_below, int dresspack) {
+  return QuickChecks(setup).findings_unless(rejects, useless_below, dresspack);
+}
+QuickWarnings quick_warnings(const pipeline::Setup& setup) { return QuickChecks(setup).warnings(); }
 
 }  // namespace dresslife::sim

@@ -7,6 +7,7 @@
 // program. The checks take the one that is nearest to where a run begins.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,7 +36,8 @@ struct ShortRun {
 /// fewer may lead a hose another way around the robot.
 inline constexpr int rest_segments = 32, short_run_segments = 64;
 
-ShortRun short_run(pipeline::Setup setup, int segments);
+/// useless_below: a run whose smallest bend radius of the dresspack `of` falls below it ends there [m]; 0: none does.
+ShortRun short_run(pipeline::Setup setup, int segments, double useless_below = 0, int of = 0);
 
 struct QuickFindings {
   std::vector<Check> checks;              ///< with limits; at rest but for "smallest bend radius", which is the short run's
@@ -44,8 +46,13 @@ struct QuickFindings {
   ShortRun run;
 };
 
-/// segments: of the short run. Errors: InputError for a motion that the robot cannot run.
-QuickFindings quick_findings(const pipeline::Setup& setup, int segments = short_run_segments);
+/// Errors: InputError for a motion that the robot cannot run.
+QuickFindings quick_findings(const pipeline::Setup& setup);
+
+/// The same of a changed routing, in the order of their cost: slack, a run with rest_segments, the short run, shapes at rest.
+/// Ends before the next of them if `rejects` is true of what is found, and a run as short_run() does.
+QuickFindings findings_unless(const pipeline::Setup& setup, const std::function<bool(const QuickFindings&)>& rejects,
+                              double useless_below, int dresspack);
 
 /// The same as warnings, with their cures; and notes.
 struct QuickWarnings {

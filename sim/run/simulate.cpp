@@ -216,8 +216,10 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
     const RodState begin = world->state();
     if (!first && sinks.begin) sinks.begin(summary.repeats);
     Repeat repeat(*this, summary.time_step);
-    if (const std::optional<double> stop = run_once(*world, repeat, sinks)) {
-      if (first) summary.stopped_at = stop, summary.checks = repeat.checks.table();
+    const bool last = !summary.returns || summary.repeats >= settings.most_repeats;
+    if (const std::optional<double> stop = run_once(*world, repeat, sinks, last)) {
+      if (first || (last && sinks.still_of_use && !sinks.still_of_use(repeat.checks)))
+        summary.stopped_at = stop, summary.checks = repeat.checks.table();
       return summary;
     }
     summary.checks = repeat.checks.table();
@@ -252,7 +254,8 @@ std::vector<double> Simulation::pulled_out(const RodState& state) const {
   return ways;
 }
 
-std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) const {
+std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks,
+                                           bool last) const {
   const double step = world.time_step();
   const int per_sample = steps_per_sample(step);
   MotionChecks& checks = repeat.checks;
@@ -302,6 +305,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
     check_taut(world.state(), sample / setup_.simulation.sample_rate);
     hand_over(sample);
     if (sinks.goes_on && !sinks.goes_on(world.work() - before, false)) return sample / setup_.simulation.sample_rate;
+    if (last && sinks.still_of_use && !sinks.still_of_use(checks)) return sample / setup_.simulation.sample_rate;
   }
   repeat.rubbed = rubbing.patches(touch);
   repeat.obstacles = touch.obstacles();

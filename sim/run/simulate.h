@@ -63,7 +63,7 @@ struct RunSummary {
   int repeats = 1;        ///< of the motion that were run, the one that leads in too; the last is the result
   bool returns = false;   ///< the motion ends where it begins
   bool periodic = false;  ///< the last repeat began and ended alike
-  std::optional<double> stopped_at;  ///< time of the first repeat at which goes_on ended the run [s]: its checks until then
+  std::optional<double> stopped_at;  ///< time of a repeat at which a sink ended the run [s]: its checks until then
   double distance = 0;    ///< between the states at the last repeat's begin and end (R8) [m]
   double time_step = 0;   ///< [s]
   /// Estimated error that the step leaves in the curvature of the last repeat's liveliest seconds (R10),
@@ -89,6 +89,8 @@ struct RunSinks {
   std::function<void(double)> progress = {};  ///< share of the repeat that is done, 0..1
   /// Whether the run goes on after further work (World::work), of the repeat that leads in or of others.
   std::function<bool(double, bool)> goes_on = {};
+  /// Whether the repeat that is evaluated goes on after the checks of its samples so far.
+  std::function<bool(const MotionChecks&)> still_of_use = {};
 };
 
 class Simulation {
@@ -119,7 +121,7 @@ class Simulation {
   std::unique_ptr<World> world_at(const RodState& state, const Pose& pose, double step) const;
   std::unique_ptr<World> led_in(const RunSinks& sinks) const;
   /// The time at which it was stopped; absent: it was not.
-  std::optional<double> run_once(World& world, Repeat& repeat, const RunSinks& sinks) const;
+  std::optional<double> run_once(World& world, Repeat& repeat, const RunSinks& sinks, bool last) const;
   int steps_per_sample(double step) const;
   std::vector<double> pulled_out(const RodState& state) const;
   void check_reach() const;

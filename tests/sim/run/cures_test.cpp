@@ -68,6 +68,40 @@ TEST_CASE("a short run of a long program ends after its share of work, with the 
   CHECK_FALSE(short_run(job, short_run_segments).stopped_at);
 }
 
+TEST_CASE("a changed routing is checked only until a limit decides") {
+  const pipeline::Job job = swinging_job(1.2);
+  const auto smallest = [](const ShortRun& run) {
+    for (const Check& check : run.checks)
+      if (check.name == "smallest bend radius") return check.value;
+    return 0.0;
+  };
+  const ShortRun whole = short_run(job, short_run_segments);
+  CHECK_FALSE(whole.stopped_at);
+  const double radius = smallest(whole);
+  REQUIRE(radius > 0);
+  const ShortRun ended = short_run(job, short_run_segments, 1.01 * radius);
+  REQUIRE(ended.stopped_at);
+  CHECK(ended.work < whole.work);
+  CHECK(smallest(ended) < 1.01 * radius);
+  const ShortRun kept = short_run(job, short_run_segments, 0.99 * radius);
+  CHECK_FALSE(kept.stopped_at);
+  CHECK(smallest(kept) == radius);
+
+  int asked = 0;
+  const auto at = [&](int last) {
+    asked = 0;
+    return findings_unless(job, [&](const QuickFindings&) { return ++asked == last; }, 0, 0);
+  };
+  CHECK(at(1).run.work == 0);  // the slack alone
+  const QuickFindings all = at(-1), found = quick_findings(job);
+  REQUIRE(all.checks.size() == found.checks.size());
+  for (std::size_t k = 0; k < all.checks.size(); ++k) {
+    CHECK(all.checks[k].name == found.checks[k].name);
+    CHECK(all.checks[k].value == found.checks[k].value);
+    CHECK(all.checks[k].warning == found.checks[k].warning);
+  }
+}
+
 TEST_CASE("cures: a length that is too short or too long is cured by the length that is named") {
   for (const double length : {0.955, 1.7}) {
     pipeline::Job job = swinging_job(length);
