@@ -142,6 +142,7 @@ struct Trial {
   double radius = 0;   ///< smallest bend radius in the short run [m]; 0: there was none
   std::string other;    ///< name of a check whose limit is passed and which is none of the bend radius; empty: none
   std::string refusal;  ///< why the short run ended; empty: it did not
+  std::optional<double> until{};  ///< time at which the short run ended, because it took long [s]; absent: it did not
 };
 
 /// least_radius: of a trial that is better than those before [m].
@@ -163,6 +164,7 @@ Trial trial_of(const CheckedMotion& motion, const pipeline::Setup& changed, cons
   if (!trial.refusal.empty()) return trial;
   if (const Check* const bend = find(found.run.checks, check_name::bend_radius, dresspack))
     trial.radius = bend->value;
+  trial.until = found.run.stopped_at;
   trial.keeps = !rejects(found);
   trial.cured = trial.keeps && std::none_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
     return check.dresspack == dresspack && is_among(kinds, check) && check.name == check_name::bend_radius &&
@@ -299,8 +301,9 @@ class RemedySearch {
         add(fmt::format("{}_clamp.direction: {}", end == 0 ? "base" : "tool", vector_words(direction(end))));
     const std::string near =
         change.trial.cured ? "" : fmt::format(", the bend radius by little: {}", in_words(change.trial.radius, "m"));
-    return fmt::format("{} (bend radius at rest {}; keeps the limits in a short run{})", fmt::join(keys, " and "),
-                       radius_words(change.curvature), near);
+    const std::string until = change.trial.until ? fmt::format(" of the first {:.0f} s", *change.trial.until) : "";
+    return fmt::format("{} (bend radius at rest {}; keeps the limits in a short run{}{})", fmt::join(keys, " and "),
+                       radius_words(change.curvature), until, near);
   }
 
   const CheckedMotion& motion_;
