@@ -3,7 +3,7 @@
 //
 // A hose that hangs between two clamps is bent and twisted by how the clamps stand to each other. Only the
 // joints between the two links that carry the clamps change that; every other joint carries the dresspack
-// about as a whole, which it feels by gravity and swinging alone. So the wire's strain is written as a
+// about as a whole, which strains it by gravity and swinging alone. So the wire's strain is written as a
 // surface over the joints between the clamps, quadratic, fitted to the whole motion by least squares:
 //     eps(t) = f(q(t)) + remainder                                                               (F19)
 // A cycle opens at sample b and closes at e. Going straight from q_b to q_e, joint j changes f by exactly

@@ -492,7 +492,7 @@ void write_estimates(const Context& c) {
   c.life.attribute("estimates", words);
 }
 
-/// What mean stress makes of the worst wire's life: the same history with all of it for ever, and with none.
+/// The effect of mean stress on the worst wire's life: the same history with all of its mean stress, and without any.
 void write_mean_stress(const Context& c) {
   if (c.worst == no_site) return;
   const pipeline::Material& material = pipeline::material_of(c.job, c.sites.material()[c.worst]);
@@ -531,7 +531,7 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
   return fmt::format(
       "{} ({} months) until 10 % of such dresspacks have a conductor {} at one place; worst wire: {} h ({} "
       "repeats) until {} breaks, {:.2f} m from the tool{}",
-      std::isinf(p10) ? "for ever" : pipeline::readable(p10) + " h",
+      std::isinf(p10) ? "without end" : pipeline::readable(p10) + " h",
       pipeline::readable(pipeline::months(p10, c.job.fatigue.operating_hours_per_week)),
       c.job.fatigue.failed_wires_percent > 0
           ? fmt::format("without {:g} % of its wires", c.job.fatigue.failed_wires_percent)

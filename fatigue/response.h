@@ -19,7 +19,7 @@ struct VariedStrains {
   std::size_t rest = 0;                                 ///< where loose cables rest; 0: the job's own place
   pipeline::Inside inside = pipeline::Inside::as_is;
   std::vector<std::vector<float>> strains;  ///< (wire) of its reversals
-  std::vector<std::size_t> site;            ///< (wire) of the job's own set: says of which material it is
+  std::vector<std::size_t> site;            ///< (wire) of the job's own set: it gives the material
 };
 
 /// strain.h5's /variation; nothing where the strain stage tried none.

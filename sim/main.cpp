@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
           {{"--preview", "", "simulate nothing; write what stands where, and which lengths suit (preview.h5)",
             &request.preview},
            {"--screen", "LIST.yaml",
-            "simulate nothing; write what geometry says of the job with each of these changes (screening.h5)",
+            "simulate nothing; write the checks by geometry of the job with each of these changes (screening.h5)",
             &request.screen},
            {"--rehearse", "", "with --screen: run each with few segments, and write what was seen",
             &request.rehearse},

@@ -11,7 +11,7 @@
 
 namespace dresslife::strain {
 
-/// What of the job the scan of a bundle needs.
+/// The part of the job that the scan of a bundle needs.
 struct ScanSettings {
   int fibre_count = 1;
   float gate = 0;

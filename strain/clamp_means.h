@@ -24,7 +24,7 @@ class ClampMeans {
   void next_block();
 
   const std::vector<LayerSlip>& plan() const { return plan_; }
-  /// Friction gathers over no more than this length (shortened()); returns what of the plan was longest.
+  /// Friction gathers over no more than this length (shortened()); returns the longest length of the plan.
   ShortenedPlan shorten(double bend_wave);
   /// The same with so many times the friction. glued: nothing slips, not even where compression takes the pressure
   /// away, on which any finite friction acts. Precondition: all samples have been added.

@@ -41,7 +41,7 @@ struct Probe {
   std::vector<double> shear;   ///< (sample) gamma of the surface, by the wire's torsion
 };
 
-/// What a fibre feels: both are needed to judge planes.
+/// The strains of a fibre: both are needed to judge planes.
 struct FibreHistory {
   std::size_t site;                   ///< row of the job's own sites
   std::vector<double> strain, shear;  ///< (sample) along the fibre, and gamma

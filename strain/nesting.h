@@ -28,7 +28,7 @@ void add_wire_layer(const Construction& construction, const std::vector<LayerSli
 /// count = 0: the wire's axis. Otherwise `count` fibres evenly around the wire, the first the outward one, pi
 /// from n.
 std::vector<Fibre> surface_fibres(int count);
-/// Order of the series of a part in which such fibres lie: 1 when any feels bend1.
+/// Order of the series of a part in which such fibres lie: 1 when bend1 strains any.
 int order_for(const std::vector<Fibre>& fibres);
 double fibre_angle(int fibre, int count);  ///< from the inward normal toward the binormal [rad]
 

@@ -1,7 +1,7 @@
 // A layer of wires that slides over its pitch, each with fibres at the height rho outward of its axis, in
 // numbers that give the waves of their strain without any node (README W27).
 //
-// What depends on the angle theta is bending alone: by W6, W11 and W12 the fibre feels
+// What depends on the angle theta is bending alone: by W6, W11 and W12 the strain of the fibre is
 //     G (strain + rho (f (1 + strain) - f0)),   G = 1 / (1 + rho f0),
 //     f = (R sigma^2 + y X) / (R^2 sigma^2 + y^2) = (1 - s Re 1/(z + R X)) / R,   z = s + i R sigma,
 // s and sigma the parent's stretch and the layer's turning, index 0 the parent at

@@ -94,7 +94,7 @@ void SlidingLine::add(double weight, double target) {
   const auto is_below = [&] { return !below_.empty() && find_lowest() < below_.back().at + below_shift_; };
   const auto is_above = [&] { return !above_.empty() && find_lowest() > above_.back().at + above_shift_; };
   // A line that is added moves the least to one side. Rounding may put it on the other side of a knot that it
-  // has just passed: who went back would go to and fro for ever.
+  // has just passed: a step back would repeat without end.
   if (is_below()) do
       cross(below_, below_shift_, above_, above_shift_, -1);
     while (is_below());

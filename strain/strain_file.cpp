@@ -392,7 +392,7 @@ std::vector<Warning> restless_warnings(std::size_t samples, double sample_rate) 
       "the hose moves too far from one sample to the next", fmt::format("simulation.sample_rate_Hz: {:g}", 2 * sample_rate))};
 }
 
-/// What of all spans' cables makes forces: whose metal they are of, their strains, and where they meet the
+/// The data of all spans' cables for their forces: whose metal they are of, their strains, and where they meet the
 /// clamps.
 class CableRows {
  public:

@@ -46,7 +46,7 @@ class Variations {
   /// The rests of starts become variations, too. All samples were added.
   void add(const Starts& starts);
 
-  /// What a variation makes of a site: its row in the file and its turning points.
+  /// The result of a variation for a site: its row in the file and its turning points.
   using Put =
       std::function<void(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows)>;
   /// Of one segment, right after the job's own evaluation of it.

@@ -12,7 +12,7 @@ struct StageLimits {
   std::uint64_t seconds = 0, megabytes = 0;  ///< 0: no limit
 };
 
-/// Opens what of standard input, output and error is closed: a file opened later would take its number, and
+/// Opens standard input, output and error where they are closed: a file opened later would take its number, and
 /// what is said would go into it. Lines of standard output leave whole, so that none of standard error lands
 /// within one where both go into one file. A file that may not grow any more fails its write instead of
 /// ending the program. Signals that end the program let it tidy up first (last_moment.h).

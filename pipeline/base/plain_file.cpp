@@ -23,7 +23,7 @@ bool is_absence(int error) {
 }
 
 [[noreturn]] void refuse_to_open(const std::filesystem::path& file, int error) {
-  // ENXIO: what a system says of a device without anything behind it.
+  // ENXIO: the error of a device without anything behind it.
   if (error == ENXIO)
     throw InputError({file.string()}, "is a device or a pipe, not a file", "save it as a file first");
   if (is_absence(error) || error == EACCES || error == EPERM)

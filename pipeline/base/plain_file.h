@@ -1,6 +1,6 @@
-// Files that are read, and what the file system says of them.
+// Files that are read, and their state in the file system.
 //
-// Only plain files are read. A pipe lets its reader wait for ever, a device may have no end: both are refused when
+// Only plain files are read. A pipe may let its reader wait without end, a device may have no end: both are refused when
 // they are opened. What the file system cannot say is an error of its own (DiskError): a disk that fails must not
 // pass for a file that is absent, shorter or damaged.
 #pragma once

@@ -42,7 +42,7 @@ struct BentPart {
   bool helical;           ///< it or what it lies in
   double friction_level;  ///< of what lies in it
   int depth;
-  bool alike_around = false;  ///< whatever lies in it at one radius feels the same at every angle
+  bool alike_around = false;  ///< all parts of one radius have the same strain at every angle
 };
 
 /// Of a layer of parts or wires at one angle, per size of the deformation.

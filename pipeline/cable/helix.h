@@ -51,7 +51,7 @@ struct Placement {
   Series<double> sine, cosine;  ///< of theta along the parent
 };
 
-/// What a fibre on a wire's surface feels of the wire's bending: its strain is (axial + by_bend1 x change of
+/// The strain of a fibre on a wire's surface by the wire's bending: its strain is (axial + by_bend1 x change of
 /// bend1 + by_bend2 x change of bend2) x scale.
 struct FibreShape {
   double by_bend1 = 0, by_bend2 = 0, scale = 1;

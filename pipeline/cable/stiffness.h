@@ -54,7 +54,7 @@ HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState st
 /// sliding: E I of the hose [N m2].
 std::vector<BendingFriction> friction_of_construction(const Dresspack& dresspack, double sliding);
 
-/// What of the construction is there, and not in those numbers, as words: "what fills its core (...)". Empty:
+/// The parts of the construction that those numbers leave out, as words: "what fills its core (...)". Empty:
 /// nothing.
 std::vector<std::string> missing_in_construction(const Dresspack& dresspack);
 

@@ -1,4 +1,4 @@
-// All quick checks of a job, in seconds: what its description says, and what geometry and statics say of its program.
+// All quick checks of a job, in seconds: of its description, and of its program by geometry and statics.
 #pragma once
 
 #include <filesystem>

@@ -19,7 +19,7 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
 std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options,
                                   const FilesAtStart& files);
 
-/// What the ratings of its cables say of each row; to_run: lets their rigs run first, and says with which
+/// The results of the ratings of its cables for each row; to_run: lets their rigs run first, and says with which
 /// options.
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,
                         std::vector<RankingRow>& rows);

@@ -43,7 +43,7 @@ std::vector<fs::path> shipped(const char* shelf) {
 struct Choice {
   Node routing;
   std::string source;
-  std::vector<std::string> faults = {};  ///< what dresslife check says of it
+  std::vector<std::string> faults = {};  ///< what dresslife check reports
   std::vector<std::string> estimates = {};  ///< of the dresspack
   std::vector<std::string> doubts = {};  ///< and of program and dresspack, whatever the routing
   bool refused = false;
@@ -116,7 +116,7 @@ std::string without_place(const std::string& words, const fs::path& file) {
   return text;
 }
 
-/// What dresslife check says of the draft with this routing, with the places of the user's files. motion: YAML; empty: the draft's.
+/// What dresslife check reports on the draft with this routing, with the places of the user's files. motion: YAML; empty: the draft's.
 void judge(const Draft& draft, const std::string& motion, Choice& choice) {
   const PassingFile file("job.yaml");
   write_text_if_changed(file.path(),

@@ -51,7 +51,7 @@ int validate(const RunOptions& options) {
 
 Command validate_command() {
   const auto options = std::make_shared<RunOptions>();
-  return {"validate", "hold observed lives of cables and wires against what the model says of the same tests",
+  return {"validate", "compare observed lives of cables and wires with the model's predictions of the same tests",
           joined({{{"observations", "", "OBSERVATIONS.yaml", &options->study, {.required = true}}},
                   run_options(*options),
                   study_options(*options)}),

@@ -203,7 +203,7 @@ Format make_motion_format() {
 }
 
 Format make_strain_format() {
-  Format format{"dresslife-strain", 2, "dresslife-strain", "what every wire feels", {}, {}};
+  Format format{"dresslife-strain", 2, "dresslife-strain", "the strain of every wire", {}, {}};
   add(format, {
     {"/time",                   f64,  "sample",             "s",    always, "time of each sample"},
     {"/program/step",           i32,  "sample",             "1",    always,

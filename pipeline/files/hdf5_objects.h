@@ -62,7 +62,7 @@ inline hid_t memory_type(Type type) {
   return -1;
 }
 
-/// What an axis of a table says of its length: a number, "name", or "name+1" for one more than that.
+/// The words for the length of a table's axis: a number, "name", or "name+1" for one more than that.
 struct AxisLength {
   std::string name;
   std::size_t plus = 0;

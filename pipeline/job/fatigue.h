@@ -31,7 +31,7 @@ constexpr std::string_view word(MeanStressRelaxation value) {
 
 enum class Counting { repeating, half_cycles };
 constexpr std::string_view word(Counting value) { return word_at({"repeating", "half_cycles"}, value); }
-/// Whether the motion is taken to repeat for ever; else it happens once.
+/// Whether the motion repeats without end; else it happens once.
 constexpr bool is_repeated(Counting value) { return value == Counting::repeating; }
 
 struct Fatigue {

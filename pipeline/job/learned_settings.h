@@ -10,7 +10,7 @@
 
 namespace dresslife::pipeline {
 
-/// What of these jobs a calibration belongs to, each different one once.
+/// The settings of these jobs to which a calibration belongs, each different one once.
 LearnedUnder learned_under(const std::vector<const Job*>& jobs);
 
 /// Errors: InputErrors at the calibration, one for each setting, friction key of a cable and constant of a material that

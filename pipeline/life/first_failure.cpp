@@ -22,7 +22,7 @@ constexpr std::size_t of_wires = uncertain_count;
 
 // ---- samples ----------------------------------------------------------------------------------------------
 
-/// FNV-1a: fixed for ever.
+/// FNV-1a: it must never change, because seeds depend on it.
 std::uint64_t seed_of(const std::string& name) {
   std::uint64_t seed = 0xcbf29ce484222325;
   for (const char letter : name) seed = (seed ^ static_cast<unsigned char>(letter)) * 0x100000001b3;

@@ -343,9 +343,9 @@ class Data {
     const Node* stress = fatigue ? fatigue->find("stress") : nullptr;
     return !stress ? "stress as fatigue.stress has it"
            : stress->text == "elastic"
-               ? "E times strain (fatigue.stress: elastic), shifted by what of its mean stress relaxes"
+               ? "E times strain (fatigue.stress: elastic), shifted by the part of its mean stress that relaxes"
                : "by the cyclic curve of its metal and Masing's rule (fatigue.stress: cyclic; E times strain where a strain-life "
-                 "table is given), shifted by what of its mean stress relaxes. Where it is one line, the "
+                 "table is given), shifted by the part of its mean stress that relaxes. Where it is one line, the "
                  "metal hardly yields";
   }
 

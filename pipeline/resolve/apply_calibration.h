@@ -15,7 +15,7 @@ void read_calibration(Node& job);
 /// tree: that the job was read from. Errors: InputError.
 void apply_calibration(Node& tree, Job& job);
 
-/// In the catalogue: what makers' ratings say of a cable without a calibration, as dresslife calibrate wrote it.
+/// In the catalogue: the evidence of makers' ratings for a cable without a calibration, as dresslife calibrate wrote it.
 inline constexpr const char* typical_ratings_file = "observations/typical_cables.yaml";
 
 /// The same with typical_ratings_file for a job that names no calibration, unless uncertainty.ratings is none or

@@ -7,7 +7,7 @@
 //   insulation  EN 50525-2-31, table 1, of PVC for 450/750 V, 0.6 mm up to 1 mm2 (300/500 V); below 0.5 mm2 0.3 mm, as of
 //               electronic cables by VDE 0812.
 //   jacket      IEC 60502-1, clause 13.3.3: 0.035 D + 1.0 mm around a bundle of width D, without its least value, which
-//               is that of cables laid in the ground.
+//               is that of cables in the ground.
 #pragma once
 
 namespace dresslife::pipeline {

@@ -11,7 +11,7 @@ namespace dresslife::pipeline {
 
 namespace {
 
-/// What of a wire's material decides strains: how stiff it is, and, where a grip bounds the force of a cable,
+/// The keys of a wire's material that decide strains: its stiffness, and, where a grip bounds the force of a cable,
 /// its cyclic curve, given or as it follows from the strain-life constants.
 struct MetalKeys {
   Material material;
@@ -35,7 +35,7 @@ bool has_wires_of(const std::vector<Component>& components, const std::string& m
   });
 }
 
-/// What of a dresspack decides the strain of its parts.
+/// The keys of a dresspack that decide the strain of its parts.
 struct StrainKeys {
   MountedDresspack mounted;
   std::vector<MetalKeys> materials{};
@@ -119,7 +119,7 @@ void drop_fatigue_keys(Dresspack& dresspack) {
   for (Component& component : dresspack.components) component.jacket.reset();
 }
 
-/// What of a dresspack decides its lives.
+/// The keys of a dresspack that decide its lives.
 struct FatigueKeys {
   MountedDresspack mounted;
 };

@@ -30,7 +30,7 @@ std::string job_text(const std::filesystem::path& file, const std::vector<std::s
 /// The same for a file in this folder: it names other files as seen from there, so that both may be moved together.
 std::string stored_job_text(const Job& job, const std::filesystem::path& folder);
 
-/// What of the job each stage's result depends on; equal text and equal bytes of the files beside it, equal result.
+/// The keys of the job on which each stage's result depends; equal text and equal bytes of the files beside it, equal result.
 /// The text names files without their folders.
 enum class JobPart { sim, strain, fatigue };
 std::string part_text(const Job& job, JobPart part);

@@ -4,7 +4,7 @@
 // With J the contact directions and A the step matrix (S3), the impulses p solve
 // (S10) w = J (v + dv) - v_obstacle - b/h + (J A^-1 J^T) p,   0 <= p_n  perp  w_n >= 0,
 //       |p_t| <= mu p_n, and where the hose slides p_t = -mu p_n w_t/|w_t|
-// by projected Gauss-Seidel, so a touching segment feels the mass and stiffness of its neighbours. A row of J
+// by projected Gauss-Seidel, so the mass and stiffness of its neighbours act on a touching segment. A row of J
 // has one block, or two of opposite sense where two segments touch: what one is given the other loses; in a
 // guide ring two neighbours share what the ring gives.
 #pragma once

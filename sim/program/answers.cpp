@@ -32,7 +32,7 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
-/// Each question once, in the order of the problems, with what every problem says of it.
+/// Each question once, in the order of the problems, with the words of every problem that asks it.
 std::vector<Entry> entries_of(const std::vector<Problem>& problems) {
   constexpr std::size_t most_comments = 4;  // problems that one answer solves
   std::vector<Entry> entries;

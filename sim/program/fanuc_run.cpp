@@ -389,7 +389,7 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
     for (auto d = routine().decided.lower_bound(target); d != routine().decided.end() && *d <= here; ++d)
       exit |= outlook_.leads_out(*routine().listing, *d, target, here);
     if (!exit && !goes_on(target)) {
-      note("repeats for ever: the motion is what comes until it repeats itself");
+      note("repeats without end: the motion is that until it repeats itself");
       throw Stop{};
     }
   }

@@ -113,7 +113,7 @@ class FanucValues {
   FanucCauses missing_;
   std::map<int, FanucCauses> register_causes_, position_causes_;  // of unknown ones
   std::map<int, std::map<int, FanucCauses>> component_causes_;    // of position registers
-  FanucCauses forgotten_by_;                                      // of those that nothing else says of
+  FanucCauses forgotten_by_;                                      // of those without another cause
   std::set<int> written_;                                         // registers that the program has set
   long charged_ = 0;                                              // operators read
 };

@@ -313,7 +313,7 @@ class Inform final : public Dialect {
     return true;
   }
 
-  /// RCONF as the robot's kinematics take it. The first number is the wrist's: what it says of the axes differs
+  /// RCONF as the robot's kinematics take it. The first number is the wrist's: its meaning for the axes differs
   /// between controllers (header); which one is meant is a value of the user's, else the newer one with a warning.
   ArmConfiguration configuration(const Position& position, const Place& place) {
     if (position.configuration.size() < 6) return {};

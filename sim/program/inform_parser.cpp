@@ -217,7 +217,7 @@ std::optional<std::vector<double>> numbers_of(std::string_view text) {
   return numbers;
 }
 
-/// What the header of positions says of those that follow.
+/// The header of positions, for those that follow.
 struct PositionHead {
   std::string type = "pulse";  ///< pulse, angle, base, robot, user, tool, mtool
   double user = 0, tool = 0;

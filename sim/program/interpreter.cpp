@@ -1,4 +1,4 @@
-// Statement after statement; what it says of them. Other members: interpreter_branches.cpp, _loops, _calls,
+// Statement after statement, with notes on them. Other members: interpreter_branches.cpp, _loops, _calls,
 // _effects; expressions: evaluation.cpp.
 #include "sim/program/interpreter.h"
 

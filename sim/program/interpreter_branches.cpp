@@ -11,7 +11,7 @@ using Kind = Statement::Kind;
 
 }  // namespace
 
-/// What the user says of a line, under any of its names.
+/// The user's answer for a line, under any of its names.
 template <class Answers>
 const typename Answers::mapped_type* Interpreter::answer(const Answers& answers, const Place& place) {
   if (answers.empty()) return nullptr;

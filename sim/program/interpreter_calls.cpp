@@ -261,7 +261,7 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
 }
 
 /// Where main is called again with the data as they were at an earlier call, or where its motion repeats, it
-/// is called for ever: that is a cycle, and nothing behind the calls is ever run.
+/// is called without end: that is a cycle, and nothing behind the calls is ever run.
 void Interpreter::call_within_itself(const Routine& routine) {
   Passes& passes = *within_itself_;
   constexpr bool with_locals = false;  // those of the calls around are never seen again
@@ -273,7 +273,7 @@ void Interpreter::call_within_itself(const Routine& routine) {
 void Interpreter::end_within_itself(const Routine& routine) {
   const std::size_t kept = within_itself_->kept(static_cast<std::size_t>(options_.passes));
   program_.instructions.resize(within_itself_->end(kept));
-  note(routine.place, fmt::format("{} is called within itself for ever; the motion is {}", routine.written,
+  note(routine.place, fmt::format("{} is called within itself without end; the motion is {}", routine.written,
                                   passes_text(static_cast<long>(kept))));
   throw Stop{};
 }

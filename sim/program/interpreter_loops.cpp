@@ -93,7 +93,7 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
   return Flow::next;
 }
 
-/// At a jump back: with the data of an earlier one everything repeats for ever.
+/// At a jump back: with the data of an earlier one everything repeats without end.
 void Interpreter::end_where_it_repeats(Passes& passes, const Place& place) {
   if (passes.count() >= searched_passes) return;
   passes.add(state());

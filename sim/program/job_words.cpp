@@ -14,7 +14,7 @@ std::string yaml_word(const std::string& text) {
   return fmt::format("'{}'", std::regex_replace(text, std::regex("'"), "''"));
 }
 
-/// Replaces each match by what `made` makes of it.
+/// Replaces each match by the result of `made`.
 template <class Made>
 std::string replaced(const std::string& text, const std::regex& wanted, const Made& made) {
   std::string out;

@@ -1,4 +1,4 @@
-// What every reader of robot programs makes of a file: the moves in the order in which the controller runs
+// What every reader of robot programs gets from a file: the moves in the order in which the controller runs
 // them.
 //
 // Lengths are m, angles rad, times s, whatever the language writes; quaternions are Eigen's. A pose is that

@@ -119,7 +119,7 @@ struct RodState {
   std::vector<BendMemory> memory;   ///< (link) of hysteretic bending; empty: no element is stretched
 };
 
-/// What a link feels, in its mid-frame.
+/// The deformation of a link, in its mid-frame.
 struct LinkState {
   Vector3 gap;     ///< world axes [m]
   Vector3 turn;    ///< rotation vector phi [rad]

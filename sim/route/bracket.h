@@ -33,7 +33,7 @@ class Surfaces {
   std::unique_ptr<Parts> parts_;
 };
 
-/// A clamp or ring as it is carried.
+/// A clamp or ring on its link.
 struct Carried {
   int link = 0;
   Vector3 position = Vector3::Zero();  ///< in the link's frame [m]

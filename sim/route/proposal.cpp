@@ -300,7 +300,7 @@ class Search {
     return candidate;
   }
 
-  /// What of the link a clamp is drawn beside: its capsules; of the last link the flange, where tools have their
+  /// The shapes of the link beside which a clamp is drawn: its capsules; of the last link the flange, where tools have their
   /// brackets, as a line as long as those reach.
   std::vector<pipeline::Capsule> shapes_of(int link) const {
     const pipeline::Link& of = setup_.robot.links[link];

@@ -1,4 +1,4 @@
-// What geometry alone says of a routing, in milliseconds: whether it can work at all, and how far it is from
+// Checks of a routing by geometry alone, in milliseconds: whether it can work at all, and how far it is from
 // that.
 //
 // The dresspack is drawn as a smooth curve of its length through its clamps and rings (start_curve.h) in

@@ -1,4 +1,4 @@
-// screening.h5: what geometry alone says of many routings of a job, or the routings that it proposes.
+// screening.h5: checks by geometry alone of many routings of a job, or the routings that it proposes.
 #pragma once
 
 #include <filesystem>

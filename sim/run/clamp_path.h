@@ -50,7 +50,7 @@ class ClampPath {
 
 struct RunMotion;  // sim/program/import.h
 
-/// The clamps carried by a robot that runs a joint program.
+/// The clamps on a robot that runs a joint program.
 class RobotPath final : public ClampPath {
  public:
   /// Throws InputError: joint limits, wrong links. Precondition: the job has its clamps.
@@ -64,7 +64,7 @@ class RobotPath final : public ClampPath {
   const JointMotion& motion() const { return motion_; }
   /// Of the robot program (Motion::left_out, external axes that the robot lacks) and of unusual steps.
   const std::vector<pipeline::Warning>& doubts() const { return doubts_; }
-  const std::string& note() const { return note_; }  ///< what a run says of its program; empty: nothing
+  const std::string& note() const { return note_; }  ///< a run's note on its program; empty: none
   Pose pose(const Eigen::VectorXd& joints) const;
   /// (end, as ClampFrames counts them) index of the link that carries it; no_link: a free end.
   const std::vector<int>& end_links() const { return end_links_; }

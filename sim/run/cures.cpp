@@ -135,7 +135,7 @@ bool is_among(const Kinds& kinds, const Check& check) {
   return check.kind && std::find(kinds.begin(), kinds.end(), *check.kind) != kinds.end();
 }
 
-/// What the checks say of a changed job.
+/// The checks of a changed job.
 struct Trial {
   bool keeps = false;  ///< it keeps the limits of the kinds that were asked, and passes no other one than the job does now
   bool cured = false;  ///< the same with the margin

@@ -16,7 +16,7 @@ class MotionFile {
   MotionFile(pipeline::FileWriter& file, const RunDescription& description);
 
   void add(const Sample& sample);
-  /// After the last sample: checks, and what the run says of itself. step_at: line of the program at a time
+  /// After the last sample: checks, and the summary of the run. step_at: line of the program at a time
   /// [s].
   void finish(const RunSummary& summary, const std::function<int(double)>& step_at);
 

@@ -32,7 +32,7 @@ struct MountedPiece {
   bool found = false;
 };
 
-/// What of a dresspack is hung up at a time: from clamp to clamp, or, where rings lie between, from ring to
+/// The part of a dresspack that is mounted at a time: from clamp to clamp, or, where rings lie between, from ring to
 /// ring, each of them holding the hose until all of it hangs.
 struct Piece {
   int dresspack = 0;

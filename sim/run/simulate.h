@@ -58,7 +58,7 @@ struct Sample {
   const Touch& touch;                  ///< forces and rubbing since the sample before and the repeat's begin
 };
 
-/// What a run says of itself.
+/// The summary of a run.
 struct RunSummary {
   int repeats = 1;        ///< of the motion that were run, the one that leads in too; the last is the result
   bool returns = false;   ///< the motion ends where it begins
@@ -75,7 +75,7 @@ struct RunSummary {
   std::vector<std::string> obstacles;              ///< of RubbedPatch::obstacle
 };
 
-/// What of a run a person should look at: skipped lines of its program, repeats that do not become alike, and
+/// The warnings of a run: skipped lines of its program, repeats that do not become alike, and
 /// every check whose limit is broken.
 std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary);
 
@@ -107,7 +107,7 @@ class Simulation {
   const Rod& rod() const { return rod_; }
   /// Of the robot program that was read (Motion::left_out); nothing without one.
   std::vector<pipeline::Warning> doubts() const;
-  std::string program_note() const;  ///< what a run says of that program; empty: nothing
+  std::string program_note() const;  ///< a run's note on that program; empty: none
   /// As given; simulation.time_step is the step that the run begins with.
   const pipeline::Setup& setup() const { return setup_; }
   std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'"

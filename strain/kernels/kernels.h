@@ -198,7 +198,7 @@ struct LaneRun {
 /// What a wire's strain is made of before friction, one after the other: the mean along its path, the glued
 /// strain's deviation from it, the shear strain gamma/sqrt(3) of its torsion at its surface, and the bending
 /// strain of each fibre. The last two hold what the undeformed wire has too, as glued, and count per length
-/// of the undeformed axis; what a fibre feels counts per length of its own (W12).
+/// of the undeformed axis; the strain of a fibre counts per length of its own (W12).
 enum Ingredient { mean_strain, deviation, shear, first_bending };
 constexpr int ingredients(int fibres) { return first_bending + fibres; }
 

@@ -52,7 +52,7 @@ inline FloatPack root_less_one(const FloatPack& q) {
   return q * (0.5f + q * (-0.125f + q * (0.0625f - 0.0390625f * q)));
 }
 
-/// What of a layer's strain does not depend on the angle: the mean strain over the pitch, and the factors of
+/// The part of a layer's strain that does not depend on the angle: the mean strain over the pitch, and the factors of
 /// the harmonics of f (1 + strain), the mean's less that at rest. A loop of its own: with the one that uses
 /// it, a sample's numbers would wait for each other too long.
 struct alignas(64) SlidingState {
@@ -66,7 +66,7 @@ struct alignas(64) SlidingState {
       const FloatPack twist_by = part(twist_change, t);
       const FloatPack turning = of.R2_over_D0 * (twist_by * (twist_by + of.two_sigma0));
       const FloatPack q = shape(BendShape::square_stretch, t) * of.inverse_D0 + turning;  // D / D0 - 1
-      // D0 / D, by a true quotient: what a fibre feels at rest is taken off its products, and the error of
+      // D0 / D, by a true quotient: the strain at rest is subtracted from its products, and the error of
       // inverse(), two roundings on processors whose own is good to 12 digits, would be all of the budget
       const FloatPack over_D = 1.0f / (1.0f + q);
       const FloatPack tau = (of.tau0 + turning) * over_D;

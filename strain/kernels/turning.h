@@ -48,7 +48,7 @@ struct WaveShape {
         sine2(load<FloatPack>(state.shape[2] + lane)),
         cosine2(load<FloatPack>(state.shape[3] + lane)) {}
 
-  /// Of the strain, what a wire at the opposite angle feels too, and what it feels the other way round.
+  /// The part of the strain that a wire at the opposite angle shares, and the part that has the opposite sign there.
   inline __attribute__((always_inline)) FloatPack even(const FromWaves& from, std::size_t t) const {
     return from.wave(0, t) + from.wave(2, t) * cosine1 + from.wave(4, t) * cosine2;
   }

@@ -24,7 +24,7 @@ struct LooseCable {
   double axial_stiffness = 0;     ///< E A, of its wires [N]
   double bending_stiffness = 0;   ///< E I, as its wires slide [N m2]
   double mass_per_length = 0;     ///< [kg/m]
-  double slack = 0;               ///< length beyond the path on which it was laid in, over it
+  double slack = 0;               ///< length beyond its path at installation, over it
   double wall_stiffness = 1e7;    ///< k_w, of what it lies against, force per length and depth [N/m2]
   double grip = without_limit;    ///< force at which a clamp lets it slip [N]
   /// Force per length and sideways speed that holds it [N s/m2] (README W36): at 50 mm/s friction of 0.3

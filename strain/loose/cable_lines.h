@@ -56,7 +56,7 @@ class CableLines {
   /// The sample is over. step: as in begin(); step 0: there was none before. states: (cable), or empty: not needed.
   void end(const HoseLine& hose, double step, std::span<CableState> states);
 
-  /// What its path has more than the hose's axis where it was laid in, over that.
+  /// The length of its path beyond the hose's axis at installation, over that.
   double laid_in(std::size_t k) const { return tensions_[k].laid_in(); }
 
   /// Before the first sample: cables go on from where those of another of as many cables and nodes are.

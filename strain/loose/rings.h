@@ -11,7 +11,7 @@
 
 namespace dresslife::strain {
 
-/// What of the hose cables can meet.
+/// The parts of the hose that cables can touch.
 struct HoseSection {
   double inner_radius = without_limit;  ///< of the wall [m]
   double core_radius = 0;               ///< of what fills the middle and is no cable [m]

@@ -3,7 +3,7 @@
 //
 // The cable is gripped at both ends and slides along its path in between:
 //     strain = (1 + g) / ((1 + slack) (1 + g0) (1 - s)) - 1 - slipped,   T = E A strain,   |T| <= grip,
-// g the mean gain of its path, g0 that of the path on which it was laid in, s what twist takes from its
+// g the mean gain of its path, g0 that of its path at installation, s what twist takes from its
 // length (W37). Where T would exceed the grip, the cable slips: it has another free length from then on.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace dresslife::strain {
 
 class CableTension {
  public:
-  /// laid_in: mean gain of the path on which the cable was laid in.
+  /// laid_in: mean gain of the cable's path at installation.
   explicit CableTension(const LooseCable& cable, double laid_in = 0);
 
   double laid_in() const { return laid_in_; }
@@ -27,7 +27,7 @@ class CableTension {
   /// What slipped through the clamps is that of another.
   void go_on_from(const CableTension& other) { slipped_ = other.slipped_; }
 
-  /// As if only this share of the slack were in the hose yet; 1: all of it. It is laid in by hand, and
+  /// As if only this share of the slack were in the hose yet; 1: all of it. It is installed by hand, and
   /// clamps let nothing through before all of it is there.
   void feed_in(double share);
 

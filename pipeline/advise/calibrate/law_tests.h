@@ -52,7 +52,7 @@ struct LawTest {
 };
 void describe(Fields& f, LawTest& test);
 
-/// What a law says of a test: percentiles 10, 50, 90 of a radius [m] or a volume [m3].
+/// The prediction of a law for a test: percentiles 10, 50, 90 of a radius [m] or a volume [m3].
 struct LawPrediction {
   double low = 0, median = 0, high = 0;
 };

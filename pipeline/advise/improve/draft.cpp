@@ -78,7 +78,7 @@ std::string link_or(const std::string& asked, const Node* routing, const char* c
   return link && link->is_scalar() ? link->text : otherwise;
 }
 
-/// What of a routing is no result of a search. given: null: there is none.
+/// The keys of a routing that a search does not change. given: null: there is none.
 void keep_settings(Node& routing, const Node* given) {
   for (const char* key : {"mounting_pose_deg", "longest_bracket_mm"})
     if (const Node* value = given ? given->find(key) : nullptr) routing[key] = *value;

@@ -31,7 +31,7 @@ struct DutyProgram {
   Where where;
   std::string job;
   std::optional<double> repeats_per_hour, repeats_per_shift, percent_of_time, percent_of_repeats;
-  double deviation_percent = 0;  ///< standard deviation of its number of repeats, of this dresspack for ever
+  double deviation_percent = 0;  ///< standard deviation of its number of repeats, the same for the whole life of a dresspack
 
   /// Repeats in an hour of operation. repeat_seconds: of its motion.
   double rate(double repeat_seconds, double shift_hours, std::optional<double> all_repeats_per_hour) const;
