@@ -47,7 +47,6 @@ class SlidingLine {
   double strain(std::size_t element) const { return force_[element] / stiffness_; }
   /// Length that went in at the base and the tool clamp in all [m]; below 0: was pulled out.
   double let_in_at_base() const { return let_in_[0]; }
-  double let_in_at_tool() const { return let_in_[1]; }
   /// Both, either way added up [m].
   double travel_at_base() const { return travel_[0]; }
   double travel_at_tool() const { return travel_[1]; }

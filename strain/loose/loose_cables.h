@@ -69,9 +69,6 @@ class LooseCables {
   /// and lie as they would alone.
   static void advance(std::span<LooseCables* const> all, std::span<const HoseNode> hose, double step);
 
-  /// The next sample follows on none: cables start from where they are, at rest.
-  void start_again() { started_ = false; }
-
   const CableState& state(std::size_t cable) const { return states_[cable]; }
   /// Samples at which a ring or a cable was still moving when the work was cut short, since forget_restless().
   std::size_t restless() const { return restless_; }

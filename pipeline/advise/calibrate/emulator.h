@@ -21,7 +21,6 @@ class Emulator {
            const Eigen::VectorXd& high);
 
   double operator()(const Eigen::VectorXd& z) const;
-  double at_centre() const { return value_; }
 
  private:
   double value_ = 0;

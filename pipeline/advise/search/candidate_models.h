@@ -45,7 +45,6 @@ class CandidateModels {
   bool any_feasible() const { return any_feasible_; }  ///< whether a result is feasible
   /// Whether the models contain a result or rehearsal at this place.
   bool holds(const Eigen::VectorXd& place) const;
-  bool knows_aim() const { return aim_.model.has_value(); }
 
   /// (constraint that varies) mean + deviations x standard deviation, tamed. The last entry is <= 0 if it runs.
   Eigen::VectorXd beyond(const Eigen::VectorXd& place, double deviations) const;
