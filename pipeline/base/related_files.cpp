@@ -182,7 +182,7 @@ std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::
     all |= !text || lower(program.extension().string()) == ".pgf";
     open.push_back({stem_of(program), std::move(text).value_or("")});
   }
-  // Other files may define routines of the same names: those of the first program count (first_file_counts in sim/program/program.h).
+  // Other files may define routines of the same names: those of the first program count (first_file_counts in sim/program/interpreter/program.h).
   if (!programs.empty() && is_krl(programs.front())) open[1].own = routines_of(open[1].text);
   for (fs::path& file : beside) {
     std::optional<std::string> text = all ? std::nullopt : text_of(file);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipeline/job/motion.h"
-#include "sim/program/program.h"
+#include "sim/program/interpreter/program.h"
 
 namespace dresslife::sim {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <numeric>
 
-#include "sim/program/tokens.h"
+#include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
 namespace {

@@ -4,9 +4,13 @@
 
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/program_files.h"
-#include "sim/program/encoding.h"
-#include "sim/program/inform.h"
-#include "sim/program/tokens.h"
+#include "sim/program/fanuc/backup.h"
+#include "sim/program/import.h"
+#include "sim/program/inform/inform.h"
+#include "sim/program/interpreter/encoding.h"
+#include "sim/program/interpreter/tokens.h"
+#include "sim/program/krl/krl.h"
+#include "sim/program/rapid/rapid.h"
 
 namespace dresslife::sim {
 
@@ -28,76 +32,10 @@ Language language_within(const fs::path& file) {
   return lower_case(file.filename().string()) == "var.dat" ? Language::inform : language_of(file);
 }
 
-/// Programs that a program calls, itself or through others.
-std::set<std::string> reached_from(const std::string& program, const CallGraph& graph) {
-  std::set<std::string> reached;
-  std::vector<std::string> open{program};
-  while (!open.empty()) {
-    const auto at = graph.find(open.back());
-    open.pop_back();
-    if (at == graph.end()) continue;
-    for (const std::string& name : at->second.names)
-      if (graph.contains(name) && reached.insert(name).second) open.push_back(name);
-  }
-  return reached;
-}
-
 /// ABB's list of what a backup holds.
 bool is_contents(const fs::path& file) { return lower_case(file.filename().string()) == "backinfo.txt"; }
 
 }  // namespace
-
-bool moves(const std::string& program, const CallGraph& graph) {
-  std::set<std::string> reached = reached_from(program, graph);
-  reached.insert(program);
-  return std::any_of(reached.begin(), reached.end(),
-                     [&](const std::string& name) { return graph.at(name).moves; });
-}
-
-std::vector<std::string> uncalled_programs(const CallGraph& graph) {
-  std::set<std::string> called;
-  for (const auto& [name, calls] : graph)
-    for (const std::string& other : calls.names)
-      if (other != name) called.insert(other);
-  std::vector<std::string> found, mains;
-  for (const auto& [name, calls] : graph) {
-    if (called.contains(name) || !moves(name, graph)) continue;
-    found.push_back(name);
-    if (name.starts_with("main")) mains.push_back(name);
-  }
-  return mains.size() == 1 ? mains : found;
-}
-
-std::string only_start(const fs::path& folder, std::vector<std::string> choices, const char* what) {
-  constexpr std::size_t listed_programs = 20;
-  if (choices.empty())
-    throw pipeline::InputError({folder.string()}, fmt::format("holds no {} that moves the robot", what),
-                               "name the routine to run with --routine (motion.routine in a job)");
-  if (choices.size() == 1) return choices[0];
-  const std::size_t more = choices.size() - std::min(choices.size(), listed_programs);
-  choices.resize(choices.size() - more);
-  throw pipeline::InputError({folder.string()}, "holds several programs, and none that calls them",
-                             fmt::format("name one with --routine (motion.routine in a job): {}{}",
-                                         fmt::join(choices, ", "), more ? fmt::format(" and {} more", more) : ""));
-}
-
-Backup inform_backup(const fs::path& folder, const std::vector<fs::path>& files, const std::string& routine) {
-  Backup backup{Language::inform, {}, routine};
-  CallGraph graph;
-  std::map<std::string, fs::path> file_of;
-  for (const fs::path& file : files)
-    if (lower_case(file.extension().string()) == ".jbi") {
-      Calls calls = inform_calls(SourceFile(file.string(), decoded_text(pipeline::read_text(file))));
-      file_of[calls.name] = file;
-      graph[calls.name] = std::move(calls);
-    }
-  if (routine.empty()) backup.routine = only_start(folder, uncalled_programs(graph), "job");
-  const auto first = file_of.find(lower_case(backup.routine));
-  if (first != file_of.end()) backup.files.push_back(first->second);  // it names the motion
-  for (const fs::path& file : files)
-    if (first == file_of.end() || file != first->second) backup.files.push_back(file);
-  return backup;
-}
 
 bool is_backup(const fs::path& program) {
   return pipeline::kind_of(program) == pipeline::FileKind::folder || lower_case(program.extension().string()) == ".pgf";

@@ -1,7 +1,7 @@
 // The explanation of an imported program: its moves with tool, work object, speed and zone, and the origin of each.
 #pragma once
 
-#include "sim/program/program.h"
+#include "sim/program/interpreter/program.h"
 
 namespace dresslife::sim {
 

@@ -11,11 +11,9 @@
 #include "pipeline/base/warnings.h"
 #include "pipeline/job/motion.h"
 #include "pipeline/job/robot.h"
-#include "sim/program/program.h"
+#include "sim/program/interpreter/program.h"
 
 namespace dresslife::sim {
-
-enum class Language { rapid, krl, fanuc, inform, urscript, joint_columns, ros_trajectory };
 
 /// By extension. Errors: InputError for one that no reader knows.
 Language language_of(const std::filesystem::path& file);

@@ -6,12 +6,12 @@
 #include <map>
 #include <numbers>
 
-#include "sim/program/encoding.h"
-#include "sim/program/fanuc_run.h"
-#include "sim/program/krl_frames.h"
-#include "sim/program/parser.h"
-#include "sim/program/rapid_dialect.h"
-#include "sim/program/tokens.h"
+#include "sim/program/fanuc/run.h"
+#include "sim/program/interpreter/encoding.h"
+#include "sim/program/interpreter/parser.h"
+#include "sim/program/interpreter/tokens.h"
+#include "sim/program/krl/frames.h"
+#include "sim/program/rapid/dialect.h"
 
 namespace dresslife::sim {
 namespace {

@@ -7,7 +7,7 @@
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/axis_names.h"
-#include "sim/program/tokens.h"
+#include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
 namespace {

@@ -17,7 +17,7 @@
 // A row with a time is a move that lasts until it, and goes over into the next one without a stop.
 #pragma once
 
-#include "sim/program/program.h"
+#include "sim/program/interpreter/program.h"
 
 namespace dresslife::sim {
 

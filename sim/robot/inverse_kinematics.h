@@ -25,7 +25,7 @@
 //   Fanuc  N where q5 <= 0, U where front(2), T where front(1); turns of axes 1, 4, 6 counted from 0 at
 //          +-180 deg.
 //   Motoman  behind(1), lower arm = behind(2), axes R, T, S 180 deg or more from zero; of the wrist, axis R within
-//          90 deg of zero or the sign of q5: controllers differ (sim/program/inform.cpp).
+//          90 deg of zero or the sign of q5: controllers differ (sim/program/inform/inform.cpp).
 //   near   the arm nearest to six angles by the time that its axes take (UR's qnear).
 // Sources of the words: RAPID data types (confdata); KUKA System Software (status and turn); FANUC operator's
 // manual.
@@ -37,7 +37,7 @@
 #include <vector>
 
 #include "pipeline/job/robot.h"
-#include "sim/program/program.h"
+#include "sim/program/interpreter/program.h"
 #include "sim/robot/numerical_inverse.h"
 #include "sim/robot/robot.h"
 

@@ -8,7 +8,7 @@
 #include "pipeline/job/setup.h"
 #include "pipeline/resolve/plausible_job.h"
 #include "sim/program/import.h"
-#include "sim/program/tokens.h"
+#include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
 

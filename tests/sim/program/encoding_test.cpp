@@ -1,4 +1,4 @@
-#include "sim/program/encoding.h"
+#include "sim/program/interpreter/encoding.h"
 
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"

@@ -1,4 +1,4 @@
-#include "sim/program/fanuc_backup.h"
+#include "sim/program/fanuc/backup.h"
 
 #include "pipeline/job/motion.h"
 #include "sim/program/backup.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/program/fanuc_run.h"
+#include "sim/program/fanuc/run.h"
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "pipeline/job/robot.h"
-#include "pipeline/urdf/urdf.h"
 #include "pipeline/settings/fields.h"
+#include "pipeline/urdf/urdf.h"
 #include "sim/program/import.h"
 
 namespace dresslife::pipeline {

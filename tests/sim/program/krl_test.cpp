@@ -1,4 +1,4 @@
-#include "sim/program/krl_spline.h"
+#include "sim/program/krl/spline.h"
 
 #include <cmath>
 

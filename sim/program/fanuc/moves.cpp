@@ -1,0 +1,621 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/program/fanuc/run.h"
+#include "sim/program/interpreter/tokens.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double millimetre = 1e-3;
+
+constexpr const char* position_form =
+    "X .. Y .. Z .. W .. P .. R .. in mm and deg, or J1 .. J2 .. J3 .. J4 .. J5 .. J6 ..";
+
+int whole(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
+
+bool nothing(const FanucPosition& offset) {
+  return std::all_of(offset.values.begin(), offset.values.end(), [](double v) { return v == 0; });
+}
+
+}  // namespace
+
+Frame frame_of_fanuc(const std::vector<double>& n) {  // W, P, R about the fixed axes x, y, z
+  return {
+      millimetre * Vector3(n[0], n[1], n[2]),
+      rotation({0, 0, n[5] * degree}) * rotation({0, n[4] * degree, 0}) * rotation({n[3] * degree, 0, 0})};
+}
+
+std::vector<double> fanuc_values_of(const Frame& frame) {
+  const Eigen::Matrix3d r = frame.orientation.toRotationMatrix();
+  const double yaw = std::atan2(r(1, 0), r(0, 0)), c = std::cos(yaw), s = std::sin(yaw);
+  // W from what R leaves, so that their sum is exact where P is +-90 deg.
+  const double pitch = std::atan2(-r(2, 0), c * r(0, 0) + s * r(1, 0)),
+               roll = std::atan2(s * r(0, 2) - c * r(1, 2), c * r(1, 1) - s * r(0, 1));
+  const Vector3 p = frame.position / millimetre;
+  return {p.x(), p.y(), p.z(), roll / degree, pitch / degree, yaw / degree};
+}
+
+// ---- positions -------------------------------------------------------------------------------------------
+
+/// P[3:name] or PR[4]. Absent: neither, or its number is not known.
+std::optional<FanucPosition> FanucRun::position(FanucCursor& at) {
+  const bool registered = at.take("PR");
+  if (!registered && !at.take("P")) return {};
+  const auto index = values_.index(at);
+  if (!index || !index->number || index->group != 1) return {};
+  const int number = whole(*index->number);
+  if (registered) return values_.position_register(number);
+  const auto& list = routine().listing->positions;
+  const auto found = list.find(number);
+  return found == list.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// The same as the target of a move, with a problem where it is not there.
+std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
+  const std::size_t begin = at.offset();
+  const bool registered = at.take("PR");
+  if (!registered && !at.take("P")) {
+    complain("moves to no P[n] or PR[n]", "palletizing and other positions are not read; list them as P[n]");
+    return {};
+  }
+  values_.forget_missing();
+  const auto index = values_.index(at);
+  if (!index || !index->number) {
+    if (values_.missing().empty())
+      complain("moves to a position without a number", "teach it");
+    else
+      missing_value("moves to a position by");
+    return {};
+  }
+  const std::string name = fmt::format("{}[{}]", registered ? "PR" : "P", whole(*index->number));
+  at.move_to(begin);
+  auto read = position(at);
+  const std::string own_name = fmt::format("{}:{}", routine().listing->name, name);
+  if (!registered && (!read || (!read->known() && read->form != FanucPosition::Form::other_groups)))
+    if (const auto given = values_.given_position(own_name)) read = given;
+  if (registered && values_.doubtful(whole(*index->number)))
+    note(fmt::format("{} is taken from the backup; a program that was not read may have written it since",
+                     name),
+         true);
+  if (read && read->known() && read->form == FanucPosition::Form::unknown) {
+    complain(
+        fmt::format("moves to {}, and nothing says whether its numbers are a pose or joint angles", name),
+        fmt::format("give --value '{}=X ... Y ... Z ... W ... P ... R ...' or '{}=J1 ... J2 ...'", name,
+                    name));
+    return {};
+  }
+  if (read && (read->known() || read->form == FanucPosition::Form::other_groups)) return read;
+  if (registered) {
+    values_.forget_missing();
+    values_.miss_position(whole(*index->number));
+    missing_position(name, "moves to");
+    return {};
+  }
+  missing(fmt::format("{} of {}", name, routine().listing->name),
+          fmt::format("moves to {}, which is not {}", name, read ? "taught" : "listed"),
+          fmt::format("{}, or give --value '{}=X ... Y ... Z ... W ... P ... R ...'",
+                      read ? "list the program again behind teaching it"
+                           : "list the program with its positions (/POS)",
+                      own_name),
+          {{Question::Kind::value, own_name, position_form}});
+  return {};
+}
+
+/// What makes a position register unknown, which `values_` misses.
+void FanucRun::missing_position(const std::string& name, const char* what) {
+  const FanucCauses& causes = values_.causes();
+  if (causes.size() != 1 || causes[0].name != name)
+    return missing_value(fmt::format("{} {}, which depends on", what, name));
+  missing(name, fmt::format("{} {}, which is known only while the robot runs", what, name),
+          fmt::format(
+              "give posreg.va of the backup (--module), or --value '{}=X ... Y ... Z ... W ... P ... R ...' "
+              "(motion.values)",
+              name),
+          {{Question::Kind::value, name, position_form}});
+}
+
+/// The active frame where a position names none; false: not known.
+bool FanucRun::active(bool tool, int& number) {
+  if (number >= 0) return true;
+  values_.forget_missing();
+  if (const FanucNumber known = values_.named(tool ? "utool_num" : "uframe_num")) {
+    number = whole(*known);
+    return true;
+  }
+  const std::string written = tool ? "UTOOL_NUM" : "UFRAME_NUM", list = tool ? "UTOOL" : "UFRAME";
+  if (given_frame(tool, list)) return true;
+  const bool by_number = !(tool ? around_.variables.tools : around_.variables.frames).empty();
+  const Question by_its_number{Question::Kind::value, written, "a number"},
+      frame{tool ? Question::Kind::tool : Question::Kind::work_object, list, ""};
+  missing(
+      written,
+      fmt::format("moves in the active {}, and nothing says which that is ({})", tool ? "tool" : "user frame",
+                  written),
+      fmt::format(
+          "give it with --value {}=1 (motion.values), its frame in motion.{} (--frames) with the name '{}', or "
+          "sysframe.va of the backup",
+          written, tool ? "tools" : "work_objects", list),
+      {by_number ? by_its_number : frame});
+  return false;
+}
+
+/// A frame that the user gives; null: there is none of that name.
+const NamedFrame* FanucRun::given_frame(bool tool, const std::string& name) const {
+  const auto& given = tool ? around_.tools : around_.work_objects;
+  const auto found = std::find_if(given.begin(), given.end(),
+                                  [&](const NamedFrame& frame) { return same_word(frame.name, name); });
+  return found == given.end() ? nullptr : &*found;
+}
+
+/// A controller moves to a P[n] only while the frames that it was taught in are active.
+void FanucRun::compare_active(bool tool, int listed) {
+  const std::string name = tool ? "utool_num" : "uframe_num";
+  if (!values_.has_named(name)) return values_.set_named(name, listed);
+  const int number = whole(*values_.named(name));
+  if (number == listed) return;
+  note(fmt::format(
+           "the position is taught in {} {} and {} is active: the controller stops here; read as taught",
+           tool ? "tool" : "user frame", listed, number),
+       true);
+}
+
+/// UFRAME[n] or UTOOL[n], n above 0: as assigned, else as the user gave it, else as in the backup. What the value of an
+/// assignment depends on is asked for.
+std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
+  const std::string list = tool ? "UTOOL" : "UFRAME";
+  NamedFrame made{fmt::format("{}[{}]", list, number), {}, false};
+  if (number == 0) return made;
+  if (number < 0) return *given_frame(tool, list);  // the active one
+  auto own = frames_.find({tool, number});
+  if (own == frames_.end()) own = frames_.find({tool, any_frame});
+  if (own != frames_.end()) {
+    if (own->second.frame) {
+      made.frame = *own->second.frame;
+      return made;
+    }
+    // A frame that is given is the one before the assignment.
+    if (!own->second.why.empty()) {
+      values_.forget_missing();
+      values_.miss(own->second.why);
+      missing_value(fmt::format("uses {}, which depends on", made.name));
+      return {};
+    }
+  }
+  if (const NamedFrame* given = given_frame(tool, made.name)) return *given;
+  const auto& backup = tool ? around_.variables.tools : around_.variables.frames;
+  if (const auto found = backup.find(number);
+      found != backup.end() && found->second.known() && own == frames_.end()) {
+    made.frame = frame_of_fanuc(found->second.values);
+    return made;
+  }
+  missing(made.name, fmt::format("uses {}, which lies in the controller", made.name),
+          fmt::format(
+              "give it in motion.{} (--frames of dresslife import) with the name '{}', or sysframe.va of the "
+              "backup",
+              tool ? "tools" : "work_objects", made.name),
+          {{tool ? Question::Kind::tool : Question::Kind::work_object, made.name, ""}});
+  return {};
+}
+
+/// Enters a frame into the program's list of tools or work objects, and its index into the move.
+bool FanucRun::use(const NamedFrame& wanted, bool as_tool, Instruction& move) {
+  NamedFrame frame = wanted;
+  auto& list = as_tool ? program_.tools : program_.work_objects;
+  int& index = as_tool ? move.tool : move.work_object;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (list[i].name.starts_with(wanted.name) && list[i].stationary == frame.stationary &&
+        list[i].frame.position == frame.frame.position &&
+        list[i].frame.orientation.coeffs() == frame.frame.orientation.coeffs())
+      index = static_cast<int>(i);
+  if (index >= 0) return true;
+  for (int variant = 2;
+       std::any_of(list.begin(), list.end(), [&](const NamedFrame& f) { return f.name == frame.name; });
+       ++variant)
+    frame.name = fmt::format("{} ({})", wanted.name, variant);
+  list.push_back(frame);
+  index = static_cast<int>(list.size()) - 1;
+  charge(static_cast<long>(list.size()));
+  return true;
+}
+
+/// User frame and tool of a Cartesian position, whose numbers it completes; both are asked for at once.
+std::optional<std::pair<NamedFrame, NamedFrame>> FanucRun::frames_of(FanucPosition& p) {
+  if (p.frame >= 0) compare_active(false, p.frame);
+  if (p.tool >= 0) compare_active(true, p.tool);
+  const bool in_frame = active(false, p.frame), with_tool = active(true, p.tool);
+  const auto object = in_frame ? frame(false, p.frame) : std::nullopt;
+  const auto tool = with_tool ? frame(true, p.tool) : std::nullopt;
+  if (!object || !tool) return {};
+  return std::pair(*object, *tool);
+}
+
+/// Offsets add up number by number in the form in which the position is written, unless $OFFSET_CART is TRUE: then they are
+/// frames before it (SYSTEM.VA of the backup, or --value). What a camera finds is such a frame always.
+bool FanucRun::offsets_are_frames() const {
+  const auto given = values_.given("$offset_cart");
+  return given ? same_word(*given, "true") : around_.variables.offsets_are_frames;
+}
+
+/// Pose and frames of a move to a Cartesian position. With P the pose of UT in UF, or (remote) its inverse:
+/// flange = UF P UT^-1. Offsets: UF OFFSET P TOOL_OFFSET UT^-1, where OFFSET is a frame, else it is added to the numbers of P.
+/// A remote move stands the other way round: the tool is UF in the world, the robot carries UT, and the tool's pose in it is
+/// P^-1. Source: FANUC, teach pendant instructions, motion options Offset,PR[x] and Tool_Offset,PR[x].
+bool FanucRun::place(const FanucPosition& position, const Options& options, Instruction& move, Frame& pose) {
+  FanucPosition p = position;
+  const auto frames = frames_of(p);
+  if (!frames) return false;
+  const auto& [object, tool] = *frames;
+  const auto counts = [](const auto& offset) { return offset && !nothing(*offset); };
+  const bool as_frame = options.camera || offsets_are_frames();
+  for (const auto* offset : {&options.offset, &options.tool_offset}) {
+    if (!counts(*offset)) continue;
+    const bool joints = (*offset)->form != FanucPosition::Form::pose;
+    if (joints || (offset == &options.offset && p.remote && as_frame)) {
+      complain(joints ? "is offset by joint angles from a pose" : "is offset on a remote tool by a frame",
+               "list the program with the position as the robot reached it");
+      return false;
+    }
+  }
+  if (counts(options.offset) && !as_frame)
+    for (std::size_t i = 0; i < p.values.size() && i < options.offset->values.size(); ++i)
+      p.values[i] += options.offset->values[i];
+  pose = frame_of_fanuc(p.values);
+  if (p.remote) pose = inverse(pose);
+  if (counts(options.offset) && as_frame) pose = frame_of_fanuc(options.offset->values) * pose;
+  if (counts(options.tool_offset)) pose = pose * frame_of_fanuc(options.tool_offset->values);
+  if (options.remote && move.kind != Instruction::Kind::joint) {
+    pose = inverse(pose);
+    NamedFrame standing = object;
+    standing.stationary = true;
+    return use(standing, true, move) && use(tool, false, move);
+  }
+  return (p.frame == 0 || use(object, false, move)) && (p.tool == 0 || use(tool, true, move));
+}
+
+// ---- speeds and options ----------------------------------------------------------------------------------
+
+std::optional<double> FanucRun::override_share() {
+  double share = 1;
+  for (const auto& [name, written] :
+       {std::pair("override", "OVERRIDE"), std::pair("$prgoverride", "$PRGOVERRIDE")}) {
+    const auto percent = values_.override_percent(name);
+    if (!percent || !(*percent > 0) || *percent > 100) {
+      missing(written, fmt::format("moves under an {} that is known only while the robot runs", written),
+              fmt::format("give it with --value '{}=100' (motion.values)", written),
+              {{Question::Kind::value, written, "a number in %", "100"}});
+      return {};
+    }
+    share *= *percent / 100;
+  }
+  return share;
+}
+
+bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
+  values_.forget_missing();
+  if (at.take("max_speed")) return true;
+  std::string text(at.rest());
+  if (at.take("WELD_SPEED")) {  // of the weld schedule, which lies in the controller
+    const auto given = values_.given("weld_speed");
+    if (!given) {
+      missing("WELD_SPEED", "moves with WELD_SPEED, which lies in the controller's weld schedule",
+              "give it with --value 'WELD_SPEED=8mm/sec' (motion.values)",
+              {{Question::Kind::value, "WELD_SPEED", "a speed with its unit: 8mm/sec"}});
+      return false;
+    }
+    text = *given;
+  }
+  FanucCursor written(text);
+  const FanucNumber speed = values_.value(written);
+  const auto share = override_share();
+  if (!share) return false;
+  if (!speed) {
+    missing_value("has a speed by");
+    return false;
+  }
+  if (!(*speed > 0)) {
+    complain("has no speed above 0", "write one");
+    return false;
+  }
+  if (written.take_sign('%'))
+    move.speed.axis_percent = std::min(*speed, 100.0) * *share;
+  else if (written.take("mm/sec"))
+    move.speed.tool = *speed * millimetre * *share;
+  else if (written.take("cm/min"))
+    move.speed.tool = *speed * 0.01 / 60 * *share;
+  else if (written.take("inch/min"))
+    move.speed.tool = *speed * 0.0254 / 60 * *share;
+  else if (written.take("deg/sec"))
+    move.speed.orientation = *speed * degree * *share;
+  else if (written.take("msec"))
+    move.speed.duration = *speed * 1e-3 / *share;
+  else if (written.take("sec"))
+    move.speed.duration = *speed / *share;
+  else {
+    complain("has a speed without a known unit", "write %, mm/sec, cm/min, inch/min, deg/sec or sec");
+    return false;
+  }
+  if (text.size() == at.rest().size()) at.move_to(at.offset() + written.offset());
+  return true;
+}
+
+/// The number of an option, with a problem if it is unknown.
+FanucNumber FanucRun::needed(FanucCursor& at, const char* what) {
+  values_.forget_missing();
+  const FanucNumber number = values_.value(at);
+  if (!number) missing_value(what);
+  return number;
+}
+
+/// ",PR[n]" behind Offset; without it that of the condition.
+void FanucRun::offset_by(FanucCursor& at, std::optional<FanucPosition>& into, const char* condition) {
+  FanucCursor next = at;
+  next.take_sign(',');
+  const std::string& before = condition == std::string("OFFSET") ? offset_condition_ : tool_offset_condition_;
+  const bool own = next.take("PR");
+  FanucCursor written(own ? at.rest() : std::string_view(before));
+  written.take_sign(',');
+  values_.forget_missing();
+  const std::size_t begin = written.offset();
+  written.take("PR");
+  const auto index = values_.index(written);
+  written.move_to(begin);
+  into = position(written);
+  if (own) at.move_to(at.offset() + written.offset());
+  if (!own && !written.at_end())
+    complain("is offset in a frame of its own", "list the program with the position as the robot reached it");
+  const bool doubtful = index && index->number && values_.doubtful(whole(*index->number));
+  if (into && into->known()) {
+    if (into->form == FanucPosition::Form::unknown) into->form = FanucPosition::Form::pose;
+    if (doubtful)
+      note(fmt::format(
+               "PR[{}] is taken from the backup; a program that was not read may have written it since",
+               whole(*index->number)),
+           true);
+    return;
+  }
+  into.reset();
+  if (!index || !index->number) return missing_value("is offset by");
+  values_.forget_missing();
+  values_.miss_position(whole(*index->number));
+  missing_position(fmt::format("PR[{}]", whole(*index->number)), "is offset by");
+}
+
+/// What a camera finds: ",VR[n]".
+void FanucRun::offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& into) {
+  at.take_sign(',');
+  const auto index = at.take("VR") ? values_.index(at) : std::nullopt;
+  const std::string name = fmt::format("VR[{}]", index && index->number ? whole(*index->number) : 1);
+  into = values_.given_position(name);
+  if (!into)
+    missing(
+        name, fmt::format("is offset by what a camera finds ({})", name),
+        fmt::format("give it with --value '{}=X ... Y ... Z ... W ... P ... R ...' (motion.values)", name),
+        {{Question::Kind::value, name, position_form}});
+}
+
+/// Whether the condition of SKIP CONDITION comes before a move ends. Skip goes on with the next line when it comes,
+/// SkipJump at its label; where it does not come, the other way round.
+bool FanucRun::skip_condition_comes(bool jumps) {
+  values_.forget_missing();
+  FanucCursor at(skip_condition_);
+  std::optional<bool> comes = assumed(where().line);
+  if (!comes && !skip_condition_.empty()) comes = values_.condition(at);
+  if (!comes && jumps) {
+    comes = ask("jumps or not (SkipJump) by SKIP CONDITION, which depends on", 2, "then or =else") == 0;
+  } else if (!comes) {
+    note(
+        fmt::format(
+            "SKIP: the condition comes at the end of the move, and the program goes on with the next line (--assume "
+            "{}=else: it does not come)",
+            line_name()),
+        true);
+    return true;
+  }
+  note(fmt::format("SKIP: the move goes to its end, and its condition {}",
+                   *comes ? "comes there" : "does not come"),
+       true);
+  return *comes;
+}
+
+/// One option behind the speed; false: none that is known here.
+bool FanucRun::read_option(FanucCursor& at, Instruction& move, Options& options) {
+  const auto set = [&](FanucNumber number, double low, double high, double& into, double unit) {
+    if (number)
+      into = std::clamp(*number, low, high) * unit;
+    else
+      options.failed = true;
+  };
+  if (at.take("FINE"))
+    move.zone = {};
+  else if (at.take("CNT"))
+    set(needed(at, "goes over into the next move by CNT"), 0, 100, move.zone.percent, 1);
+  else if (at.take("CD") || at.take("CR"))
+    set(needed(at, "goes over into the next move by a distance"), 0, 1e6, move.zone.distance, millimetre);
+  else if (at.take("ACC"))
+    set(needed(at, "accelerates by ACC"), 1, 150, move.acceleration_percent, 1);
+  else if (at.take("TOOL_OFFSET")) {
+    offset_by(at, options.tool_offset, "TOOL_OFFSET");
+    options.failed |= !options.tool_offset;
+  } else if (at.take("OFFSET")) {
+    offset_by(at, options.offset, "OFFSET");
+    options.failed |= !options.offset;
+  } else if (at.take("VOFFSET")) {
+    offset_by_camera(at, options.offset);
+    options.camera = true;
+    options.failed |= !options.offset;
+  } else if (at.take("INC")) {
+    complain("is an incremental move", "write the target itself");
+    options.failed = true;
+  } else if (at.take("RTCP")) {
+    options.remote = true;
+  } else if (const bool jumps = at.take("SKIPJUMP"); jumps || at.take("SKIP")) {
+    options.skips = true;
+    const bool comes = skip_condition_comes(jumps);
+    FanucCursor next = at;
+    next.take_sign(',');
+    if (next.take("LBL") && comes == jumps) options.jumps = std::string(next.rest());
+  } else if (at.take("COORD")) {
+    options.coordinated = true;
+  } else if (at.take("WJNT") || at.take("MROT")) {
+    note("Wjnt, MROT: the tool turns otherwise on its way than read here", true);
+  } else if (at.take("CALL")) {
+    options.calls = std::string(at.rest());
+  } else if (at.take("PSPD") || at.take("EV") || at.take("IND")) {
+    note("PSPD, EV: changes the speed of the move", true);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool FanucRun::read_options(FanucCursor& at, Instruction& move, Options& options) {
+  while (!at.at_end()) {
+    charge();
+    if (at.take_sign(',') || at.take_sign(':') || read_option(at, move, options)) continue;
+    if (at.rest().starts_with("[")) {  // of a word that is skipped: SPOT[SD=1], DO[3:on]
+      at.skip_to(']');
+    } else if (at.word().empty()) {
+      at.move_to(at.offset() + 1);
+    }
+  }
+  return !options.failed;
+}
+
+// ---- moves -----------------------------------------------------------------------------------------------
+
+void FanucRun::emit(Instruction instruction) {
+  if (program_.instructions.size() >= ImportLimits::instructions) {
+    complain(fmt::format("would be move {} (no more are allowed)", ImportLimits::instructions + 1),
+             "simulate a shorter part");
+    throw Stop{};
+  }
+  instruction.where = where();
+  instruction.routine = routine().listing->name;
+  instruction.text = around_.files[routine().listing->file].line(statement().line);
+  program_.instructions.push_back(std::move(instruction));
+}
+
+/// LPOS or JPOS behind the move.
+void FanucRun::remember(const Instruction& move, const FanucPosition& target) {
+  last_ = target;
+  if (target.form == FanucPosition::Form::pose)
+    last_->values = fanuc_values_of(last_->remote ? inverse(move.target.pose) : move.target.pose);
+  if (target.frame < 0 || target.tool < 0) {
+    last_->frame = whole(values_.named("uframe_num").value_or(0));
+    last_->tool = whole(values_.named("utool_num").value_or(0));
+  }
+}
+
+/// Joint angles: q3 = J3 + J2.
+bool FanucRun::place_joints(const FanucPosition& position, const Options& options, Instruction& move) {
+  std::vector<double> angles = position.values;
+  const bool in_space = options.offset && options.offset->form != FanucPosition::Form::joints;
+  if ((options.tool_offset && !nothing(*options.tool_offset)) || (in_space && !nothing(*options.offset))) {
+    complain("is offset in space from joint angles", "teach the position in Cartesian form");
+    return false;
+  }
+  if (options.offset && !in_space)
+    for (std::size_t i = 0; i < angles.size() && i < options.offset->values.size(); ++i)
+      angles[i] += options.offset->values[i];
+  for (double angle : angles) move.target.joints.push_back(angle * degree);
+  if (angles.size() >= 3) move.target.joints[2] += move.target.joints[1];
+  if (move.kind == Instruction::Kind::joint) return true;
+  int number = position.tool;  // the line is its origin's
+  if (!active(true, number)) return false;
+  const auto tool = frame(true, number);
+  return tool && (number == 0 || use(*tool, true, move));
+}
+
+/// The point on the way of an arc.
+bool FanucRun::place_via(const FanucPosition& via, const FanucPosition& target, const Options& own,
+                         const Options& options, Instruction& move) {
+  const auto fault = [&](const char* what, const char* remedy) {
+    complain(what, remedy);
+    return false;
+  };
+  if (via.form != FanucPosition::Form::pose || target.form != FanucPosition::Form::pose)
+    return fault("is an arc through joint angles", "teach its points in Cartesian form");
+  if (via.frame != target.frame || via.tool != target.tool)
+    return fault("is an arc through points of two frames", "teach both in one");
+  const auto one_sided = [](const auto& end, const auto& middle) { return end && !nothing(*end) && !middle; };
+  if (one_sided(options.offset, own.offset) || one_sided(options.tool_offset, own.tool_offset))
+    return fault("is an arc of which only the end is offset", "write the offset at both of its points");
+  return place(via, own, move, move.via);
+}
+
+void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
+  Instruction move;
+  move.kind = kind;
+  Options options, via_options;
+  std::optional<FanucPosition> via;
+  if (kind == Instruction::Kind::circular) {  // C P[1] / : P[2] 100mm/sec ...
+    via = target_position(at);
+    if (!via) return;
+    const std::size_t colon = std::min({at.rest().find(':'), at.rest().find('\n'), at.rest().size()});
+    FanucCursor own(at.rest().substr(0, colon));
+    if (!read_options(own, move, via_options)) return;
+    at.move_to(at.offset() + colon);
+    at.take_sign(':');
+  }
+  const std::size_t begin = at.offset();
+  const auto target = target_position(at);
+  if (!target && at.offset() == begin) return;
+  if (target && target->form == FanucPosition::Form::other_groups)
+    return note("moves other groups than the robot");
+  const bool fast = read_speed(at, move), set = read_options(at, move, options);
+  if (!target || !fast || !set) {  // what else it lacks is asked for in the same round
+    FanucPosition there;
+    there.frame = there.tool = -1;
+    if (target) there = *target;
+    if (!target || target->form == FanucPosition::Form::pose) frames_of(there);
+    return;
+  }
+  via_options.remote = options.remote;
+  if (via && !place_via(*via, *target, via_options, options, move)) return;
+  const bool joints = target->form == FanucPosition::Form::joints;
+  move.target.configuration = target->configuration;
+  if (joints ? !place_joints(*target, options, move) : !place(*target, options, move, move.target.pose))
+    return;
+  move.target.external_axes = target->external_axes;
+  const bool stood = last_ && last_->external_axes == target->external_axes;
+  if (options.coordinated && !program_.instructions.empty() && !stood)
+    note("COORD: the tool follows a positioner that turns; read as if it stood still", true);
+  emit(move);
+  remember(move, *target);
+  if (options.offset || options.tool_offset)
+    last_->form = joints ? FanucPosition::Form::unknown : last_->form;
+  if (options.skips) stopped_on_the_way();
+  if (!options.calls.empty()) call_statement(options.calls, false);
+  if (!options.jumps.empty()) {
+    FanucCursor label(options.jumps);
+    const auto number = values_.index(label);
+    const auto& labels = routine().listing->labels;
+    const auto found = number && number->number ? labels.find(whole(*number->number)) : labels.end();
+    if (found == labels.end()) return complain("jumps to a label that is not there", "mend the label");
+    jump_to(found->second, false);
+  }
+  if (lower_case(statement().text).find("spot[") == std::string::npos) return;
+  Instruction weld;
+  weld.kind = Instruction::Kind::dwell;
+  weld.dwell = around_.options.spot_time;
+  emit(weld);
+}
+
+/// Skip,LBL[1],PR[5]=LPOS: the place is unknown.
+void FanucRun::stopped_on_the_way() {
+  last_.reset();
+  const std::string& text = statement().text;
+  const std::size_t lpos = std::min(text.find("=LPOS"), text.find("=JPOS"));
+  if (lpos == std::string::npos) return;
+  FanucCursor written(std::string_view(text).substr(std::min(text.rfind("PR", lpos) + 2, text.size())));
+  const auto index = values_.index(written);
+  if (index && index->number)
+    values_.forget_position(whole(*index->number), {});
+  else
+    values_.forget_registers({});
+}
+
+}  // namespace dresslife::sim

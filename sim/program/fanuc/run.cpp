@@ -1,0 +1,903 @@
+#include "sim/program/fanuc/run.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "sim/program/interpreter/tokens.h"
+
+namespace dresslife::sim {
+namespace {
+
+int whole(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
+
+std::string file_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+
+/// Whether two passes of a loop move alike.
+bool same_move(const Instruction& a, const Instruction& b) {
+  return a.kind == b.kind && a.target.joints == b.target.joints &&
+         a.target.pose.position == b.target.pose.position &&
+         a.target.pose.orientation.coeffs() == b.target.pose.orientation.coeffs() && a.tool == b.tool &&
+         a.work_object == b.work_object && a.dwell == b.dwell && a.where.line == b.where.line &&
+         a.where.file == b.where.file;
+}
+
+}  // namespace
+
+FanucRun::FanucRun(const Surroundings& around, Program& program, Problems& problems, Exploration& exploration)
+    : around_(around),
+      program_(program),
+      problems_(problems),
+      exploration_(exploration),
+      values_(around.variables, around.options.values, problems),
+      outlook_(around.listings, around.variables.macros) {}
+
+void FanucRun::run(const FanucListing& listing, const std::string& arguments) {
+  FanucCursor at(arguments);
+  std::vector<FanucValues::Argument> read;
+  while (!at.at_end()) {
+    read.push_back({values_.expression(at), {}});
+    if (!at.take_sign(',') && !at.at_end()) at.move_to(at.offset() + 1);
+  }
+  try {
+    call(listing, std::move(read));
+  } catch (const Stop&) {
+  }
+  exploration_.spend(executed_ + values_.charged());
+}
+
+// ---- words -----------------------------------------------------------------------------------------------
+
+const FanucStatement& FanucRun::statement() const {
+  const Routine& r = routines_.back();
+  return r.listing->statements[std::min(r.at, r.listing->statements.size() - 1)];
+}
+
+pipeline::Where FanucRun::where() const {
+  if (routines_.empty()) return {around_.files.empty() ? "" : around_.files[0].name(), 1, 1};
+  const Routine& r = routines_.back();
+  if (r.listing->statements.empty()) return {around_.files[r.listing->file].name(), 1, 1};
+  return {around_.files[r.listing->file].name(), statement().line, statement().column};
+}
+
+std::string FanucRun::line_name() const { return fmt::format("{}:{}", file_of(where().file), where().line); }
+
+/// The program that runs, as its listing writes it.
+std::string FanucRun::program_name() const {
+  std::string name = routines_.empty() ? "" : routines_.back().listing->name;
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return name;
+}
+
+void FanucRun::complain(const std::string& what, const std::string& remedy) {
+  if (!exploration_.guessing()) problems_.add(where(), what, remedy, program_name());
+}
+
+void FanucRun::missing(const std::string& name, const std::string& what, const std::string& remedy,
+                       std::vector<Question> questions, bool decision) {
+  if (questions.empty() && exploration_.guessing()) return;
+  for (const Question& question : questions) exploration_.meet_question(question.name);
+  Problem problem{.where = where(), .what = what, .remedy = remedy};
+  problem.about = name;
+  problem.decision = decision;
+  problem.routine = program_name();
+  problem.questions = std::move(questions);
+  problem.certain = !exploration_.guessing();
+  problems_.add_use(std::move(problem));
+}
+
+namespace {
+
+constexpr const char* then_or_else = "then or =else";
+
+std::string form_of(const std::string& name) {
+  if (name.starts_with("PR[") && name.find(',') == std::string::npos)
+    return "X .. Y .. Z .. W .. P .. R .. in mm and deg, or J1 .. J2 .. J3 .. J4 .. J5 .. J6 ..";
+  if (name.find(' ') != std::string::npos) return "nothing, or the registers that it sets: R[5]=3 R[6]=0";
+  for (const char* signal :
+       {"DI[", "DO[", "RI[", "RO[", "UI[", "UO[", "SI[", "SO[", "WI[", "WO[", "F[", "M["})
+    if (name.starts_with(signal)) return "ON or OFF";
+  return "a number";
+}
+
+/// "DI[3] and R[5]".
+std::string names_in(const FanucCauses& causes) {
+  std::string names;
+  for (const FanucCause& cause : causes)
+    if (const bool call = cause.name.find(' ') != std::string::npos; !cause.name.empty())
+      names +=
+          fmt::format("{}{}{}", names.empty() ? "" : " and ", call ? "a register behind " : "", cause.name);
+  return names;
+}
+
+std::string options_for(const FanucCauses& causes) {
+  std::string options;
+  for (const FanucCause& cause : causes)
+    if (!cause.name.empty())
+      options += fmt::format("{}--value '{}=...'", options.empty() ? "" : " ", cause.name);
+  return options;
+}
+
+}  // namespace
+
+/// Names that make it known; a branch that was left out and has no name is decided itself.
+std::vector<Question> FanucRun::questions_for(const FanucCauses& causes) {
+  std::vector<Question> questions;
+  for (const FanucCause& cause : causes) {
+    if (!cause.line.empty()) exploration_.follow(cause.line);
+    if (!cause.name.empty())
+      questions.push_back({Question::Kind::value, cause.name, form_of(cause.name)});
+    else if (!cause.line.empty())
+      questions.push_back({Question::Kind::branch, cause.line, "then or else"});
+  }
+  return questions;
+}
+
+/// What `values_` misses, for a statement that needs it.
+void FanucRun::missing_value(const std::string& what) {
+  const FanucCauses& causes = values_.causes();
+  const std::vector<Question> questions = questions_for(causes);
+  const std::string names = names_in(causes), name = causes.empty() ? "" : causes[0].name;
+  if (questions.empty())
+    return missing("a value", fmt::format("{} a value, which is known only while the robot runs", what),
+                   "write it as a constant", {});
+  missing(names, fmt::format("{} {}, which is known only while the robot runs", what, names),
+          fmt::format("give it with {} (motion.values){}", options_for(causes),
+                      name.starts_with("PR")   ? ", or posreg.va of the backup"
+                      : name.starts_with("R[") ? ", or numreg.va of the backup"
+                                               : ""),
+          questions);
+}
+
+void FanucRun::note(const std::string& what, bool may_move) {
+  const pipeline::Where at = where();
+  if (!noted_.insert(fmt::format("{}:{} {}", at.file, at.line, what)).second) return;
+  if (program_.skipped.size() < ImportLimits::skipped) program_.skipped.push_back({at, what, may_move});
+}
+
+void FanucRun::charge(long steps) {
+  executed_ += steps;
+  if (exploration_.guessing() && executed_ - guessed_at_ > ImportLimits::guessed) throw Stop{};
+  if (executed_ + values_.charged() <= ImportLimits::executed) return;
+  const pipeline::Where at = last_jump_.line > 0 ? last_jump_ : where();
+  const std::string end =
+      last_decision_.line > 0
+          ? fmt::format("--assume {}:{}=then or =else", file_of(last_decision_.file), last_decision_.line)
+          : "a statement that leaves it";
+  if (!exploration_.guessing())
+    problems_.add(at,
+                  fmt::format("goes back again and again: {} statements and no end", ImportLimits::executed),
+                  fmt::format("decide what ends the loop: {}, or --value with what it depends on", end));
+  throw Stop{};
+}
+
+std::optional<bool> FanucRun::assumed(int line) const {
+  const std::string file = where().file;
+  for (const std::string& key :
+       {fmt::format("{}:{}", file, line), fmt::format("{}:{}", file_of(file), line), fmt::format("{}", line)})
+    if (const auto found = around_.options.assume.find(key); found != around_.options.assume.end())
+      return found->second == Assumption::then_branch;
+  return {};
+}
+
+// ---- programs --------------------------------------------------------------------------------------------
+
+void FanucRun::call(const FanucListing& listing, std::vector<FanucValues::Argument> arguments) {
+  if (static_cast<int>(routines_.size()) >= ImportLimits::calls) {
+    complain(fmt::format("calls {} programs deep (without end?)", ImportLimits::calls), "mend the recursion");
+    throw Stop{};
+  }
+  if (const Problems& parsing = around_.parsing[listing.file]; !parsing.empty()) {
+    if (!exploration_.guessing())
+      for (const Problem& problem : parsing.list())
+        problems_.add(problem.where, problem.what, problem.remedy);
+    throw Stop{};
+  }
+  routines_.push_back({&listing, 0, {}, {}});
+  values_.enter(std::move(arguments));
+  while (routine().at < listing.statements.size()) {
+    charge();
+    const std::size_t before = routine().at;
+    values_.forget_missing();
+    exploration_.meet(&listing.statements[before]);
+    execute(listing.statements[before]);
+    if (routine().at == before) ++routine().at;
+    if (problems_.full()) throw Stop{};
+  }
+  values_.leave();
+  routines_.pop_back();
+}
+
+std::vector<FanucValues::Argument> FanucRun::arguments_in(FanucCursor& at) {
+  std::vector<FanucValues::Argument> read;
+  if (!at.take_sign('(')) return read;
+  while (!at.at_end() && !at.take_sign(')') && read.size() < 100) {
+    values_.forget_missing();
+    const FanucNumber value = values_.expression(at);
+    read.push_back({value, value ? FanucCauses{} : values_.causes()});
+    if (!at.take_sign(',') && !at.at_end() && !at.rest().starts_with(')')) at.move_to(at.offset() + 1);
+  }
+  values_.forget_missing();
+  return read;
+}
+
+/// CALL name(arguments), RUN name.
+void FanucRun::call_statement(const std::string& text, bool beside) {
+  FanucCursor at(text);
+  const std::string written(at.name()), name = lower_case(written);
+  const FanucListing* listing = outlook_.program(name);
+  if (beside) {
+    note(fmt::format("RUN {}: runs beside this program", name), listing != nullptr);
+    if (!listing) {
+      if (!values_.take_effect("RUN " + written)) values_.forget_registers({{"RUN " + written}});
+      return;
+    }
+    return forget(outlook_.effects(*listing, 0, listing->statements.size()), {});
+  }
+  if (!listing) return unread("CALL " + written);
+  call(*listing, arguments_in(at));
+}
+
+/// Possible effects of a program without a file. The user may know: --value 'CALL NAME=nothing'.
+void FanucRun::unread(const std::string& what) {
+  if (values_.take_effect(what)) {
+    note(what + ": not among the files read; its registers are as --value says", true);
+  } else {
+    note(what + ": not among the files read; registers may be others behind it", true);
+    values_.forget_registers({{what}});
+  }
+  last_.reset();
+}
+
+// ---- statements ------------------------------------------------------------------------------------------
+
+void FanucRun::execute(const FanucStatement& s) {
+  const std::string& text = s.text;
+  if (text.starts_with("!") || text.starts_with("--") || text.starts_with("//")) return;
+  FanucCursor at(text);
+  const std::size_t begin = at.offset();
+  const std::string word = at.word();
+  if (fanuc_word(word) == FanucWord::motion && !at.rest().starts_with("[")) {
+    if (word == "a" || word == "s") note("an arc or spline by A or S moves: read as straight lines", true);
+    return move(at, word == "j"   ? Instruction::Kind::joint
+                    : word == "c" ? Instruction::Kind::circular
+                                  : Instruction::Kind::linear);
+  }
+  at.move_to(begin);
+  if (word == "if") {
+    at.word();
+    return if_statement(at);
+  }
+  if (word == "select") return select();
+  if (word == "lbl" || (word.empty() && !at.take_sign('='))) return;
+  if (word.empty() || (word == "else" && !fanuc_action(text).empty()))
+    return;  // of a SELECT that went elsewhere
+  action(text);
+}
+
+void FanucRun::action(const std::string& text) {
+  FanucCursor at(text);
+  const std::string word = at.word();
+  if (word == "for") return for_statement(at);
+  if (word == "endfor" || word == "else" || word == "end" || word == "endif") return block(word);
+  if (word == "jmp") return jump(at, true);
+  if (word == "call" || word == "run") return call_statement(std::string(at.rest()), word == "run");
+  if (word == "wait") return wait(at);
+  if (word == "monitor") {  // a list of WHEN condition, action
+    const std::string name = "MONITOR " + std::string(at.name());
+    note(name + ": what it does may come at any time, and is left out", true);
+    if (!values_.take_effect(name)) values_.forget_registers({{name}});
+    return;
+  }
+  if (word == "abort") {
+    note("ABORT: the program ends here");
+    throw Stop{};
+  }
+  if (word == "offset" || word == "tool_offset") {  // CONDITION PR[n]
+    at.take("CONDITION");
+    (word == "offset" ? offset_condition_ : tool_offset_condition_) = std::string(at.rest());
+    return;
+  }
+  if (word == "skip" && at.take("CONDITION")) {
+    skip_condition_ = std::string(at.rest());
+    return note("SKIP: input, output or logic");
+  }
+  if (word == "spot") {
+    Instruction weld;
+    weld.kind = Instruction::Kind::dwell;
+    weld.dwell = around_.options.spot_time;
+    return emit(weld);
+  }
+  assignment(word, at);
+}
+
+void FanucRun::assignment(const std::string& word, FanucCursor& at) {
+  if (word == "r") return assign_register(at);
+  if (word == "pr") return assign_position(at);
+  if (word == "uframe" || word == "utool") return assign_frame(word, at);
+  const std::string text = statement().text;
+  const std::string left = plain_fanuc_name(std::string_view(text).substr(0, text.find('=')));
+  if (const std::size_t group = left.find("[gp");
+      group != std::string::npos && left.substr(group, 4) != "[gp1")
+    return note(word + ": of another group than the robot");
+  if (word == "override" || word == "uframe_num" || word == "utool_num" || left == "$mcr.$genoverride" ||
+      left == "$prgoverride") {
+    at.skip_to('=');
+    const FanucNumber number = values_.expression(at);
+    return values_.set_named(left == "$mcr.$genoverride" ? "override"
+                             : left.starts_with("$")     ? left
+                                                         : word,
+                             number);
+  }
+  if (left.starts_with("$mnuframe[") || left.starts_with("$mnutool[")) {  // [group,number]
+    const FanucSetting setting = fanuc_setting(text);
+    const bool tool = left.starts_with("$mnutool["), whole_frame = left.ends_with("]");
+    at.skip_to('=');
+    if (setting.number > 0 && whole_frame) return set_frame(tool, setting.number, at);
+    if (setting.number > 0 && setting.component > 0)
+      return set_frame_component(tool, setting.number, setting.component, at);
+    if (setting.number == 0) return forget_frames(tool, values_.causes());
+    return note(word + ": changes a frame of the controller", true);
+  }
+  switch (fanuc_word(word)) {
+    case FanucWord::logic:
+    case FanucWord::motion:
+      return note(word + ": input, output or logic");
+    case FanucWord::shapes_motion:
+      return note(word + ": changes how the robot moves; what it does lies in the controller", true);
+    case FanucWord::other:
+      break;
+  }
+  if (const FanucListing* macro = outlook_.macro(text)) {
+    const std::size_t open = text.find('(');
+    FanucCursor arguments(std::string_view(text).substr(std::min(open, text.size())));
+    return call(*macro, arguments_in(arguments));
+  }
+  unread("MACRO " + text.substr(0, std::min<std::size_t>(text.find_first_of("('="), 40)));
+}
+
+/// Ends and middles of blocks that run.
+void FanucRun::block(const std::string& word) {
+  if (word == "endfor") end_for();
+  if (word == "else") routine().at = statement().end + 1;  // behind the arm that ran
+  if (word == "end") routine().at = routine().listing->statements.size();
+}
+
+void FanucRun::jump(FanucCursor& at, bool certain) {
+  if (!at.take("LBL")) return complain("jumps to no LBL[n]", "mend the statement");
+  const auto label = values_.index(at);
+  const auto& labels = routine().listing->labels;
+  if (!label || !label->number) {
+    if (whole_program_no_matter()) return;
+    missing_value("jumps to a label by");
+    if (labels.empty()) throw Stop{};
+    return jump_to(std::next(labels.begin(), guess(static_cast<int>(labels.size())))->second, false);
+  }
+  const auto found = labels.find(whole(*label->number));
+  if (found == labels.end())
+    return complain(fmt::format("jumps to LBL[{}], which is not there", *label->number), "mend the label");
+  jump_to(found->second, certain);
+}
+
+void FanucRun::jump_to(std::size_t target, bool certain) {
+  const std::size_t here = routine().at;
+  if (target <= here) last_jump_ = where();
+  const bool looking = exploration_.guessing();
+  if (looking && target <= here && !still_new(target)) throw Stop{};
+  if (certain && target <= here && !looking) {
+    bool exit = false;  // some decision within may leave the loop: it is run until it does
+    for (auto d = routine().decided.lower_bound(target); d != routine().decided.end() && *d <= here; ++d)
+      exit |= outlook_.leads_out(*routine().listing, *d, target, here);
+    if (!exit && !goes_on(target)) {
+      note("repeats without end: the motion is that until it repeats itself");
+      throw Stop{};
+    }
+  }
+  if (!certain && target <= here && !looking && waits(target)) {
+    note(
+        "waits in a loop that changes nothing, until what this branch depends on changes; the motion goes on behind it");
+    return;
+  }
+  routine().at = target;  // the label itself: the statement behind it may be the one that jumps
+}
+
+/// Whether a loop is back at its label without a move and with all values as they were: no pass of it will be another one.
+bool FanucRun::waits(std::size_t label) {
+  Endless& loop = endless_[{routine().listing, label}];
+  const auto& made = program_.instructions;
+  const bool moved =
+      std::any_of(made.begin() + static_cast<std::ptrdiff_t>(std::min(loop.begin, made.size())), made.end(),
+                  [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
+  loop.begin = made.size();
+  ++loop.passes;
+  // A state is a long text: it is looked at behind 1, 2, 4, 8 ... passes and the pass that follows each.
+  const auto is_power_of_two = [](int number) { return (number & (number - 1)) == 0; };
+  const bool again = !moved && is_power_of_two(loop.passes - 1) && loop.states.contains(values_.state());
+  loop.states.clear();
+  if (is_power_of_two(loop.passes) && !again) loop.states.emplace(values_.state(), 0);
+  return again;
+}
+
+/// Whether one of the last passes of a loop met something new, in a reading for questions only.
+bool FanucRun::still_new(std::size_t label) {
+  constexpr int enough = 3;  // passes in a row without
+  Endless& loop = endless_[{routine().listing, label}];
+  loop.barren = loop.news == exploration_.news() ? loop.barren + 1 : 0;
+  loop.news = exploration_.news();
+  return loop.barren < enough;
+}
+
+/// The values behind the last pass are those behind pass `known`: the passes between repeat. If the first passes move as the
+/// last ones do, they belong to the repeats, and the last ones are dropped: each repeated pass stands once.
+void FanucRun::drop_repeated(const Endless& loop, std::size_t known) {
+  auto& made = program_.instructions;
+  if (known == 0) return;
+  const std::size_t begin = loop.ends[loop.ends.size() - known - 1], count = made.size() - begin,
+                    before = loop.ends[known - 1];
+  bool alike = count <= before;
+  for (std::size_t i = 0; alike && i < count; ++i)
+    alike = same_move(made[begin + i], made[before - count + i]);
+  if (alike) made.resize(begin);
+}
+
+/// Whether an endless loop that is back at its label runs once more: as often as the user wants, else until
+/// it finds all values as before, or moves as in its first pass.
+bool FanucRun::goes_on(std::size_t label) {
+  Endless& loop = endless_[{routine().listing, label}];
+  auto& made = program_.instructions;
+  ++loop.passes;
+  if (around_.options.passes > 0) return loop.passes < around_.options.passes;
+  loop.ends.push_back(made.size());
+  const auto [known, fresh] = loop.states.try_emplace(values_.state(), loop.ends.size());
+  const std::size_t length = made.size() - loop.begin;
+  bool alike = loop.passes > 1 && length > 0 && 2 * length <= made.size();
+  for (std::size_t i = 0; alike && i < length; ++i)
+    alike = same_move(made[loop.begin + i], made[loop.begin - length + i]);
+  if (alike) made.resize(loop.begin);
+  if (!fresh && !alike) drop_repeated(loop, known->second);
+  loop.begin = made.size();
+  if (!fresh || alike) return false;
+  if (loop.passes < ImportLimits::passes) return true;
+  complain(fmt::format("does not repeat itself within {} passes", ImportLimits::passes),
+           "say how many are wanted: --passes N (motion.passes)");
+  return false;
+}
+
+void FanucRun::wait(FanucCursor& at) {
+  const std::size_t begin = at.offset();
+  FanucNumber time = at.number();
+  if (!time && (at.take("R") || at.take("AR"))) {
+    at.move_to(begin);
+    time = values_.value(at);
+    if (const bool alone = at.at_end() || at.rest().starts_with("("); alone && !time)
+      return missing_value("waits for the time");
+    else if (!alone)
+      time.reset();
+  }
+  if (!time) {
+    at.move_to(begin);
+    const auto met = values_.condition(at);
+    if (met && !*met) {  // somebody else will make it true
+      const std::string text = statement().text;
+      for (std::size_t found = text.find("R["); found != std::string::npos;
+           found = text.find("R[", found + 1)) {
+        FanucCursor name(std::string_view(text).substr(found + 1));
+        if (const auto index = values_.index(name); index && index->number)
+          values_.forget_register(whole(*index->number), {});
+      }
+    }
+    return note("WAIT: input");
+  }
+  if (*time <= 0) return;
+  Instruction wait;
+  wait.kind = Instruction::Kind::dwell;
+  wait.dwell = *time;
+  emit(wait);
+}
+
+// ---- assignments -----------------------------------------------------------------------------------------
+
+void FanucRun::assign_register(FanucCursor& at) {
+  const auto index = values_.index(at);
+  at.skip_to('=');
+  values_.forget_missing();
+  const FanucNumber value = values_.expression(at);
+  if (index && index->number) return values_.set_register(whole(*index->number), value);
+  values_.forget_registers(values_.causes());
+  note("R: writes a register whose number is known only while the robot runs");
+}
+
+/// PR[1]=PR[2]+PR[3], =P[1], =LPOS, =JPOS, =UFRAME[1]; PR[1,3]=number.
+void FanucRun::assign_position(FanucCursor& at) {
+  const auto index = values_.index(at);
+  at.skip_to('=');
+  if (index && index->group != 1) return note("PR: of another group than the robot");
+  if (!index || !index->number) {
+    values_.forget_registers(values_.causes());
+    return note("PR: writes a position register whose number is known only while the robot runs");
+  }
+  const int number = whole(*index->number);
+  values_.forget_missing();
+  if (index->part) {
+    const FanucNumber value = values_.expression(at);
+    return values_.set_component(number, whole(*index->part), value);
+  }
+  const auto sum = position_sum(at);
+  const bool known = values_.given(fmt::format("pr[{}]", number)).has_value();  // counts where this is unknown
+  if (sum && sum->known()) return values_.set_position(number, *sum);
+  values_.forget_position(number, known ? FanucCauses{} : values_.causes());
+}
+
+std::optional<FanucPosition> FanucRun::position_sum(FanucCursor& at) {
+  std::optional<FanucPosition> sum;
+  for (double sign = 1;;) {
+    charge();
+    const std::size_t begin = at.offset();
+    const std::string word = at.word();
+    std::optional<FanucPosition> read;
+    if (word == "lpos" || word == "jpos") {
+      const auto form = word == "lpos" ? FanucPosition::Form::pose : FanucPosition::Form::joints;
+      FanucPosition unknown;
+      unknown.form = form;
+      unknown.values.assign(6, NAN);
+      const bool here = last_ && last_->form == form &&
+                        (word == "jpos" || (values_.named("uframe_num") == FanucNumber(last_->frame) &&
+                                            values_.named("utool_num") == FanucNumber(last_->tool)));
+      read = here ? *last_ : unknown;
+    } else if (word == "uframe" || word == "utool") {
+      const auto index = values_.index(at);
+      const auto known =
+          index && index->number ? frame(word == "utool", whole(*index->number)) : std::nullopt;
+      if (!known) return {};
+      read.emplace();
+      read->form = FanucPosition::Form::pose;
+      read->values = fanuc_values_of(known->frame);
+    } else {
+      at.move_to(begin);
+      read = position(at);
+      if (FanucCursor written(at.from(begin)); read && !read->known() && written.take("PR"))
+        if (const auto index = values_.index(written); index && index->number)
+          values_.miss_position(whole(*index->number));
+    }
+    if (!read) return {};
+    read->frame = read->tool = -1;
+    if (!sum) {
+      sum = read;
+    } else {
+      if (sum->form != read->form || sum->values.size() != read->values.size() || sum->remote != read->remote)
+        return {};
+      for (std::size_t i = 0; i < sum->values.size(); ++i) sum->values[i] += sign * read->values[i];
+    }
+    if (at.take_sign('+'))
+      sign = 1;
+    else if (at.take_sign('-'))
+      sign = -1;
+    else
+      return sum;
+  }
+}
+
+void FanucRun::assign_frame(const std::string& word, FanucCursor& at) {
+  const auto index = values_.index(at);
+  at.skip_to('=');
+  if (!index || index->group != 1) return note(word + ": a frame of another group", true);
+  if (!index->number) return forget_frames(word == "utool", values_.causes());
+  if (whole(*index->number) == 0)
+    return note(word + "[0] is fixed, nothing can be assigned to it: the controller stops here", true);
+  set_frame(word == "utool", whole(*index->number), at);
+}
+
+/// Six components that a program wrote are a pose here; what is not known makes the frame unknown.
+void FanucRun::set_frame(bool tool, int number, FanucCursor& at) {
+  values_.forget_missing();
+  const std::optional<FanucPosition> read = position_sum(at);
+  if (read && read->form != FanucPosition::Form::joints && read->known() && read->values.size() == 6)
+    frames_[{tool, number}] = {frame_of_fanuc(read->values), {}};
+  else
+    frames_[{tool, number}] = {{}, values_.causes()};
+}
+
+/// The other components are asked for where nothing says them.
+void FanucRun::set_frame_component(bool tool, int number, int component, FanucCursor& at) {
+  values_.forget_missing();
+  const FanucNumber value = values_.expression(at);
+  const FanucCauses why = values_.causes();
+  const auto before = frame(tool, number);
+  if (!before) return;
+  if (!value) {
+    frames_[{tool, number}] = {{}, why};
+    return;
+  }
+  std::vector<double> values = fanuc_values_of(before->frame);
+  values[static_cast<std::size_t>(component) - 1] = *value;
+  frames_[{tool, number}] = {frame_of_fanuc(values), {}};
+}
+
+// ---- branches and loops ----------------------------------------------------------------------------------
+
+/// Which of its ways an undecided statement goes: asks, and goes on along one of them. By the value of one name where
+/// there is one, else by its line.
+int FanucRun::ask(const std::string& what, int ways, const std::string& answers) {
+  const FanucCauses& causes = values_.causes();
+  const std::string names = names_in(causes);
+  std::vector<Question> questions = questions_for(causes);
+  if (questions.size() != 1)
+    questions = {{Question::Kind::branch, line_name(), answers == then_or_else ? "then or else" : answers}};
+  missing(names.empty() ? line_name() : names,
+          fmt::format("{} {} is known only while the robot runs", what,
+                      names.empty() ? "what" : names + ", which"),
+          fmt::format("choose with --assume {}={} (motion.assume in a job){}", line_name(), answers,
+                      names.empty() ? "" : fmt::format(", or give {}", options_for(causes))),
+          questions, true);
+  return guess(ways);
+}
+
+int FanucRun::guess(int ways) {
+  if (!exploration_.guessing()) guessed_at_ = executed_;
+  return exploration_.choose(line_name(), ways);
+}
+
+/// Whether leaving statements out changes nothing but values, which are unknown from here on.
+bool FanucRun::no_matter(const FanucEffects& effects) {
+  if (effects.moves || effects.leaves || exploration_.follows(line_name())) return false;
+  if (effects.waits)
+    note("IF, SELECT, FOR: waits for a time on what is known only while the robot runs; left out", true);
+  else
+    note("IF, SELECT, FOR: a branch on what is known only while the robot runs, without moves");
+  FanucCauses why = values_.causes();
+  for (FanucCause& cause : why) cause.line = line_name();
+  if (why.empty()) why = {{"", line_name()}};
+  forget(effects, why);
+  return true;
+}
+
+/// What may have been written is unknown from here on.
+void FanucRun::forget(const FanucEffects& effects, const FanucCauses& why) {
+  if (effects.any_register) values_.forget_registers(why);
+  for (int number : effects.registers) values_.forget_register(number, why);
+  for (int number : effects.positions) values_.forget_position(number, why);
+  for (const std::string& name : effects.named) {
+    if (name.find('[') == std::string::npos) values_.set_named(name, {});
+    FanucCursor at(name);
+    const bool tool = at.word() == "utool";
+    if (!at.take_sign('[')) continue;
+    if (const auto number = at.number())
+      frames_[{tool, whole(*number)}] = {{}, why};
+    else
+      forget_frames(tool, why);
+  }
+}
+
+/// One of them is assigned, and it is not known which.
+void FanucRun::forget_frames(bool tool, const FanucCauses& why) {
+  for (auto& [frame, assigned] : frames_)
+    if (frame.first == tool) assigned = {{}, why};
+  frames_[{tool, any_frame}] = {{}, why};
+}
+
+/// Whether the called program that runs moves nothing wherever it jumps: then it ends here, and what it may
+/// write is unknown.
+bool FanucRun::whole_program_no_matter() {
+  if (routines_.size() < 2) return false;
+  const FanucListing& listing = *routine().listing;
+  const auto aborts = [](const FanucStatement& s) {
+    const std::string action = fanuc_action(s.text);
+    return FanucCursor(action).word() == "abort";
+  };
+  if (std::any_of(listing.statements.begin(), listing.statements.end(), aborts)) return false;
+  FanucEffects effects = outlook_.effects(listing, 0, listing.statements.size());
+  effects.leaves = false;  // jumps stay within a program
+  if (effects.waits || !no_matter(effects)) return false;
+  routine().at = listing.statements.size();
+  return true;
+}
+
+void FanucRun::if_statement(FanucCursor& at) {
+  const std::size_t here = routine().at;
+  const FanucStatement& s = statement();
+  std::optional<bool> decision = values_.condition(at);
+  if (decision) {
+    routine().decided.insert(here);
+    last_decision_ = where();
+  }
+  if (const auto known = assumed(s.line)) decision = known;
+  if (lower_case(s.text).ends_with("then")) {
+    if (!decision) {
+      if (no_matter(outlook_.effects(*routine().listing, here + 1, s.end))) {
+        routine().at = s.end;
+        return;
+      }
+      if (whole_program_no_matter()) return;
+      decision = ask("branches on", 2, then_or_else) == 0;
+    }
+    if (!*decision) routine().at = s.other + 1;
+    return;
+  }
+  const std::string rest = fanuc_action(s.text);
+  if (rest.empty()) return complain("is no IF condition,action", "mend the statement");
+  if (!decision) decision = undecided(rest);
+  if (!decision || !*decision) return;
+  FanucCursor jumping(rest);
+  if (jumping.take("JMP")) return jump(jumping, false);
+  FanucCursor moving(rest);
+  if (fanuc_word(moving.word()) == FanucWord::motion && !moving.rest().starts_with("["))
+    return complain("moves behind a condition", "list the program again");
+  action(rest);
+}
+
+/// IF ... ,action with an unknown condition. Absent: it is left out.
+std::optional<bool> FanucRun::undecided(const std::string& action) {
+  const std::size_t here = routine().at;
+  const FanucListing& listing = *routine().listing;
+  const auto asked = [&]() -> std::optional<bool> {
+    if (whole_program_no_matter()) return {};
+    return ask("branches on", 2, then_or_else) == 0;
+  };
+  FanucCursor at(action);
+  const std::string word = at.word();
+  std::size_t target = word == "end" ? listing.statements.size() : here;
+  if (word == "jmp" && at.take("LBL")) {
+    const auto label = values_.index(at);
+    const auto found =
+        label && label->number ? listing.labels.find(whole(*label->number)) : listing.labels.end();
+    if (found == listing.labels.end()) return asked();
+    target = found->second;
+  }
+  if (word == "abort") {
+    note("ABORT: on a condition that is taken not to be met");
+    return {};
+  }
+  const FanucEffects effects = target == here  ? outlook_.effects(action)
+                               : target > here ? outlook_.effects(listing, here + 1, target)
+                                               : outlook_.effects(listing, target, here);
+  if (!no_matter(effects)) return asked();
+  if (target > here) routine().at = target;
+  return {};
+}
+
+/// SELECT R[1]=1,JMP LBL[1] ; =2,CALL X ; ELSE,JMP LBL[3] : one decision.
+void FanucRun::select() {
+  const std::size_t here = routine().at;
+  const auto& statements = routine().listing->statements;
+  FanucCursor at(statement().text);
+  at.word();
+  const FanucNumber selected = values_.value(at);
+  std::vector<Case> cases;
+  std::size_t behind = here;
+  for (bool first = true; behind < statements.size(); ++behind, first = false) {
+    const std::string& text = statements[behind].text;
+    if (text.starts_with("!") || text.starts_with("--")) continue;
+    FanucCursor next = first ? at : FanucCursor(text);
+    const bool otherwise = !first && next.take("ELSE");
+    if (!otherwise && !next.take_sign('=')) break;
+    cases.push_back(
+        {behind, otherwise ? FanucNumber{} : values_.expression(next), otherwise, fanuc_action(text)});
+    if (otherwise) {
+      ++behind;
+      break;
+    }
+  }
+  auto which = chosen(cases, selected);
+  if (which) {
+    routine().decided.insert(here);
+    last_decision_ = where();
+  } else {
+    which = undecided_select(cases, behind);
+  }
+  if (!which) return;
+  routine().at = behind;
+  if (*which >= cases.size()) return;  // none of them
+  routine().at = cases[*which].statement;
+  FanucCursor jumping(cases[*which].action);
+  if (jumping.take("JMP"))
+    jump(jumping, false);
+  else
+    action(cases[*which].action);
+  if (routine().at == cases[*which].statement) routine().at = behind;
+}
+
+/// Index of the case that runs, or their number: none of them; absent: not known.
+std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, FanucNumber selected) {
+  const std::string file = where().file;
+  FanucNumber value = selected;
+  for (const std::string& key :
+       {line_name(), fmt::format("{}:{}", file, where().line), fmt::format("{}", where().line)})
+    if (const auto known = around_.options.choose.find(key); known != around_.options.choose.end()) {
+      FanucCursor at(known->second);  // --assume FILE:LINE=2
+      value = at.number();
+    }
+  if (assumed(where().line) == std::optional(false))  // FILE:LINE=else, of the whole SELECT
+    return cases.empty() || !cases.back().otherwise ? cases.size() : cases.size() - 1;
+  std::vector<std::optional<bool>> known;  // --assume FILE:LINE=then of one case
+  for (const Case& one : cases) known.push_back(assumed(routine().listing->statements[one.statement].line));
+  if (const auto taken = std::find(known.begin(), known.end(), true); taken != known.end())
+    return static_cast<std::size_t>(taken - known.begin());
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (known[i]) continue;
+    if (cases[i].otherwise) return value ? std::optional(i) : std::nullopt;
+    if (!value || !cases[i].value) return {};
+    if (*value == *cases[i].value) return i;
+  }
+  return value ? std::optional(cases.size()) : std::nullopt;
+}
+
+/// Absent: it is left out.
+std::optional<std::size_t> FanucRun::undecided_select(const std::vector<Case>& cases, std::size_t behind) {
+  const FanucListing& listing = *routine().listing;
+  FanucEffects effects;
+  std::vector<std::string> values;
+  std::size_t furthest = behind;
+  for (const Case& one : cases) {
+    values.push_back(one.otherwise ? "else" : one.value ? fmt::format("{}", *one.value) : "?");
+    FanucCursor at(one.action);
+    const bool jumps = at.take("JMP") && at.take("LBL");
+    const auto label = jumps ? values_.index(at) : std::nullopt;
+    const auto found =
+        label && label->number ? listing.labels.find(whole(*label->number)) : listing.labels.end();
+    if (jumps && (found == listing.labels.end() || found->second < behind)) effects.leaves = true;
+    if (jumps && found != listing.labels.end()) furthest = std::max(furthest, found->second);
+    if (!jumps) effects.add(outlook_.effects(one.action));
+  }
+  effects.add(outlook_.effects(listing, behind, furthest));
+  if (no_matter(effects)) {
+    routine().at = furthest;
+    return {};
+  }
+  if (whole_program_no_matter()) return {};
+  const int ways = static_cast<int>(cases.size()) + 1;
+  return static_cast<std::size_t>(
+      ask("selects by", ways, fmt::format("VALUE ({})", fmt::join(values, ", "))));
+}
+
+void FanucRun::for_statement(FanucCursor& at) {
+  const std::size_t here = routine().at, end = statement().end;
+  std::optional<FanucValues::Index> index;
+  if (at.take("R")) index = values_.index(at);
+  at.skip_to('=');
+  const FanucNumber from = values_.expression(at);
+  const bool down = at.take("DOWNTO");
+  if (!down) at.take("TO");
+  const FanucNumber to = values_.expression(at);
+  if (!index || !index->number || !from || !to) {
+    const bool left_out = no_matter(outlook_.effects(*routine().listing, here + 1, end));
+    if (!left_out) missing_value("counts by");
+    if (left_out || guess(2) == 1 || !index || !index->number) {
+      routine().at = end + 1;
+      return;
+    }
+    values_.set_register(whole(*index->number), from.value_or(1));
+    routine().loops[here] = {whole(*index->number), from.value_or(1),
+                             1.0};  // one pass, in search of further questions
+    return;
+  }
+  const int number = whole(*index->number);
+  values_.set_register(number, *from);
+  if (down ? *from < *to : *from > *to)
+    routine().at = end + 1;
+  else
+    routine().loops[here] = {number, *to, down ? -1.0 : 1.0};
+}
+
+/// The counter goes on only while it is short of its last value: behind the loop it has that value.
+void FanucRun::end_for() {
+  const auto found = routine().loops.find(statement().end);
+  if (found == routine().loops.end()) return complain("has no FOR that runs", "enter the loop by its FOR");
+  const Loop loop = found->second;
+  values_.forget_missing();
+  const std::string name = fmt::format("R[{}]", loop.register_number);
+  FanucCursor at(name);
+  const FanucNumber counter = values_.value(at);
+  if (!counter) {
+    routine().loops.erase(found);
+    return missing_value("counts by");
+  }
+  if (loop.step > 0 ? *counter < loop.last : *counter > loop.last) {
+    values_.set_register(loop.register_number, *counter + loop.step);
+    last_jump_ = where();
+    routine().at = statement().end + 1;
+  } else {
+    routine().loops.erase(found);
+  }
+}
+
+}  // namespace dresslife::sim

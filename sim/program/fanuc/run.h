@@ -1,0 +1,173 @@
+// One run of a Fanuc program: statement by statement with a program counter, into moves and dwells (fanuc.h).
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sim/program/fanuc/effects.h"
+#include "sim/program/fanuc/values.h"
+#include "sim/program/interpreter/exploration.h"
+
+namespace dresslife::sim {
+
+/// X Y Z [mm], W P R [deg] as a frame, and back.
+Frame frame_of_fanuc(const std::vector<double>& values);
+std::vector<double> fanuc_values_of(const Frame& frame);
+
+class FanucRun {
+ public:
+  struct Surroundings {
+    const std::deque<SourceFile>& files;
+    const std::vector<FanucListing>& listings;
+    std::vector<Problems>& parsing;  ///< of each listing: reported when it is reached
+    const FanucVariables& variables;
+    const ImportOptions& options;
+    const std::vector<NamedFrame>&tools, &work_objects;
+  };
+  FanucRun(const Surroundings& around, Program& program, Problems& problems, Exploration& exploration);
+
+  /// arguments: what AR[1], AR[2] ... are, as a call writes them: "1,'a',R[2]".
+  void run(const FanucListing& listing, const std::string& arguments);
+
+ private:
+  struct Stop {};  // thrown: the run ends
+  struct Loop {
+    int register_number;
+    double last, step;
+  };
+  struct Routine {
+    const FanucListing* listing;
+    std::size_t at = 0;
+    std::map<std::size_t, Loop> loops;  // by their FOR
+    std::set<std::size_t> decided;      // statements that branched on known values
+  };
+  /// How an endless loop went so far, for the pass after which it repeats itself.
+  struct Endless {
+    std::map<std::string, std::size_t> states;  // behind which pass; 0: behind none that moved
+    std::vector<std::size_t> ends;              // (pass) number of instructions behind it
+    std::size_t begin = 0;                      // of the pass: number of instructions
+    int passes = 0;
+    long news = -1;  // of the exploration at the last pass
+    int barren = 0;  // passes in a row that met nothing new
+  };
+  struct Case {  // of a SELECT
+    std::size_t statement;
+    FanucNumber value;
+    bool otherwise;
+    std::string action;
+  };
+
+  // ---- statements: run.cpp
+  void call(const FanucListing& listing, std::vector<FanucValues::Argument> arguments);
+  void execute(const FanucStatement& s);
+  void action(const std::string& text);
+  void assignment(const std::string& word, FanucCursor& at);
+  void block(const std::string& word);
+  void jump(FanucCursor& at, bool certain);
+  void jump_to(std::size_t target, bool certain);
+  void drop_repeated(const Endless& loop, std::size_t known);
+  bool goes_on(std::size_t label);  // an endless loop for another pass
+  bool waits(std::size_t label);
+  bool still_new(std::size_t label);
+  void call_statement(const std::string& text, bool beside);
+  std::vector<FanucValues::Argument> arguments_in(FanucCursor& at);
+  void unread(const std::string& what);
+  void wait(FanucCursor& at);
+  void assign_register(FanucCursor& at);
+  void assign_position(FanucCursor& at);
+  std::optional<FanucPosition> position_sum(FanucCursor& at);
+  void assign_frame(const std::string& word, FanucCursor& at);
+  void set_frame(bool tool, int number, FanucCursor& at);
+  void forget_frames(bool tool, const FanucCauses& why);
+  void set_frame_component(bool tool, int number, int component, FanucCursor& at);
+  void if_statement(FanucCursor& at);
+  std::optional<bool> undecided(const std::string& action);
+  bool no_matter(const FanucEffects& effects);
+  void forget(const FanucEffects& effects, const FanucCauses& why);
+  bool whole_program_no_matter();
+  int ask(const std::string& what, int ways, const std::string& answers);
+  int guess(int ways);
+  void select();
+  std::optional<std::size_t> chosen(const std::vector<Case>& cases, FanucNumber selected);
+  std::optional<std::size_t> undecided_select(const std::vector<Case>& cases, std::size_t behind);
+  void for_statement(FanucCursor& at);
+  void end_for();
+
+  // ---- moves: moves.cpp
+  void move(FanucCursor& at, Instruction::Kind kind);
+  struct Options {
+    std::optional<FanucPosition> offset, tool_offset;
+    bool remote = false, failed = false, skips = false, coordinated = false;
+    bool camera = false;  // the offset is what a camera finds
+    std::string calls;    // programs that run before or behind the point
+    std::string jumps;    // "[1]": the label of Skip or SkipJump, where the move goes on there
+  };
+  bool read_options(FanucCursor& at, Instruction& move, Options& options);
+  bool read_option(FanucCursor& at, Instruction& move, Options& options);
+  FanucNumber needed(FanucCursor& at, const char* what);
+  void offset_by(FanucCursor& at, std::optional<FanucPosition>& into, const char* condition);
+  void offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& into);
+  bool skip_condition_comes(bool jumps);
+  void missing_position(const std::string& name, const char* what);
+  const NamedFrame* given_frame(bool tool, const std::string& name) const;
+  std::optional<FanucPosition> position(FanucCursor& at);
+  std::optional<FanucPosition> target_position(FanucCursor& at);
+  bool place_joints(const FanucPosition& position, const Options& options, Instruction& move);
+  bool place_via(const FanucPosition& via, const FanucPosition& target, const Options& own,
+                 const Options& options, Instruction& move);
+  std::optional<std::pair<NamedFrame, NamedFrame>> frames_of(FanucPosition& p);
+  bool offsets_are_frames() const;
+  bool place(const FanucPosition& position, const Options& options, Instruction& move, Frame& pose);
+  bool read_speed(FanucCursor& at, Instruction& move);
+  std::optional<double> override_share();
+  bool active(bool tool, int& number);
+  void compare_active(bool tool, int listed);
+  std::optional<NamedFrame> frame(bool tool, int number);
+  bool use(const NamedFrame& frame, bool as_tool, Instruction& move);
+  void emit(Instruction instruction);
+  void stopped_on_the_way();
+  void remember(const Instruction& move, const FanucPosition& target);
+
+  // ---- words
+  Routine& routine() { return routines_.back(); }
+  const FanucStatement& statement() const;
+  pipeline::Where where() const;
+  std::string line_name() const;  // "cell.ls:12"
+  std::optional<bool> assumed(int line) const;
+  std::string program_name() const;
+  void complain(const std::string& what, const std::string& remedy);
+  void missing(const std::string& name, const std::string& what, const std::string& remedy,
+               std::vector<Question> questions, bool decision = false);
+  void missing_value(const std::string& what);  // the value that values_ misses
+  std::vector<Question> questions_for(const FanucCauses& causes);
+  void note(const std::string& what, bool may_move = false);
+  void charge(long steps = 1);
+
+  const Surroundings around_;
+  Program& program_;
+  Problems& problems_;
+  Exploration& exploration_;
+  FanucValues values_;
+  FanucOutlook outlook_;
+  std::vector<Routine> routines_;
+  struct AssignedFrame {
+    std::optional<Frame> frame;  // absent: not known
+    FanucCauses why;             // it is not
+  };
+  static constexpr int any_frame = -1;                    // number of an unknown frame
+  std::map<std::pair<bool, int>, AssignedFrame> frames_;  // (tool?, number) that the program assigned
+  std::optional<FanucPosition> last_;                     // where the robot is: JPOS and LPOS
+  std::string offset_condition_, tool_offset_condition_;  // PR[n] of OFFSET CONDITION
+  std::string skip_condition_;
+  std::map<std::pair<const FanucListing*, std::size_t>, Endless> endless_;
+  std::set<std::string> noted_;
+  pipeline::Where last_jump_;  // back
+  pipeline::Where last_decision_;
+  long executed_ = 0, guessed_at_ = 0;
+};
+
+}  // namespace dresslife::sim

@@ -1,0 +1,460 @@
+#include "sim/program/fanuc/values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/program/interpreter/tokens.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+int whole(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
+
+/// "X 100 Y 0 Z 50 W 180 P 0 R 0", "J1 0 J2 ..." or six numbers X Y Z W P R, with commas or without.
+std::optional<FanucPosition> position_in(const std::string& text) {
+  FanucPosition made;
+  made.frame = made.tool = -1;
+  FanucCursor at(text);
+  constexpr std::string_view names = "xyzwpr";
+  std::vector<double> joints, plain;
+  double pose[6] = {NAN, NAN, NAN, NAN, NAN, NAN};
+  while (!at.at_end()) {
+    const std::string name = at.word();
+    const bool number_only = !name.empty() && (name[0] < 'a' || name[0] > 'z');
+    if (number_only) at.move_to(at.offset() - name.size());
+    if (!number_only) at.take_sign('=');
+    const auto value = at.number();
+    if (!value || plain.size() > 6) return {};
+    at.take_sign(',');
+    if (name.empty() || number_only)
+      plain.push_back(*value);
+    else if (name.size() == 1 && names.find(name[0]) != std::string_view::npos)
+      pose[names.find(name[0])] = *value;
+    else if (name.size() == 2 && name[0] == 'j' && name[1] - '1' == static_cast<int>(joints.size()))
+      joints.push_back(*value);
+    else
+      return {};
+  }
+  if (plain.size() == 6) std::copy(plain.begin(), plain.end(), std::begin(pose));
+  made.form = joints.empty() ? FanucPosition::Form::pose : FanucPosition::Form::joints;
+  made.values = joints.empty() ? std::vector<double>(std::begin(pose), std::end(pose)) : joints;
+  return made.known() ? std::optional(made) : std::nullopt;
+}
+
+FanucNumber number_in(const std::string& text) {
+  if (same_word(text, "ON")) return 1;
+  if (same_word(text, "OFF")) return 0;
+  FanucCursor at(text);
+  const auto number = at.number();
+  return at.at_end() ? number : std::nullopt;
+}
+
+}  // namespace
+
+void add_causes(FanucCauses& to, const FanucCauses& more) {
+  constexpr std::size_t most = 12;  // of one value
+  for (const FanucCause& cause : more)
+    if (to.size() < most && std::find(to.begin(), to.end(), cause) == to.end()) to.push_back(cause);
+}
+
+std::string plain_fanuc_name(std::string_view written) {
+  std::string plain;
+  bool comment = false;
+  for (char c : lower_case(written)) {
+    if (c == ']') comment = false;
+    if (c == ':' && plain.find('[') != std::string::npos) comment = true;
+    if (!comment && static_cast<unsigned char>(c) > ' ') plain += c;
+  }
+  return plain;
+}
+
+FanucValues::FanucValues(const FanucVariables& backup, const std::map<std::string, std::string>& given,
+                         Problems& problems)
+    : registers_(backup.registers), positions_(backup.position_registers) {
+  if (backup.frame_number) named_["uframe_num"] = *backup.frame_number;
+  if (backup.tool_number) named_["utool_num"] = *backup.tool_number;
+  for (const auto& [number, position] : positions_)
+    if (position.known()) taught_.insert(number);
+  for (const auto& [name, text] : given) take(plain_fanuc_name(name), text, problems);
+}
+
+/// A value of the user's, in place of the backup's.
+void FanucValues::take(const std::string& name, const std::string& text, Problems& problems) {
+  given_[name] = text;
+  FanucCursor at(name);
+  const std::string word = at.word();
+  const auto number = at.take_sign('[') ? at.number() : std::nullopt;
+  const int index = whole(number.value_or(0));
+  const bool whole_position = word == "pr" && number && name.find(',') == std::string::npos;
+  if (whole_position) {
+    if (const auto position = position_in(text))
+      positions_[index] = *position, taught_.insert(index);
+    else
+      problems.add({"--value " + name + "=" + text}, "is no position",
+                   "write 'X 100 Y 0 Z 50 W 180 P 0 R 0' [mm, deg] or 'J1 0 J2 10 ...' [deg]");
+  } else if (word == "r" && number) {
+    if (const auto value = number_in(text))
+      registers_[index] = *value;
+    else
+      problems.add({"--value " + name + "=" + text}, "is no number", "write for example R[5]=3");
+  } else if (named_.contains(name)) {
+    named_.erase(name);
+  }
+}
+
+std::optional<std::string> FanucValues::given(const std::string& name) const {
+  const auto found = given_.find(name);
+  return found == given_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<FanucPosition> FanucValues::given_position(const std::string& name) const {
+  const auto text = given(plain_fanuc_name(name));
+  return text ? position_in(*text) : std::nullopt;
+}
+
+FanucNumber FanucValues::unknown(const std::string& name) {
+  if (const auto text = given(plain_fanuc_name(name)))
+    if (const auto number = number_in(*text)) return number;
+  add_causes(missing_, {{name}});
+  return {};
+}
+
+void FanucValues::set_register(int number, FanucNumber value) {
+  if (written_.size() < ImportLimits::values) written_.insert(number);
+  if (value && std::isfinite(*value) && registers_.size() < ImportLimits::values) {
+    registers_[number] = *value;
+    register_causes_.erase(number);
+  } else {
+    registers_.erase(number);
+    if (register_causes_.size() < ImportLimits::values) register_causes_[number] = missing_;
+  }
+}
+
+void FanucValues::forget_register(int number, const FanucCauses& why) {
+  registers_.erase(number);
+  if (register_causes_.size() < ImportLimits::values) add_causes(register_causes_[number], why);
+}
+
+void FanucValues::set_position(int number, const FanucPosition& position) {
+  taught_.erase(number);
+  position_causes_.erase(number);
+  component_causes_.erase(number);
+  if (positions_.size() < ImportLimits::values) positions_[number] = position;
+}
+
+void FanucValues::forget_position(int number, const FanucCauses& why) {
+  positions_.erase(number);
+  taught_.erase(number);
+  component_causes_.erase(number);
+  if (position_causes_.size() < ImportLimits::values) position_causes_[number] = why;
+}
+
+void FanucValues::set_component(int number, int part, FanucNumber value) {
+  if (part < 1 || part > 9) return;
+  FanucPosition position = position_register(number);
+  if (position.values.size() < 6) position.values.resize(6, NAN);
+  if (part <= static_cast<int>(position.values.size())) position.values[part - 1] = value.value_or(NAN);
+  taught_.erase(number);
+  if (positions_.size() < ImportLimits::values) positions_[number] = position;
+  component_causes_[number].erase(part);
+  if (!value) component_causes_[number][part] = missing_;
+}
+
+void FanucValues::miss_position(int number) {
+  const FanucPosition position = position_register(number);
+  const auto parts = component_causes_.find(number);
+  bool whole = position.values.empty();
+  for (std::size_t i = 0; i < position.values.size(); ++i) {
+    if (std::isfinite(position.values[i])) continue;
+    const int part = static_cast<int>(i) + 1;
+    if (parts != component_causes_.end() && parts->second.contains(part) && !parts->second.at(part).empty())
+      add_causes(missing_, parts->second.at(part));
+    else
+      whole = true;
+  }
+  if (!whole) return;
+  const auto known = position_causes_.find(number);
+  if (known != position_causes_.end() && !known->second.empty())
+    add_causes(missing_, known->second);
+  else
+    add_causes(missing_, {{fmt::format("PR[{}]", number)}});
+}
+
+bool FanucValues::take_effect(const std::string& call) {
+  const auto text = given(plain_fanuc_name(call));
+  if (!text) return false;
+  FanucCursor at(*text);
+  while (at.take("R")) {
+    const auto number = at.take_sign('[') ? at.number() : std::nullopt;
+    at.skip_to('=');
+    const auto value = at.number();
+    if (!number || !value) break;
+    set_register(whole(*number), value);
+    at.take_sign(',');
+  }
+  return true;
+}
+
+FanucPosition FanucValues::position_register(int number) const {
+  if (const auto found = positions_.find(number); found != positions_.end()) return found->second;
+  if (const auto text = given(fmt::format("pr[{}]", number)))
+    if (const auto position = position_in(*text)) return *position;
+  FanucPosition none;
+  none.frame = none.tool = -1;
+  return none;
+}
+
+void FanucValues::set_named(const std::string& name, FanucNumber value) {
+  if (named_.size() < ImportLimits::values) named_[name] = value;
+}
+
+bool FanucValues::has_named(const std::string& name) const {
+  const auto found = named_.find(name);
+  return (found != named_.end() && found->second) || given(name);
+}
+
+FanucNumber FanucValues::named(const std::string& name) {
+  const auto found = named_.find(name);
+  if (found != named_.end() && found->second) return found->second;
+  std::string written = name;
+  for (char& c : written) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return unknown(written);
+}
+
+FanucNumber FanucValues::override_percent(const std::string& name) const {
+  const auto found = named_.find(name);
+  if (found != named_.end() && found->second) return found->second;
+  const auto text = given(name);
+  return text ? number_in(*text) : found == named_.end() ? FanucNumber(100) : FanucNumber{};
+}
+
+void FanucValues::forget_registers(const FanucCauses& why) {
+  for (const auto& [number, value] : registers_)
+    if (register_causes_.size() < ImportLimits::values) register_causes_[number] = {};
+  for (auto& [number, causes] : register_causes_) add_causes(causes, why);
+  add_causes(forgotten_by_, why);
+  registers_.clear();
+  std::erase_if(positions_, [&](const auto& entry) { return !taught_.contains(entry.first); });
+  doubt_ = true;
+}
+
+bool FanucValues::doubtful(int position_register) const {
+  return doubt_ && taught_.contains(position_register) && !given(fmt::format("pr[{}]", position_register));
+}
+
+std::string FanucValues::state() const {
+  std::string text;
+  for (const auto& [number, value] : registers_) text += fmt::format("{}={} ", number, value);
+  for (const auto& [number, position] : positions_)
+    text += fmt::format("p{}={} ", number, fmt::join(position.values, ","));
+  for (const auto& [name, value] : named_) text += fmt::format("{}={} ", name, value.value_or(NAN));
+  return text;
+}
+
+// ---- expressions -----------------------------------------------------------------------------------------
+
+std::optional<FanucValues::Index> FanucValues::index(FanucCursor& at, int depth) {
+  if (!at.take_sign('[')) return {};
+  Index made;
+  const std::size_t begin = at.offset();
+  const std::string word = at.word();
+  if (word.size() == 3 && word.starts_with("gp") && at.take_sign(':'))
+    made.group = word[2] - '0';
+  else
+    at.move_to(begin);
+  made.number = expression(at, depth + 1);
+  if (at.take_sign(',')) made.part = expression(at, depth + 1);
+  at.skip_to(']');  // behind a comment
+  return made;
+}
+
+FanucNumber FanucValues::function(const std::string& word, FanucNumber of) const {
+  if (!of) return {};
+  double result = NAN;
+  if (word == "abs") result = std::abs(*of);
+  if (word == "sqrt") result = std::sqrt(*of);
+  if (word == "sin") result = std::sin(*of * degree);
+  if (word == "cos") result = std::cos(*of * degree);
+  if (word == "tan") result = std::tan(*of * degree);
+  if (word == "round") result = std::round(*of);
+  if (word == "trunc") result = std::trunc(*of);
+  return std::isfinite(result) ? FanucNumber(result) : FanucNumber{};
+}
+
+/// A value that the user gives counts, unless the program itself has set the register and a call without a file may
+/// have changed it since: then the call is asked for. A register that the program never sets is asked for itself.
+FanucNumber FanucValues::register_value(int number) {
+  if (const auto found = registers_.find(number); found != registers_.end()) return found->second;
+  const auto own = register_causes_.find(number);
+  const FanucCauses& causes = own != register_causes_.end() ? own->second : forgotten_by_;
+  const bool calls = std::any_of(causes.begin(), causes.end(),
+                                 [](const FanucCause& cause) { return cause.name.find(' ') != std::string::npos; });
+  if (causes.empty() || (calls ? !written_.contains(number) : given(fmt::format("r[{}]", number)).has_value()))
+    return unknown(fmt::format("R[{}]", number));
+  add_causes(missing_, causes);
+  return {};
+}
+
+/// A register or another name: R[5], PR[1,3], DI[3:part], AR[1], F[2], $MCR.$GENOVERRIDE, SIN[R[1]].
+FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
+  const std::size_t begin = at.offset();
+  const std::string word = at.word();
+  if (word.empty()) return unknown("a value");
+  if (word == "on") return 1;
+  if (word == "off") return 0;
+  std::string name = word;
+  if (word[0] == '$') {  // as written, with its fields
+    while (at.take_sign('.') || at.take_sign('['))
+      if (at.rest().starts_with("$") || !at.name().empty()) at.take_sign(']');
+    const std::string written(at.from(begin));
+    if (plain_fanuc_name(written) == "$mcr.$genoverride") return override_percent("override");
+    return unknown(written);
+  }
+  static const auto functions = {"abs", "sqrt", "sin", "cos", "tan", "round", "trunc"};
+  const auto read = index(at, depth);
+  if (std::find(functions.begin(), functions.end(), word) != functions.end())
+    return read ? function(word, read->number) : FanucNumber{};
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  if (!read || begin == at.offset()) return unknown(name);
+  if (!read->number) return {};
+  const int number = whole(*read->number);
+  if (read->group != 1) return unknown(fmt::format("{}[GP{}:{}]", name, read->group, number));
+  if (word == "pr" && read->part) {
+    const FanucPosition position = position_register(number);
+    const std::size_t part = static_cast<std::size_t>(whole(*read->part));
+    if (part >= 1 && part <= position.values.size() && std::isfinite(position.values[part - 1]))
+      return position.values[part - 1];
+    const std::string component = fmt::format("PR[{},{}]", number, part);
+    const auto known = component_causes_.find(number);
+    const bool computed = known != component_causes_.end() && known->second.contains(static_cast<int>(part));
+    if (given(plain_fanuc_name(component)) || (!computed && !position_causes_.contains(number))) return unknown(component);
+    if (computed)
+      add_causes(missing_, known->second.at(static_cast<int>(part)));
+    else
+      miss_position(number);
+    return {};
+  }
+  if (word == "ar") {
+    const bool there =
+        !arguments_.empty() && number >= 1 && static_cast<std::size_t>(number) <= arguments_.back().size();
+    if (there && arguments_.back()[number - 1].value) return arguments_.back()[number - 1].value;
+    if (there && !given(fmt::format("ar[{}]", number)) && !arguments_.back()[number - 1].causes.empty()) {
+      add_causes(missing_, arguments_.back()[number - 1].causes);
+      return {};
+    }
+  }
+  if (word == "r") return register_value(number);
+  return unknown(fmt::format("{}[{}]", name, number));
+}
+
+FanucNumber FanucValues::value(FanucCursor& at, int depth) {
+  if (depth > ImportLimits::nesting) return {};
+  if (at.take_sign('(')) {
+    const FanucNumber inner = logical(at, depth + 1);
+    at.take_sign(')');
+    return inner;
+  }
+  if (at.take_sign('-')) {
+    const FanucNumber inner = value(at, depth + 1);
+    return inner ? FanucNumber(-*inner) : inner;
+  }
+  if (at.take_sign('!')) {
+    const FanucNumber inner = value(at, depth + 1);
+    return inner ? FanucNumber(*inner == 0) : inner;
+  }
+  if (const FanucNumber number = at.number()) return number;
+  if (at.take_sign('\'')) {
+    at.skip_to('\'');
+    return {};
+  }
+  return operand(at, depth);
+}
+
+FanucNumber FanucValues::term(FanucCursor& at, int depth) {
+  FanucNumber left = value(at, depth);
+  while (true) {
+    ++charged_;
+    char op = 0;
+    if (at.take_sign('*'))
+      op = '*';
+    else if (at.take_sign('/'))
+      op = '/';
+    else if (at.take("DIV"))
+      op = 'd';
+    else if (at.take("MOD"))
+      op = 'm';
+    else
+      return left;
+    const FanucNumber right = value(at, depth);
+    if (!left || !right) {
+      left.reset();
+      continue;
+    }
+    double result = NAN;
+    if (op == '*') result = *left * *right;
+    if (op == '/') result = *left / *right;
+    if (op == 'd') result = std::trunc(*left / *right);
+    if (op == 'm') result = std::fmod(*left, *right);
+    left = std::isfinite(result) ? FanucNumber(result) : FanucNumber{};
+  }
+}
+
+FanucNumber FanucValues::expression(FanucCursor& at, int depth) {
+  if (depth > ImportLimits::nesting) return {};
+  FanucNumber left = term(at, depth);
+  while (true) {
+    ++charged_;
+    const bool plus = at.take_sign('+');
+    if (!plus && !at.take_sign('-')) return left;
+    const FanucNumber right = term(at, depth);
+    left = left && right ? FanucNumber(plus ? *left + *right : *left - *right) : FanucNumber{};
+  }
+}
+
+/// left < right and the like; without a comparison the left side itself.
+FanucNumber FanucValues::relation(FanucCursor& at, int depth) {
+  const FanucNumber left = expression(at, depth);
+  const bool less = at.take_sign('<'), greater = at.take_sign('>'), equal = at.take_sign('=');
+  if (!less && !greater && !equal) return left;
+  const FanucNumber right = expression(at, depth);
+  if (!left || !right) return {};
+  return (less && *left < *right) || (greater && *left > *right) || (equal && *left == *right);
+}
+
+FanucNumber FanucValues::conjunction(FanucCursor& at, int depth) {
+  FanucNumber result = relation(at, depth);
+  while (at.take("AND")) {
+    ++charged_;
+    const FanucNumber right = relation(at, depth);
+    if ((result && *result == 0) || (right && *right == 0))
+      result = 0;
+    else
+      result = result && right ? FanucNumber(1) : FanucNumber{};
+  }
+  return result;
+}
+
+/// A number, or the truth of a condition as 1 or 0.
+FanucNumber FanucValues::logical(FanucCursor& at, int depth) {
+  if (depth > ImportLimits::nesting) return {};
+  FanucNumber result = conjunction(at, depth);
+  while (at.take("OR")) {
+    ++charged_;
+    const FanucNumber right = conjunction(at, depth);
+    if ((result && *result != 0) || (right && *right != 0))
+      result = 1;
+    else
+      result = result && right ? FanucNumber(0) : FanucNumber{};
+  }
+  return result;
+}
+
+std::optional<bool> FanucValues::condition(FanucCursor& at) {
+  const FanucNumber result = logical(at, 0);
+  return result ? std::optional(*result != 0) : std::nullopt;
+}
+
+}  // namespace dresslife::sim

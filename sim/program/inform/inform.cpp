@@ -1,0 +1,829 @@
+#include "sim/program/inform/inform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "sim/program/fanuc/run.h"
+#include "sim/program/interpreter/arc.h"
+#include "sim/program/interpreter/tokens.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double millimetre = 1e-3;
+
+/// Position levels PL=1 .. 8 as the controllers are delivered (SC.PRM, S1CxG033 .. 040) [m].
+constexpr double position_levels[] = {0, 0.0125, 0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5};
+
+/// Variables as a speed or a time: V=I000 counts 0.1 mm/s, VJ=I000 0.01 %, T=I000 0.01 s.
+double unit_of_variable(const std::string& tag) { return tag == "v" || tag == "vr" ? 0.1 : 0.01; }
+
+/// A position as the tree's values hold it (add_inform_types).
+struct Position {
+  std::vector<double> numbers;  ///< pulses, deg, or mm and deg
+  std::string type;             ///< pulse, angle, base, robot, user
+  int user = 0, tool = 0;
+  std::vector<int> configuration;
+
+  bool joints() const { return type == "pulse" || type == "angle"; }
+  bool pose() const { return (type == "base" || type == "robot" || type == "user") && numbers.size() >= 6; }
+};
+
+std::optional<Position> position_in(const Value& value) {
+  if (value.kind != Value::Kind::list || value.items.size() != 5 || !value.known()) return {};
+  Position read;
+  for (const Value& item : value.items[0].items) read.numbers.push_back(item.number);
+  read.type = value.items[1].text;
+  read.user = static_cast<int>(std::clamp(value.items[2].number, -1.0, 999.0));
+  read.tool = static_cast<int>(std::clamp(value.items[3].number, -1.0, 999.0));
+  for (const Value& item : value.items[4].items) read.configuration.push_back(item.number != 0);
+  return read;
+}
+
+const std::set<std::string>& harmless_words() {
+  static const std::set<std::string> words{
+      "dout",     "din",   "wait",    "pulse",   "aout",    "aration", "aratiof", "antout",  "pause",
+      "cwait",    "msg",   "advinit", "advstop", "arcon",   "arcof",   "arcset",  "arccts",  "arccte",
+      "aweld",    "vweld", "hand",    "hsen",    "guncl",   "toolon",  "toolof",  "setualm", "dialog",
+      "almchk",   "tsync", "setreg",  "getreg",  "setfile", "getfile", "stroke",  "strwait", "wvof",
+      "refp",     "gets",  "gete",    "getpos",  "cnvrt",   "mulmat",  "invmat",  "pwait",   "val",
+      "len",      "asc",   "mid",     "cat",     "val2str", "sqrt",    "sin",     "cos",     "atan",
+      "and",      "or",    "not",     "xor",     "shckset", "shckrst", "retry",   "antstk",  "replay",
+      "skillsnd", "pop",   "push"};
+  return words;
+}
+
+/// How a user writes a position: the tree's record of one.
+constexpr const char* position_form =
+    "[[x, y, z, Rx, Ry, Rz], \"base\", 0, TOOL NUMBER, [0, 0, 0, 0, 0, 0]] in mm and deg";
+
+class Inform final : public Dialect {
+ public:
+  Inform(const Code& code, const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& frames,
+         const Routine& start)
+      : code_(code), tools_(tools), frames_(frames), robot_(start.robot) {}
+
+  void attach(Interpreter& run) { run_ = &run; }
+
+  std::optional<Value> constant(const std::string& name) override {
+    if (name == "on" || name == "off") return number_value(name == "on");
+    if (std::optional<Value> value = run_->given(name)) return value;
+    std::string shown = name;
+    for (char& c : shown) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (name.find('#') != std::string::npos) return unknown_value(shown, "is an input of the controller");
+    if (!is_variable(name)) return {};
+    return unknown_value(shown, "has its value in the controller (VAR.DAT of the backup)");
+  }
+
+  std::optional<Value> function(const Expression& call, Interpreter& run) override {
+    if (call.items.size() != 1) return {};
+    const Value value = run.evaluate(call.items[0]);
+    if (!value.is_number()) return unknown_value(value);
+    if (call.text.ends_with("[]") || call.text.ends_with('#'))
+      return run.evaluate(name_at(indexed(call.text, value.number), call.place));
+    if (call.text == "trunc") return number_value(std::trunc(value.number));
+    if (call.text == "sin") return number_value(std::sin(value.number * degree));
+    if (call.text == "cos") return number_value(std::cos(value.number * degree));
+    if (call.text == "atan") return number_value(std::atan(value.number) / degree);
+    if (call.text == "sqrt" && value.number >= 0) return number_value(std::sqrt(value.number));
+    return {};
+  }
+
+  bool instruction(const Statement& statement, Interpreter& run) override {
+    const std::string& name = statement.name;
+    if (moves(name)) return move(statement, run), true;
+    if (name == "speed") return speed(statement, run), true;
+    if (name == "timer") return wait(statement, run), true;
+    if (name == "spot" || name.starts_with("svspot")) return spot(statement, run), true;
+    if (name == "sfton" || name == "sftof") return shift(statement, run), true;
+    if (name == "settool" || name == "mframe") return set_frame(statement, run), true;
+    if (name == "clear") return clear(statement, run), true;
+    if (calculates(name)) return calculate(statement, run), true;
+    if (name == "pstart") return start_beside(statement, run), true;
+    if (name == "wvon")
+      return run.note(statement.place, "WVON: the torch swings about its path, which is followed without it",
+                      true),
+             true;
+    if (name.starts_with("job:")) {
+      run.forget_numbers(fmt::format("may be written by {}, which no file read holds ({})", statement.text,
+                                     run.short_place(statement.place)));
+      run.note(statement.place,
+               statement.text + ": not among the files read; variables may have other values behind it",
+               true);
+      return true;
+    }
+    if (const auto& given = statement.arguments; !given.empty() && given[0].kind == Expression::Kind::name &&
+                                                 harmless(name) && !run.variable(given[0].text) &&
+                                                 !run.given(given[0].text) &&
+                                                 is_variable(given[0].text))  // in no file read
+      run.set(given[0].text,
+              unknown_value(shown(given[0]), fmt::format("may be written by {} ({})", statement.text,
+                                                         run.short_place(statement.place))));
+    return false;
+  }
+
+  bool matters(const std::string& name) const override {
+    return moves(name) || name == "speed" || name == "sfton" || name == "sftof" || name == "settool" ||
+           name == "mframe" || name == "formcut" || name == "call" || name == "pstart";
+  }
+  bool only_waits(const std::string& name) const override { return name == "timer"; }
+  bool harmless(const std::string& name) const override { return harmless_words().contains(name); }
+  bool writes(const std::string&, int position, const Expression&) const override { return position == 0; }
+  const RecordType* type_of(const std::string& name) const override { return code_.record(name); }
+  /// A job holds the positions of the controller as they were when it was saved.
+  std::optional<std::string> form_of_copies(const std::string& name) const override {
+    return name.starts_with("p") ? std::optional<std::string>(position_form) : std::nullopt;
+  }
+  std::string form_of(const std::string& type) const override { return type == "number" ? "a number" : ""; }
+  Value initial(const std::string& type) const override {
+    return type == "number" ? number_value(0) : Value{};
+  }
+
+  /// Indices of the instructions that MOVC made, and whether FPT stands behind them.
+  const std::map<std::size_t, bool>& arc_points() const { return arc_points_; }
+
+ private:
+  static bool moves(const std::string& name) {
+    static const std::set<std::string> words{"movj", "movl",  "movc",  "movs",
+                                             "imov", "smovl", "smovc", "svspotmov"};
+    return words.contains(name);
+  }
+  static bool is_variable(const std::string& name) {
+    return inform_name(name) == name && name.find_first_of("0123456789") != std::string::npos &&
+           name.find('#') == std::string::npos;
+  }
+  static bool calculates(const std::string& name) {
+    static const std::set<std::string> words{"set", "add", "sub", "mul", "div", "inc", "dec", "sete"};
+    return words.contains(name);
+  }
+
+  /// "b[]" and 3: b003; "in#" and 3: in#(3).
+  static std::string indexed(const std::string& text, double index) {
+    return inform_name(text.ends_with("[]") ? fmt::format("{}{:.0f}", text.substr(0, text.size() - 2), index)
+                                            : fmt::format("{}({:.0f})", text, index));
+  }
+
+  void ask(const std::string& name, const Place& place, const std::string& what, const std::string& remedy,
+           const std::string& form, Question::Kind kind = Question::Kind::value) {
+    run_->miss(name, place, what, remedy, {{kind, name, form}});
+  }
+
+  /// A number that a move or a wait needs; what is not known is asked.
+  std::optional<double> needed(const Expression& written, const char* what) {
+    const Value value = run_->answered(written);
+    if (value.is_number()) return value.number;
+    run_->ask_for(value, written.place, fmt::format("has a {} that is known only while the robot runs", what),
+                  "", "a number");
+    return {};
+  }
+
+  std::optional<double> tag(const Statement& statement, const char* option) {
+    for (const Expression& argument : statement.arguments) {
+      if (argument.option != option) continue;
+      const auto number = needed(argument, option);
+      return number && argument.kind != Expression::Kind::number
+                 ? std::optional(*number * unit_of_variable(option))
+                 : number;
+    }
+    return {};
+  }
+  static const Expression* argument_of(const Statement& statement, const std::string& option) {
+    for (const Expression& argument : statement.arguments)
+      if (argument.option == option) return &argument;
+    return nullptr;
+  }
+
+  // ---- frames -----------------------------------------------------------------------------------------------------
+
+  /// TL#(n) or UF#(n): of TOOL.CND, UFRAME.CND, SETTOOL, MFRAME, or as the user gives it.
+  std::optional<NamedFrame> frame(bool tool, int number, const Place& place) {
+    const std::string name = fmt::format("{}#({})", tool ? "TL" : "UF", number);
+    if (const Value* value = run_->variable(lower_case(name))) {
+      const auto read = position_in(*value);
+      if (read && read->pose()) return NamedFrame{name, frame_of_fanuc(read->numbers)};
+    }
+    for (const NamedFrame& given : tool ? tools_ : frames_)
+      if (same_word(given.name, name)) return given;
+    ask(name, place, fmt::format("moves {} {}, which no file read holds", tool ? "with" : "in", name),
+        fmt::format(
+            "give {} of the backup (--module), or --frames FILE.yaml (motion.{} in a job) with the name '{}'",
+            tool ? "TOOL.CND" : "UFRAME.CND", tool ? "tools" : "work_objects", name),
+        "", tool ? Question::Kind::tool : Question::Kind::work_object);
+    return {};
+  }
+
+  /// SETTOOL TL#(1) P000; MFRAME UF#(1) P000 P001 P002: origin, a point on x, a point in the xy plane.
+  void set_frame(const Statement& statement, Interpreter& run) {
+    const auto& given = statement.arguments;
+    std::vector<Position> points;
+    for (std::size_t i = 1; i < given.size(); ++i)
+      if (auto point = position_in(run.evaluate(given[i])); point && point->pose() && point->type != "user")
+        points.push_back(*std::move(point));
+    const bool tool = statement.name == "settool";
+    if (given.size() < 2 || points.size() + 1 != given.size() ||
+        (!tool && points.size() != 1 && points.size() < 3)) {
+      if (!given.empty())
+        run.make_unknown(given[0], {"", fmt::format("is set by {} from positions that are not known ({})",
+                                                    statement.text, run.short_place(statement.place))});
+      return;
+    }
+    std::vector<double> numbers = points[0].numbers;
+    if (points.size() >= 3) {
+      const auto at = [&](std::size_t i) {
+        return Vector3(points[i].numbers[0], points[i].numbers[1], points[i].numbers[2]);
+      };
+      const Vector3 x = (at(1) - at(0)).normalized(), z = x.cross(at(2) - at(0)).normalized();
+      Matrix3 axes;
+      axes << x, z.cross(x), z;
+      if (!axes.allFinite())
+        return run.complain(statement.place, "sets a frame by points that lie on a line", "mend the points");
+      numbers = fanuc_values_of({millimetre * at(0), Quaternion(axes)});
+    }
+    Value value = run.evaluate(given[1]);
+    value.items[0].items.clear();
+    for (const double number : numbers) value.items[0].items.push_back(number_value(number));
+    run.assign(given[0], std::move(value));
+  }
+
+  /// SFTON P000 UF#(1): shifts the positions of the moves that follow. SFTOF.
+  void shift(const Statement& statement, Interpreter& run) {
+    shift_.reset();
+    if (statement.name == "sftof" || statement.arguments.empty()) return;
+    shift_ = {statement.arguments[0], statement.arguments.size() > 1 ? statement.arguments[1].text : ""};
+    shift_value_ = run.evaluate(statement.arguments[0]);
+  }
+
+  /// The pose of the tool in the robot's base frame after a shift by numbers of a position in a frame.
+  std::optional<Frame> shifted(const Frame& pose, const Position& by, const std::string& frame_name,
+                               const Place& place) {
+    const Frame step = frame_of_fanuc(by.numbers);
+    if (frame_name == "tf" || (frame_name.empty() && by.type == "tool")) return pose * step;
+    Frame system;
+    if (frame_name.starts_with("uf#") || (frame_name.empty() && by.type == "user")) {
+      const int number = frame_name.empty() ? by.user : std::atoi(frame_name.c_str() + 4);
+      const auto found = frame(false, number, place);
+      if (!found) return {};
+      system = found->frame;
+    }
+    const Quaternion turn = system.orientation * step.orientation * system.orientation.conjugate();
+    return Frame{pose.position + system.orientation * step.position, turn * pose.orientation};
+  }
+
+  // ---- positions as targets ---------------------------------------------------------------------------------------
+
+  /// Counts per degree of the robot's axes; empty: they are asked for.
+  std::vector<double> counts(const Place& place) {
+    std::vector<double> read;
+    if (const auto given = run_->given("pulses_per_degree");
+        given && given->kind == Value::Kind::list && given->known())
+      for (const Value& item : given->items)
+        if (item.is_number() && item.number != 0) read.push_back(item.number);
+    if (read.size() >= 4) return read;
+    ask("pulses_per_degree", place,
+        "moves to a position in pulses, and no file says how many pulses a degree of each axis has",
+        "give --value 'pulses_per_degree=[S,L,U,R,B,T]' (motion.values), counts with their signs: two positions of "
+        "the pendant, shown once in pulses and once in degrees, give them",
+        "[S, L, U, R, B, T], counts of a degree with their signs");
+    return {};
+  }
+
+  bool read_joints(const Position& position, const Place& place, std::vector<double>& joints) {
+    std::vector<double> per_degree(position.numbers.size(), 1);
+    if (position.type == "pulse") {
+      per_degree = counts(place);
+      if (per_degree.empty()) return false;
+    }
+    for (std::size_t i = 0; i < position.numbers.size(); ++i) {
+      if (i < per_degree.size() && (position.type == "pulse" || joints.size() < 6))
+        joints.push_back(position.numbers[i] / per_degree[i] * degree);
+      else if (position.numbers[i] != 0)
+        return run_->complain(place, fmt::format("moves to a position of {} axes", position.numbers.size()),
+                              "only the robot's own axes are read; pulses_per_degree says how many they are"),
+               false;
+    }
+    if (joints.size() < per_degree.size() && position.type == "pulse")
+      return run_->complain(place,
+                            fmt::format("moves to a position of {} axes, and pulses_per_degree has {}",
+                                        position.numbers.size(), per_degree.size()),
+                            "give one count for each axis of the robot"),
+             false;
+    return true;
+  }
+
+  /// RCONF as the robot's kinematics take it. The first number is the wrist's: its meaning for the axes differs
+  /// between controllers (header); which one is meant is a value of the user's, else the newer one with a warning.
+  ArmConfiguration configuration(const Position& position, const Place& place) {
+    if (position.configuration.size() < 6) return {};
+    ArmConfiguration made{ArmConfiguration::Kind::motoman,
+                          {position.configuration.begin(), position.configuration.begin() + 6}};
+    const auto rule = run_->given("rconf_flip");
+    const bool by_b = rule ? rule->text == "B" || rule->text == "b" : position.configuration.size() > 8;
+    if (by_b) made.numbers[0] += 2;
+    if (!rule && !flip_reported_) {
+      flip_reported_ = true;
+      run_->note(
+          place,
+          fmt::format("RCONF: its first number (flip) is taken as {}; controllers differ: --value "
+                      "'rconf_flip=\"{}\"' if it is the other",
+                      by_b ? "the sign of axis B" : "axis R within 90 deg of its zero", by_b ? "R" : "B"),
+          true);
+    }
+    return made;
+  }
+
+  std::string shown(const Expression& written) const {
+    std::string name = written.text;
+    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return name;
+  }
+
+  std::optional<Position> position(const Expression& written) {
+    const Value value = run_->answered(written);
+    if (auto read = position_in(value)) return read;
+    run_->ask_for(value, written.place,
+                  fmt::format("moves to {}, which is known only while the robot runs", shown(written)),
+                  "give VAR.DAT of the backup (--module), or the job that holds its value (///NPOS)",
+                  position_form);
+    for (const int tool : tools_of_jobs())
+      frame(true, tool, written.place);  // its tool is asked for in the same round
+    return {};
+  }
+
+  /// Numbers of the tools with which positions of the jobs were taught; without any the first one, TL#(0).
+  std::set<int> tools_of_jobs() const {
+    std::set<int> numbers;
+    for (const Datum& datum : code_.data) {
+      const std::vector<Expression>& written = datum.statement.arguments;
+      const bool position = datum.statement.text == "position" &&
+                            datum.statement.name.find('#') == std::string::npos && !written.empty() &&
+                            written[0].items.size() == 5;
+      if (const double tool = position ? written[0].items[3].number : -1; tool >= 0)
+        numbers.insert(static_cast<int>(tool));
+    }
+    return numbers.empty() ? std::set<int>{0} : numbers;
+  }
+
+  /// Where the robot is: the last target.
+  struct Reached {
+    Position position;
+    Frame base;  ///< of a pose: of the tool in the robot's base frame
+  };
+
+  /// taught: gets the position that the tool is taught with, where it is known.
+  bool read_target(const Statement& statement, Instruction& move, std::optional<Position>& taught) {
+    const Expression* written = argument_of(statement, "");
+    if (!written) return run_->complain(statement.place, "moves to no position", "teach it"), false;
+    std::optional<Position> read = position(*written);
+    if (!read) return false;
+    if (statement.name == "imov") {
+      const bool known = relative(statement, *read, move);
+      if (known) taught = reached_->position;
+      return known;
+    }
+    taught = read;
+    Frame base;
+    if (read->pose()) {
+      const std::optional<NamedFrame> object =
+          read->type == "user" ? frame(false, read->user, written->place) : std::optional(NamedFrame{});
+      if (!object) return false;
+      base = object->frame * frame_of_fanuc(read->numbers);
+      if (!shift_onto(base, *written)) return false;
+      if (read->type == "user") move.work_object = run_->frame_index(run_->program().work_objects, *object);
+      move.target.pose = shift_ ? inverse(object->frame) * base : frame_of_fanuc(read->numbers);
+      move.target.configuration = configuration(*read, written->place);
+    } else if (!read->joints()) {
+      return run_->complain(written->place, fmt::format("moves to a position of the type {}", read->type),
+                            "teach it in pulses, BASE, ROBOT or USER"),
+             false;
+    } else if (shift_) {
+      return run_->miss(
+                 "SFTON", written->place,
+                 "shifts a position that is given in pulses (SFTON): where it lies is known only with the robot",
+                 "store the positions as BASE or USER (a relative job)"),
+             false;
+    } else if (!read_joints(*read, written->place, move.target.joints)) {
+      return false;
+    }
+    reached_ = {*read, base};
+    return true;
+  }
+
+  bool shift_onto(Frame& base, const Expression& written) {
+    if (!shift_) return true;
+    const auto by = position_in(shift_value_);
+    if (!by || by->numbers.size() < 6 || by->joints()) {
+      run_->ask_for(shift_value_, written.place, "is shifted by a position that is not known in mm",
+                    "give the job or VAR.DAT that holds it", position_form);
+      return false;
+    }
+    const auto moved = shifted(base, *by, shift_->second, written.place);
+    if (moved) base = *moved;
+    return moved.has_value();
+  }
+
+  /// IMOV P000 V=100.0 BF: on from where the robot is.
+  bool relative(const Statement& statement, const Position& by, Instruction& move) {
+    const Expression* system = argument_of(statement, "frame");
+    if (reached_ && by.joints() && reached_->position.type == by.type && !system) {
+      Position target = reached_->position;
+      for (std::size_t i = 0; i < std::min(target.numbers.size(), by.numbers.size()); ++i)
+        target.numbers[i] += by.numbers[i];
+      reached_->position = target;
+      return read_joints(target, statement.place, move.target.joints);
+    }
+    if (!reached_ || reached_->position.joints() || by.joints() || by.numbers.size() < 6)
+      return run_->complain(
+                 statement.place,
+                 reached_
+                     ? "moves on from joint angles by a way in space (IMOV): where that leads is known only "
+                       "with the robot"
+                     : "moves on from where the robot stands at the start (IMOV)",
+                 "store the position before it as BASE or USER"),
+             false;
+    const auto moved = shifted(reached_->base, by, system ? system->text : "", statement.place);
+    if (!moved) return false;
+    reached_->base = move.target.pose = *moved;
+    reached_->position.type = "base";
+    return true;
+  }
+
+  bool read_tool(const Statement& statement, const Position& position, Instruction& move) {
+    const bool free = statement.name == "movj" && position.joints() && move.zone.distance == 0;
+    const std::string name = fmt::format("TL#({})", position.tool);
+    const bool known = run_->variable(lower_case(name)) ||
+                       std::any_of(tools_.begin(), tools_.end(),
+                                   [&](const NamedFrame& t) { return same_word(t.name, name); });
+    if (free && !known) return true;  // axes alone
+    const auto tool = frame(true, position.tool, statement.place);
+    if (!tool) return false;
+    if (tool->stationary || tool->frame.position != Vector3::Zero() ||
+        !tool->frame.orientation.vec().isZero(0))
+      move.tool = run_->frame_index(run_->program().tools, *tool);
+    return true;
+  }
+
+  // ---- moves ------------------------------------------------------------------------------------------------------
+
+  void speed(const Statement& statement, Interpreter&) {
+    for (const char* option : {"vj", "v", "vr"})
+      if (const auto number = tag(statement, option)) default_speed_[option] = *number;
+  }
+
+  std::optional<double> speed_of(const Statement& statement, const char* option) {
+    if (argument_of(statement, option)) return tag(statement, option);
+    const auto found = default_speed_.find(option);
+    return found == default_speed_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  bool read_speed(const Statement& statement, Instruction& move) {
+    const bool axes = move.kind == Instruction::Kind::joint;
+    const char* option = axes ? "vj" : "v";
+    auto number = speed_of(statement, option);
+    if (!number && argument_of(statement, option)) return false;  // asked for
+    if (!axes && argument_of(statement, "vr")) number = std::nullopt;
+    std::optional<double> turn;
+    if (!axes) turn = speed_of(statement, "vr");
+    if (!number && !turn) {
+      if (const auto given = run_->given(option); given && given->is_number()) number = given->number;
+      if (!number)
+        return ask(option, statement.place,
+                   fmt::format("has no {}=, and no SPEED before it", axes ? "VJ" : "V"),
+                   fmt::format("give --value {}=NUMBER (motion.values), {}", option,
+                               axes ? "in %" : "in mm/s"),
+                   axes ? "a number, in %" : "a number, in mm/s"),
+               false;
+    }
+    if (number && !(*number > 0))
+      return run_->complain(statement.place, "has a speed that is not above 0", "mend the speed"), false;
+    if (axes) move.speed.axis_percent = std::min(*number, 100.0);
+    if (!axes && number) move.speed.tool = *number * unit_of_v(statement.place);
+    if (turn && *turn > 0) move.speed.orientation = *turn * degree;
+    return true;
+  }
+
+  /// V= counts mm/s as controllers are delivered; their setting may be cm/min.
+  double unit_of_v(const Place& place) {
+    const auto given = run_->given("speed_unit");
+    if (!given && !unit_reported_)
+      run_->note(
+          place,
+          "note: V= counts mm/s; where the controller counts cm/min give --value 'speed_unit=\"cm/min\"'");
+    unit_reported_ = true;
+    if (!given || given->text == "mm/s") return millimetre;
+    if (given->text == "cm/min") return 10 * millimetre / 60;
+    run_->complain(place, fmt::format("has '{}' as speed_unit", given->text), "give \"mm/s\" or \"cm/min\"");
+    return millimetre;
+  }
+
+  bool read_zone(const Statement& statement, Instruction& move) {
+    const auto radius = tag(statement, "cr"), level = tag(statement, "pl");
+    if ((!radius && argument_of(statement, "cr")) || (!level && argument_of(statement, "pl"))) return false;
+    constexpr double highest = std::size(position_levels) - 1;
+    if (level && !(*level >= 0 && *level <= highest))
+      return run_->complain(statement.place, fmt::format("has PL={} (0 .. 8)", *level),
+                            "mend the position level"),
+             false;
+    if (radius)
+      move.zone.distance = std::max(0.0, *radius) * millimetre;
+    else if (level)
+      move.zone.distance = position_levels[static_cast<int>(*level)];
+    else
+      move.zone.percent = 100;  // the next move begins while this one slows down
+    return true;
+  }
+
+  void move(const Statement& statement, Interpreter& run) {
+    if (!of_this_robot(statement, run)) return;
+    const std::string& name = statement.name;
+    Instruction move;
+    const bool spots = name == "svspotmov";
+    const bool axes = name == "movj" || (spots && argument_of(statement, "vj"));
+    move.kind = axes ? Instruction::Kind::joint : Instruction::Kind::linear;
+    for (const char* option : {"acc", "dec"})
+      if (const auto percent = tag(statement, option))
+        move.acceleration_percent = std::min(move.acceleration_percent, std::clamp(*percent, 1.0, 100.0));
+    const Expression* station = argument_of(statement, "station");
+    if (!argument_of(statement, "") && station)
+      return run.note(statement.place, statement.text + ": moves a station alone, not the robot", true);
+    std::optional<Position> taught;
+    const bool zone = read_zone(statement, move), speed = read_speed(statement, move);
+    bool whole = read_target(statement, move, taught) && zone && speed;
+    if (taught) whole &= read_tool(statement, *taught, move);
+    if (!whole) return;
+    externals(statement, run);
+    notes(statement, run);
+    if (name == "movc" || name == "smovc")
+      arc_points_[run.program().instructions.size()] = argument_of(statement, "fpt") != nullptr;
+    if (const Expression* target = argument_of(statement, ""))
+      move.origins.push_back({"target", shown(*target), run.where(run.origin(*target))});
+    run.emit(move, statement);
+    if (spots) weld(statement, run);
+  }
+
+  /// Jobs of another robot (RB2) and moves of two at once.
+  bool of_this_robot(const Statement& statement, Interpreter& run) {
+    const Routine* job = nullptr;
+    for (const Routine& routine : code_.routines)
+      if (routine.module == run.module()) job = &routine;
+    const bool two =
+        argument_of(statement, "other_robot") || (job && job->robot.find(',') != std::string::npos);
+    if (two) {
+      run.miss("two robots", statement.place, "moves two robots at once",
+               "give a job that moves one of them (///GROUP1 RB1)");
+      return false;
+    }
+    if (!job || job->robot.empty() || robot_.empty() || job->robot == robot_) return true;
+    run.note(statement.place,
+             fmt::format("{}: moves {}, another robot than {}", statement.text, job->robot, robot_), true);
+    return false;
+  }
+
+  /// Base and station axes: left out while they stay where they are.
+  void externals(const Statement& statement, Interpreter& run) {
+    for (const char* option : {"base", "station"}) {
+      const Expression* written = argument_of(statement, option);
+      if (!written) continue;
+      const auto at = position_in(run.evaluate(*written));
+      // A taught position repeats a standing axis within some pulses.
+      constexpr double same_place = 50;  // [pulses], and 0.05 mm or deg of what is not in pulses
+      const auto& before = externals_[option];
+      bool moved = !at || (!before.empty() && before.size() != at->numbers.size());
+      for (std::size_t i = 0; !moved && i < before.size(); ++i)
+        moved = std::abs(at->numbers[i] - before[i]) > (at->type == "pulse" ? same_place : same_place / 1000);
+      if (moved && !reported_.contains(option))
+        run.note(statement.place,
+                 fmt::format(
+                     "{}: {} axes move with the robot, and are left out: the {} is taken to stand still",
+                     statement.text, option, std::string_view(option) == "base" ? "robot's base" : "station"),
+                 true);
+      if (moved) reported_.insert(option);
+      if (at && before.empty()) externals_[option] = at->numbers;
+    }
+  }
+
+  void notes(const Statement& statement, Interpreter& run) {
+    if (statement.name == "movs") run.note(statement.place, "MOVS: a spline, read as straight lines", true);
+    if (statement.name.starts_with("smov"))
+      run.note(statement.place,
+               statement.text + ": the station turns the work meanwhile; it is taken to stand still", true);
+    if (argument_of(statement, "until"))
+      run.note(statement.place, statement.text + ": an input may end the move; it is taken to its end", true);
+    for (const Expression& argument : statement.arguments)
+      if (argument.option == "unknown")
+        run.note(statement.place,
+                 fmt::format("{}: what {} does to the move is not read", statement.text, argument.text),
+                 true);
+  }
+
+  void wait(const Statement& statement, Interpreter& run) {
+    if (statement.arguments.empty()) return;
+    const Expression& written = statement.arguments[0];
+    const auto number = needed(written, "time");
+    if (!number || !(*number > 0)) return;
+    Instruction wait;
+    wait.kind = Instruction::Kind::dwell;
+    wait.dwell = *number * (written.kind == Expression::Kind::number ? 1 : unit_of_variable("t"));
+    run.emit(wait, statement);
+  }
+
+  void spot(const Statement& statement, Interpreter& run) { weld(statement, run); }
+  static void weld(const Statement& statement, Interpreter& run) {
+    Instruction weld;
+    weld.kind = Instruction::Kind::dwell;
+    weld.dwell = run.options().spot_time;
+    if (weld.dwell > 0) run.emit(weld, statement);
+  }
+
+  void start_beside(const Statement& statement, Interpreter& run) {
+    const std::string job = statement.arguments.empty() ? "" : statement.arguments[0].text;
+    run.note(statement.place,
+             fmt::format("{}: runs beside this job, and is left out; --routine {} reads it alone",
+                         statement.text, job.substr(std::min<std::size_t>(job.find(':') + 1, job.size()))),
+             true);
+    run.forget_numbers(fmt::format("may be written by {}, which runs beside", statement.text));
+  }
+
+  // ---- variables --------------------------------------------------------------------------------------------------
+
+  /// CLEAR B003 10: from there on so many; ALL: up to the last one that is used.
+  void clear(const Statement& statement, Interpreter& run) {
+    const auto& given = statement.arguments;
+    if (given.empty() || given[0].kind != Expression::Kind::name || given[0].text == "stack") return;
+    const std::string& first = given[0].text;
+    const std::size_t digits = std::min(first.find_first_of("0123456789"), first.size());
+    if (digits == first.size()) return;
+    constexpr int every = 1000;  // numbers of names
+    const auto number =
+        given.size() > 1 && given[1].text != "all" ? run.number(given[1]) : std::optional<double>(every);
+    const int from = std::atoi(first.c_str() + digits);
+    const int count = static_cast<int>(std::clamp(number.value_or(1), 1.0, static_cast<double>(every)));
+    for (int i = from; i < from + count && i < every; ++i)
+      run.assign(name_at(fmt::format("{}{:03}", first.substr(0, digits), i), statement.place),
+                 number_value(0));
+  }
+
+  /// What no assignment says: arithmetic of positions, one of their numbers (SETE), variables by an index.
+  void calculate(const Statement& statement, Interpreter& run) {
+    const auto& given = statement.arguments;
+    if (given.empty()) return;
+    Expression target = given[0];
+    if (target.kind == Expression::Kind::call) {
+      const auto index = target.items.size() == 1 ? run.number(target.items[0]) : std::nullopt;
+      if (!index)
+        return run.complain(statement.place,
+                            "writes to a variable whose number is known only while the robot runs",
+                            "write its number");
+      target = name_at(indexed(target.text, *index), statement.place);
+    }
+    const Value with = given.size() > 1 ? run.evaluate(given.back()) : number_value(1);
+    if (statement.name == "set") return run.assign(target, with);
+    Value value = run.evaluate(target);
+    const bool list = value.kind == Value::Kind::list && value.items.size() == 5;
+    if (statement.name == "sete") {
+      std::optional<double> which;
+      if (given.size() == 3) which = run.number(given[1]);
+      const auto read = position_in(value);
+      if (!which || !read || !with.is_number() || *which < 1 ||
+          *which > static_cast<double>(read->numbers.size()))
+        return run.make_unknown(
+            target, {"", fmt::format("is set in part by SETE ({})", run.short_place(statement.place))});
+      const double unit = read->type == "pulse" ? 1 : *which <= 3 ? 1e-3 : 1e-4;  // of 0.001 mm, 0.0001 deg
+      value.items[0].items[static_cast<std::size_t>(*which) - 1] = number_value(with.number * unit);
+      return run.assign(target, std::move(value));
+    }
+    const auto combined = [&](double a, double b) {
+      return statement.name == "sub" || statement.name == "dec" ? a - b
+             : statement.name == "mul"                          ? a * b
+             : statement.name == "div"                          ? a / b
+                                                                : a + b;
+    };
+    const Value* by =
+        list && with.kind == Value::Kind::list && with.items.size() == 5 ? &with.items[0] : nullptr;
+    if (list && (by || with.is_number()) && value.known() && with.known()) {
+      auto& numbers = value.items[0].items;
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        numbers[i].number = combined(numbers[i].number, !by                    ? with.number
+                                                        : i < by->items.size() ? by->items[i].number
+                                                                               : 0);
+    } else if (value.is_number() && with.is_number()) {
+      value.number = combined(value.number, with.number);
+    } else {
+      value = unknown_value(value.known() ? with : value);
+    }
+    const bool finite = value.kind == Value::Kind::unknown ||
+                        (value.is_number() && std::isfinite(value.number)) ||
+                        (list && std::all_of(value.items[0].items.begin(), value.items[0].items.end(),
+                                             [](const Value& v) { return std::isfinite(v.number); }));
+    run.assign(target, finite ? std::move(value) : Value{});
+  }
+
+  const Code& code_;
+  const std::vector<NamedFrame>& tools_;
+  const std::vector<NamedFrame>& frames_;
+  const std::string robot_;
+  Interpreter* run_ = nullptr;
+  std::map<std::string, double> default_speed_;
+  std::optional<std::pair<Expression, std::string>> shift_;  // of SFTON, and its coordinate system
+  Value shift_value_;
+  std::optional<Reached> reached_;
+  std::map<std::size_t, bool> arc_points_;
+  std::map<std::string, std::vector<double>> externals_;  // where base and station stand
+  std::set<std::string> reported_;
+  bool unit_reported_ = false, flip_reported_ = false;
+};
+
+/// MOVC: the first of some leads straight to where the circle begins, each further one along the circle through it
+/// and its neighbours: (k-1, k, k+1) for the second, (k-2, k-1, k) for all behind it. FPT ends a circle.
+void bend_arcs(const std::map<std::size_t, bool>& points, Program& program, Problems& problems) {
+  auto& moves = program.instructions;
+  for (auto first = points.begin(); first != points.end();) {
+    auto last = first;
+    while (!last->second && std::next(last) != points.end() && std::next(last)->first == last->first + 1)
+      ++last;
+    const std::size_t begin = first->first, end = std::min(last->first + 1, moves.size());
+    const bool joined =
+        first != points.begin() && std::prev(first)->second && std::prev(first)->first + 1 == begin;
+    const std::size_t start =
+        joined ? begin - 1 : begin;  // FPT: the circle before ends where this one begins
+    first = std::next(last);
+    if (end <= start) continue;
+    if (end - start < 3) {
+      program.skipped.push_back(
+          {moves[start].where, "MOVC: fewer than three points of a circle: read as straight lines", true});
+      continue;
+    }
+    for (std::size_t k = start + 1; k < end; ++k) {
+      const std::size_t third = k == start + 1 ? k + 1 : k - 2;
+      Instruction& move = moves[k];
+      const Instruction &before = moves[k - 1], &other = moves[third];
+      const bool poses =
+          move.target.joints.empty() && before.target.joints.empty() && other.target.joints.empty();
+      const bool axes =
+          !move.target.joints.empty() && !before.target.joints.empty() && !other.target.joints.empty();
+      const bool together = move.tool == before.tool && move.tool == other.tool &&
+                            move.work_object == before.work_object && move.work_object == other.work_object;
+      if (!(poses || axes) || !together) {
+        problems.add(move.where, "has a MOVC through positions of several kinds, tools or frames",
+                     "store the positions of one circle in pulses, BASE or USER, with one tool");
+        return;
+      }
+      if (axes) {
+        move.kind = Instruction::Kind::circular;
+        move.target.circle_joints = other.target.joints;
+        continue;
+      }
+      const Vector3 a = before.target.pose.position, b = move.target.pose.position,
+                    c = other.target.pose.position;
+      const auto arc = krl::arc_through(a, b, c);  // from a over b on to c: c does not lie between a and b
+      if (!arc) continue;                          // on a line: straight
+      const Vector3 from = a - arc->centre;
+      double angle = std::atan2(arc->axis.dot(from.cross(b - arc->centre)), from.dot(b - arc->centre));
+      if (angle <= 0) angle += 2 * std::numbers::pi;
+      move.kind = Instruction::Kind::circular;
+      move.via = move.target.pose;
+      move.via.position = arc->centre + Quaternion(Eigen::AngleAxisd(angle / 2, arc->axis)) * from;
+    }
+  }
+}
+
+/// The job to start with: the one that is asked for, else that of the first file.
+const Routine* start_of(const Code& code) {
+  for (const Routine& routine : code.routines)
+    if (code.start.empty() ? routine.place.file == 0 : routine.name == "job:" + code.start) return &routine;
+  return nullptr;
+}
+
+}  // namespace
+
+void run_inform(const Code& code, const ImportOptions& options, const std::vector<NamedFrame>& tools,
+                const std::vector<NamedFrame>& work_objects, Program& program, Problems& problems) {
+  const Routine* start = start_of(code);
+  if (!start && code.start.empty() && !code.problems.empty()) {
+    const Problem& why = code.problems[0];
+    return problems.add(why.where, why.what, why.remedy);
+  }
+  if (!start) {
+    std::string names;
+    for (const Routine& routine : code.routines)
+      if (names.size() < 1000) names += (names.empty() ? "" : ", ") + routine.written;
+    problems.add({code.files[0].name(), 1, 1},
+                 options.routine.empty() ? std::string("holds no job")
+                                         : fmt::format("has no job '{}'", options.routine),
+                 names.empty() ? "give a job (.JBI)" : fmt::format("name one of: {}", names));
+    return;
+  }
+  explore(
+      [&](Exploration& exploration, Program& made, Problems& found) {
+        Inform inform(code, tools, work_objects, *start);
+        Interpreter interpreter(code, inform, options, made, found, exploration);
+        inform.attach(interpreter);
+        interpreter.run(*start);
+        if (found.empty()) bend_arcs(inform.arc_points(), made, found);
+      },
+      program, problems);
+}
+
+}  // namespace dresslife::sim

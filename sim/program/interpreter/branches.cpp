@@ -1,0 +1,228 @@
+// Branches: which arm, or whom to ask.
+#include <algorithm>
+
+#include "sim/program/interpreter/interpreter.h"
+#include "sim/program/interpreter/tokens.h"
+
+namespace dresslife::sim {
+namespace {
+
+using Kind = Statement::Kind;
+
+}  // namespace
+
+/// The user's answer for a line, under any of its names.
+template <class Answers>
+const typename Answers::mapped_type* Interpreter::answer(const Answers& answers, const Place& place) {
+  if (answers.empty()) return nullptr;
+  const std::string& file = code_.files[place.file].name();
+  for (const std::string& key :
+       {fmt::format("{}:{}", file, place.line), fmt::format("{}", place.line), short_place(place)})
+    if (const auto found = answers.find(key); found != answers.end()) {
+      used_assumptions_.insert(key);
+      return &found->second;
+    }
+  return nullptr;
+}
+
+std::optional<bool> Interpreter::assumed(const Place& place) {
+  const Assumption* found = answer(options_.assume, place);
+  return found ? std::optional(*found == Assumption::then_branch) : std::nullopt;
+}
+
+/// Whether a condition compares what is unknown with what the program knows and changes: a counter.
+bool Interpreter::compares_known(const Expression& condition) {
+  if (condition.kind == Expression::Kind::name || condition.kind == Expression::Kind::element ||
+      condition.kind == Expression::Kind::field) {
+    const Variable* variable = base_of(condition);
+    return variable && !is_constant(*variable) && variable->assigned && evaluate(condition).known();
+  }
+  return condition.kind != Expression::Kind::call &&
+         std::any_of(condition.items.begin(), condition.items.end(),
+                     [&](const Expression& item) { return compares_known(item); });
+}
+
+namespace {
+
+/// How the value `asked` is written that stands in a condition: as the value that it is compared with. Empty: not
+/// known.
+std::string form_within(const Expression& condition, const std::string& asked) {
+  using Is = Expression::Kind;
+  if (condition.kind == Is::call) return lower_case(asked).starts_with(condition.text) ? "TRUE or FALSE" : "";
+  const auto plain = [](const Expression& e) { return e.kind == Is::name || e.kind == Is::element || e.kind == Is::field; };
+  const bool joins = condition.text == "and" || condition.text == "or" || condition.text == "not";
+  if (plain(condition)) return "TRUE or FALSE";
+  if (condition.kind == Is::unary && joins) return form_within(condition.items[0], asked);
+  if (condition.kind != Is::binary) return "";
+  if (joins) {
+    const std::string first = form_within(condition.items[0], asked);
+    const std::string second = form_within(condition.items[1], asked);
+    return first == second ? first : "";
+  }
+  for (const Expression& side : condition.items) {
+    if (side.kind == Is::truth) return "TRUE or FALSE";
+    if (side.kind == Is::text) return "a text in double quotes";
+    if (side.kind == Is::number) return "a number";
+  }
+  return "";
+}
+
+/// "one of 1, 2, 5".
+std::string form_of_cases(const Interpreter& run, const Statement& choice) {
+  std::string values;
+  for (const Branch& branch : choice.branches)
+    for (const Expression& value : branch.conditions) {
+      std::string written = run.written(value);
+      written.resize(written.find_last_not_of(": ") + 1);  // RAPID writes CASE 1:
+      values += (values.empty() ? "" : ", ") + written;
+    }
+  return values.empty() ? "" : "one of " + values;
+}
+
+}  // namespace
+
+/// Asks for the one name that decides it, or which way the statement goes; and goes on along one of the ways.
+int Interpreter::ask(const Place& place, const std::string& what, const Value& unknown,
+                     const std::string& answers, int ways, bool by_value, const std::string& form) {
+  const std::string line = short_place(place);
+  const std::vector<const Cause*> causes = unknown.causes();
+  std::string values;
+  for (const Cause* cause : causes)
+    if (!cause->asked().empty())
+      values += fmt::format("{}--value '{}=...'", values.empty() ? "" : " ", cause->asked());
+  const std::string about = values.empty() ? where(place).text() : answers + values;
+  for (const Cause* cause : causes)
+    if (cause->behind) values += fmt::format(", or --assume {}=then or =else", cause->line);
+  std::vector<Question> questions = questions_for(unknown, form);
+  if (questions.empty() || (questions.size() > 1 && ways == 2) || !by_value)
+    questions = {{Question::Kind::branch, line, ways == 2 ? "then or else" : form.empty() ? answers : form}};
+  for (const Question& question : questions) exploration_.meet_question(question.name);
+  Problem problem{.where = where(place),
+                  .what = what + because(unknown),
+                  .remedy = fmt::format("choose with --assume {}={} (motion.assume in a job){}", line, answers,
+                                        values.empty() ? "" : fmt::format(", or give {} (motion.values)", values))};
+  problem.about = about;
+  problem.decision = true;
+  problem.routine = routine_at(place);
+  problem.questions = std::move(questions);
+  problem.certain = !exploration_.guessing();
+  problems_.add_use(std::move(problem));
+  return guess(place, ways);
+}
+
+int Interpreter::guess(const Place& place, int ways) {
+  if (guessed_at_ < 0) guessed_at_ = executed_;
+  return exploration_.choose(fmt::format("{}:{}", place.file, place.line), ways);
+}
+
+Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
+  for (const Branch& branch : statement.branches) {
+    if (branch.conditions.empty()) return execute(branch.body);
+    std::optional<bool> decision = assumed(branch.place);
+    Value condition;
+    const std::size_t problems = problem_count();
+    if (!decision) {
+      condition = evaluate(branch.conditions[0]);
+      if (condition.kind == Value::Kind::truth || condition.is_number()) decision = condition.number != 0;
+    }
+    if (!decision) {
+      if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
+        return leave_out(statement, condition);
+      if (const Branch* way = waited_for(statement)) return go_on(*way, condition);
+      const Cause* cause = condition.first_cause();
+      decision = problem_count() != problems  // the reason is reported
+                     ? guess(branch.place, 2) == 0
+                     : ask(branch.place, "branches on what is known only while the robot runs", condition,
+                           "then or =else", 2, true,
+                           form_within(branch.conditions[0], cause ? cause->asked() : "")) == 0;
+    }
+    if (*decision) return execute(branch.body);
+  }
+  return Flow::next;
+}
+
+Interpreter::Flow Interpreter::run_choice(const Statement& statement) {
+  const Expression* chosen = answer(code_.choices, statement.place);
+  const Value subject = evaluate(chosen ? *chosen : statement.arguments[0]);
+  for (const Branch& branch : statement.branches) {
+    if (branch.conditions.empty()) return execute(branch.body);
+    const std::optional<bool> decision = assumed(branch.place);
+    if (decision ? *decision : false) return execute(branch.body);
+    if (decision) continue;
+    for (const Expression& condition : branch.conditions) {
+      const Value value = evaluate(condition);
+      if (!subject.known() || !value.known()) {
+        const Value& unknown = subject.known() ? value : subject;
+        if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
+          return leave_out(statement, unknown);
+        if (const Branch* way = waited_for(statement)) return go_on(*way, unknown);
+        const int ways = static_cast<int>(statement.branches.size());
+        const int way = ask(statement.place, "chooses by what is known only while the robot runs", unknown,
+                            "VALUE, the value that it then has", ways + 1, true, form_of_cases(*this, statement));
+        return way < ways ? execute(statement.branches[way].body) : Flow::next;
+      }
+      if (value == subject) return execute(branch.body);
+    }
+  }
+  return Flow::next;
+}
+
+/// An undecided branch that does not move the robot: nothing but its variables becomes unknown.
+Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value& unknown) {
+  const std::string line = short_place(statement.place);
+  const std::shared_ptr<const Cause> cause = unknown_value(unknown).cause;
+  ++quiet_;  // an index that the branch would not meet
+  const bool waits = std::any_of(statement.branches.begin(), statement.branches.end(),
+                                 [&](const Branch& branch) { return only_waits(branch.body); });
+  note(statement.place,
+       fmt::format("branch {}{}: known only while the robot runs", waits ? "that waits" : "without moves",
+                   cause ? fmt::format(" on '{}'", cause->name) : ""));
+  // One name decides it, or the branch itself is asked for.
+  const bool alone = cause && cause->others.empty();
+  Cause why{"", "depends on the branch in " + line, line,
+            alone && cause->behind ? cause->behind
+            : alone                ? cause
+                                   : nullptr};
+  if (!why.behind || why.behind->name.empty()) why.behind = nullptr;
+  std::set<const Routine*> done;
+  if (statement.kind == Kind::count && statement.keeps_counter) make_unknown(counter_of(statement), why);
+  for (const Branch& branch : statement.branches) forget_assigned(branch.body, why, done);
+  const bool goes = leaves(statement, false);
+  // What follows in the routine may run or not, and moves nothing either (see matters()).
+  if (goes) forget_assigned(routines_.back()->body, why, done);
+  --quiet_;
+  if (!goes) return Flow::next;
+  result_ = Value{};
+  result_.cause = std::make_shared<const Cause>(std::move(why));
+  return Flow::give_back;
+}
+
+/// The one arm of an undecided statement that moves the robot, in an endless loop that does nothing else: the
+/// loop waits for it, as WaitUntil would. Null: how it goes makes another motion.
+const Branch* Interpreter::waited_for(const Statement& statement) {
+  if (endless_.empty()) return nullptr;
+  const std::vector<Statement>& round = *endless_.back();
+  if (&statement < round.data() || &statement >= round.data() + round.size()) return nullptr;
+  for (const Statement& other : round)
+    if (&other != &statement && !changes_nothing(other, module_)) return nullptr;
+  const Branch* way = nullptr;
+  for (const Branch& branch : statement.branches) {
+    for (const Expression& condition : branch.conditions)
+      if (moves(condition, module_)) return nullptr;
+    if (changes_nothing(branch.body, module_)) continue;
+    if (way || branch.conditions.empty()) return nullptr;
+    way = &branch;
+  }
+  if (!way || statement.kind != Kind::branch) return way;
+  const Value condition = evaluate(way->conditions[0]);
+  return condition.kind == Value::Kind::truth && condition.number == 0 ? nullptr : way;  // it never comes
+}
+
+Interpreter::Flow Interpreter::go_on(const Branch& way, const Value& unknown) {
+  const Cause* cause = unknown.first_cause();
+  note(way.place, fmt::format("the robot waits{} (its loop makes no other move), and the way on is taken",
+                              cause && !cause->name.empty() ? fmt::format(" for '{}'", cause->name) : ""));
+  return execute(way.body);
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,63 @@
+#include "sim/program/interpreter/code.h"
+
+namespace dresslife::sim {
+
+Expression name_at(const std::string& name, const Place& place) {
+  Expression e;
+  e.kind = Expression::Kind::name;
+  e.text = name;
+  e.place = place;
+  return e;
+}
+
+void Code::index() {
+  local_.assign(modules.size(), {});
+  for (const Routine& routine : routines)
+    (routine.local && routine.module >= 0 ? local_[routine.module] : global_)[routine.name].push_back(
+        &routine);
+}
+
+const Routine* Code::find(const std::string& name, int module) const {
+  if (module >= 0 && module < static_cast<int>(local_.size()))
+    if (const auto found = local_[module].find(name); found != local_[module].end())
+      return found->second.front();
+  const auto found = global_.find(name);
+  return found == global_.end() ? nullptr : found->second.front();
+}
+
+const Routine* Code::find_in(const std::string& module, const std::string& name) const {
+  for (const Routine& routine : routines)
+    if (routine.name == name && routine.module >= 0 && modules[routine.module].name == module)
+      return &routine;
+  return nullptr;
+}
+
+const Code::Scope& Code::scope_of(const Routine& routine) const {
+  return routine.local && routine.module >= 0 ? local_[routine.module] : global_;
+}
+
+const Routine* Code::rival(const Routine& routine) const {
+  const Scope& scope = scope_of(routine);
+  const auto found = scope.find(routine.name);
+  if (found == scope.end() || found->second.size() < 2) return nullptr;
+  return found->second[found->second[0] == &routine];
+}
+
+const RecordType* Code::record(const std::string& name) const {
+  for (const RecordType& type : records)
+    if (type.name == name) return &type;
+  return nullptr;
+}
+
+void Code::sort_problems(int file, const Problems& found) {
+  for (const Problem& problem : found.list()) {
+    Routine* holder = nullptr;
+    for (Routine& routine : routines)
+      if (routine.place.file == file && routine.place.line <= problem.where.line &&
+          problem.where.line <= routine.last_line)
+        holder = &routine;
+    (holder ? holder->problems : problems).push_back(problem);
+  }
+}
+
+}  // namespace dresslife::sim

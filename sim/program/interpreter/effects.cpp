@@ -1,0 +1,183 @@
+// Possible effects of statements on the robot and on data, found without running them.
+#include <algorithm>
+#include <utility>
+
+#include "sim/program/interpreter/interpreter.h"
+
+namespace dresslife::sim {
+namespace {
+
+using Kind = Statement::Kind;
+
+}  // namespace
+
+/// A function of the program may move the robot before it gives back its value.
+bool Interpreter::moves(const Expression& expression, int module) {
+  const Routine* called =
+      expression.kind == Expression::Kind::call ? code_.find(expression.text, module) : nullptr;
+  return (called && moves(*called)) ||
+         std::any_of(expression.items.begin(), expression.items.end(),
+                     [&](const Expression& item) { return moves(item, module); });
+}
+
+bool Interpreter::moves(const Statement& statement, int module) {
+  const auto in_any = [&](const std::vector<Expression>& expressions) {
+    return std::any_of(expressions.begin(), expressions.end(),
+                       [&](const Expression& expression) { return moves(expression, module); });
+  };
+  if (in_any(statement.arguments)) return true;
+  if (statement.kind == Kind::instruction) {
+    const Routine* routine = code_.find(statement.name, module);
+    if (routine ? moves(*routine) : statement.name == late_binding || dialect_.matters(statement.name))
+      return true;
+  }
+  return std::any_of(statement.branches.begin(), statement.branches.end(), [&](const Branch& branch) {
+    return in_any(branch.conditions) ||
+           std::any_of(branch.body.begin(), branch.body.end(),
+                       [&](const Statement& inner) { return moves(inner, module); });
+  });
+}
+
+bool Interpreter::moves(const Routine& routine) {
+  const auto [known, is_new] = routine_moves_.emplace(&routine, false);  // a recursion adds nothing
+  if (is_new)
+    known->second = std::any_of(routine.body.begin(), routine.body.end(),
+                                [&](const Statement& inner) { return moves(inner, routine.module); });
+  return known->second;
+}
+
+/// Whether it makes a difference to the motion how an undecided statement goes: it moves the robot, or it
+/// leaves a loop, jumps or returns in a routine that does. A branch that ends the program is none of its
+/// cycle.
+bool Interpreter::matters(const Statement& statement) {
+  return moves(statement, module_) || (leaves(statement, false) && moves(*routines_.back()));
+}
+
+/// Somewhere in it time passes, and nothing moves.
+bool Interpreter::only_waits(const std::vector<Statement>& body) const {
+  return std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
+    return (statement.kind == Kind::instruction && dialect_.only_waits(statement.name)) ||
+           std::any_of(statement.branches.begin(), statement.branches.end(),
+                       [&](const Branch& branch) { return only_waits(branch.body); });
+  });
+}
+
+/// However often it runs, the robot stands and the program's data are as before, but for what an instruction
+/// of input writes.
+bool Interpreter::changes_nothing(const Statement& statement, int module, int depth) {
+  constexpr int deepest = 4;  // calls
+  charge(1);
+  if (depth > deepest || moves(statement, module) || leaves(statement, false)) return false;
+  switch (statement.kind) {
+    case Kind::assign: {  // KRL's outputs
+      const std::string& name = base_name(statement.arguments[0]);
+      const Expression::Kind value = statement.arguments[1].kind;
+      return (name == "$out" || name == "$anout") &&
+             (value == Expression::Kind::truth || value == Expression::Kind::number);
+    }
+    case Kind::count:
+    case Kind::finish:
+    case Kind::end_cycle:
+    case Kind::label:
+      return false;
+    case Kind::instruction: {
+      const Routine* routine = code_.find(statement.name, module);
+      return routine ? changes_nothing(routine->body, routine->module, depth + 1)
+                     : dialect_.only_waits(statement.name) || dialect_.harmless(statement.name);
+    }
+    default:
+      return std::all_of(statement.branches.begin(), statement.branches.end(),
+                         [&](const Branch& branch) { return changes_nothing(branch.body, module, depth); });
+  }
+}
+
+bool Interpreter::changes_nothing(const std::vector<Statement>& body, int module, int depth) {
+  return std::all_of(body.begin(), body.end(),
+                     [&](const Statement& statement) { return changes_nothing(statement, module, depth); });
+}
+
+/// A handler runs on an error alone. Its possible moves are reported once.
+void Interpreter::report_handler(const Routine& routine) {
+  if (routine.handler_words.empty() || !reported_handlers_.insert(&routine).second) return;
+  const bool may_move =
+      std::any_of(routine.handler_words.begin(), routine.handler_words.end(), [&](const std::string& word) {
+        const Routine* called = code_.find(word, routine.module);
+        return called ? moves(*called) : dialect_.matters(word);
+      });
+  if (may_move)
+    note(routine.handler,
+         routine.written + ": its handler of errors moves the robot; errors are taken not to happen");
+}
+
+/// All that the statements may write to is unknown from here on.
+void Interpreter::forget_assigned(const std::vector<Statement>& body, const Cause& why,
+                                  std::set<const Routine*>& done) {
+  for (const Statement& statement : body) {
+    charge(1);
+    if (statement.kind == Kind::assign) make_unknown(statement.arguments[0], why);
+    if (statement.kind == Kind::count && statement.keeps_counter) make_unknown(counter_of(statement), why);
+    if (statement.kind == Kind::instruction) {
+      dialect_.may_have_run(statement, why, *this);
+      forget_written(statement, why, done);
+    }
+    for (const Branch& branch : statement.branches) forget_assigned(branch.body, why, done);
+  }
+}
+
+void Interpreter::forget_writes_of(const Statement& call, int module, const std::string& why) {
+  std::set<const Routine*> done;
+  const int here = std::exchange(module_, module);
+  forget_written(call, {"", why}, done);
+  module_ = here;
+}
+
+/// Of a call: what the routine assigns to data outside of it, and the arguments that it gives back.
+void Interpreter::forget_written(const Statement& statement, const Cause& why,
+                                 std::set<const Routine*>& done) {
+  const Routine* routine = code_.find(statement.name, module_);
+  std::size_t position = 0;
+  for (const Expression& argument : statement.arguments) {
+    const int at = static_cast<int>(position);
+    const Parameter* parameter = routine ? parameter_of(*routine, argument, position) : nullptr;
+    if (!routine && argument.option.empty()) ++position;
+    const bool written = routine
+                             ? parameter && parameter->given_back
+                             : dialect_.writes(statement.name, argument.option.empty() ? at : -1, argument);
+    if (written) make_unknown(argument, why);
+  }
+  if (!routine || !done.insert(routine).second) return;
+  Scope own;  // names of the routine hide those outside
+  for (const Parameter& parameter : routine->parameters) own[parameter.name].state = Variable::State::ready;
+  for (const Statement& inner : routine->body)
+    if (inner.kind == Kind::declare) own[inner.name].state = Variable::State::ready;
+  const int module = std::exchange(module_, routine->module);
+  locals_.push_back(std::move(own));
+  forget_assigned(routine->body, why, done);
+  locals_.pop_back();
+  module_ = module;
+}
+
+/// Whether a statement may go elsewhere than behind itself, within the program.
+bool Interpreter::leaves(const Statement& statement, bool in_loop) const {
+  if (statement.kind == Kind::give_back || statement.kind == Kind::jump) return true;
+  if (statement.kind == Kind::leave_loop) return !in_loop;
+  const bool loop = in_loop || (statement.kind != Kind::branch && statement.kind != Kind::choose);
+  return std::any_of(statement.branches.begin(), statement.branches.end(), [&](const Branch& branch) {
+    return std::any_of(branch.body.begin(), branch.body.end(),
+                       [&](const Statement& inner) { return leaves(inner, loop); });
+  });
+}
+
+bool Interpreter::holds_loop_exit(const std::vector<Statement>& body) const {
+  for (const Statement& statement : body) {
+    if (statement.kind == Kind::leave_loop || statement.kind == Kind::give_back ||
+        statement.kind == Kind::jump || statement.kind == Kind::finish || statement.kind == Kind::end_cycle)
+      return true;
+    if (statement.kind != Kind::branch && statement.kind != Kind::choose) continue;
+    for (const Branch& branch : statement.branches)
+      if (holds_loop_exit(branch.body)) return true;
+  }
+  return false;
+}
+
+}  // namespace dresslife::sim

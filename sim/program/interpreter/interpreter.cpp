@@ -1,0 +1,255 @@
+// Statement after statement, with notes on them. Other members: branches.cpp, loops.cpp, calls.cpp,
+// effects.cpp; expressions: evaluation.cpp.
+#include "sim/program/interpreter/interpreter.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace dresslife::sim {
+namespace {
+
+using Kind = Statement::Kind;
+
+constexpr int stack_depth = 1200;  // of execute() and evaluate() in each other; a frame is below 1 kB
+
+}  // namespace
+
+struct Interpreter::Deeper {
+  Deeper(Interpreter& run, const Place& place) : run_(run) {
+    if (++run_.depth_ <= stack_depth) return;
+    --run_.depth_;
+    run_.complain(place, "is nested too deeply, routines included", "write it simpler");
+    throw Stop{};
+  }
+  ~Deeper() { --run_.depth_; }
+  Interpreter& run_;
+};
+
+Interpreter::Interpreter(const Code& code, Dialect& dialect, const ImportOptions& options, Program& program,
+                         Problems& problems, Exploration& exploration)
+    : code_(code),
+      dialect_(dialect),
+      options_(options),
+      program_(program),
+      problems_(problems),
+      exploration_(exploration) {}
+
+void Interpreter::run(const Routine& routine) {
+  try {
+    index_data();
+    for (const Datum& datum : code_.data) {  // of a KRL data list; declarations wait until they are used
+      if (datum.statement.kind != Kind::assign) continue;
+      module_ = datum.module;
+      assign(datum.statement.arguments[0], evaluate(datum.statement.arguments[1]));
+    }
+    module_ = -1;
+    locals_.emplace_back();
+    start(routine);
+  } catch (const Stop&) {
+  } catch (const EndOfCycle&) {  // of what is not run again
+  }
+  exploration_.spend(executed_);
+  for (const auto& [line, assumption] : options_.assume)
+    if (!used_assumptions_.contains(line))
+      note(routine.place, fmt::format("--assume {}: no branch on that line was to be decided", line), true);
+  for (const auto& [name, expression] : code_.values)
+    if (!used_values_.contains(name))
+      note(expression.place, fmt::format("--value {}: nothing in the program asked for it", name), true);
+}
+
+void Interpreter::start(const Routine& routine) {
+  program_.start = where(routine.place);
+  if (const Routine* rival = rival_of(routine))
+    complain(
+        routine.place,
+        fmt::format("holds '{}', which stands in {} as well", routine.written, where(rival->place).text()),
+        "leave one of the two out");
+  const auto needed = [](const Parameter& parameter) { return !parameter.option; };
+  const auto count = std::count_if(routine.parameters.begin(), routine.parameters.end(), needed);
+  if (static_cast<long>(code_.start_arguments.size()) < count) {
+    std::string names;
+    for (const Parameter& parameter : routine.parameters)
+      if (needed(parameter)) names += (names.empty() ? "" : ", ") + parameter.name;
+    complain(routine.place, fmt::format("'{}' takes {} arguments: {}", routine.written, count, names),
+             fmt::format("give them: --routine '{}({})' with their values (motion.routine)", routine.written,
+                         names));
+    return;
+  }
+  started_ = &routine;
+  within_itself_.emplace(program_.instructions);
+  if (dialect_.begins_again(routine) && code_.start_arguments.empty())
+    run_cycles(routine);
+  else
+    call(routine, code_.start_arguments, routine.place);
+}
+
+pipeline::Where Interpreter::where(const Place& place) const {
+  return {code_.files[place.file].name(), place.line, place.column};
+}
+
+/// The routine that holds the line; empty: none.
+std::string Interpreter::routine_at(const Place& place) const {
+  for (const Routine& routine : code_.routines)
+    if (routine.place.file == place.file && routine.place.line <= place.line &&
+        place.line <= routine.last_line)
+      return routine.written;
+  return "";
+}
+
+void Interpreter::complain(const Place& place, const std::string& what, const std::string& remedy) {
+  if (quiet_ > 0 || exploration_.guessing())
+    ++dropped_;
+  else
+    problems_.add(where(place), what, remedy, routine_at(place));
+}
+
+void Interpreter::miss(const std::string& name, const Place& place, const std::string& what,
+                       const std::string& remedy, std::vector<Question> questions) {
+  if (questions.empty() && exploration_.guessing()) {
+    ++dropped_;
+    return;
+  }
+  for (const Question& question : questions) exploration_.meet_question(question.name);
+  Problem problem{.where = where(place), .what = what, .remedy = remedy};
+  problem.about = name;
+  problem.routine = routine_at(place);
+  problem.questions = std::move(questions);
+  problem.certain = !exploration_.guessing();
+  problems_.add_use(std::move(problem));
+}
+
+void Interpreter::ask_for(const Value& unknown, const Place& place, const std::string& what,
+                          const std::string& remedy, const std::string& form) {
+  const std::vector<Question> questions = questions_for(unknown, form);
+  if (questions.empty())
+    return complain(place, what + because(unknown), remedy.empty() ? "write it as a constant" : remedy);
+  std::string names;
+  for (const Question& question : questions) names += question.name + " ";
+  miss(names, place, what + because(unknown),
+       fmt::format("{}{}give {} (motion.values)", remedy, remedy.empty() ? "" : ", or ", remedy_for(unknown)), questions);
+}
+
+void Interpreter::note(const Place& place, const std::string& what, bool may_move) {
+  if (program_.skipped.size() >= ImportLimits::skipped) return;
+  const pipeline::Where at = where(place);
+  const auto same = [&](const Skipped& s) {
+    return s.where.line == at.line && s.where.file == at.file && s.what == what;
+  };
+  if (std::any_of(program_.skipped.rbegin(), program_.skipped.rend(), same)) return;
+  program_.skipped.push_back({at, what, may_move});
+}
+
+void Interpreter::charge(std::size_t work) {
+  executed_ += static_cast<long>(work);
+  if (guessed_at_ >= 0 && executed_ - guessed_at_ > ImportLimits::guessed) throw Stop{};
+  if (executed_ <= ImportLimits::executed) return;
+  // The loop that has gone round most often since it was entered runs away, not those around or within it.
+  const auto longest = std::max_element(loops_.begin(), loops_.end(),
+                                        [](const Loop& a, const Loop& b) { return a.passes < b.passes; });
+  const Place place = longest != loops_.end() ? longest->place
+                      : routines_.empty()     ? Place{}
+                                              : routines_.back()->place;
+  miss(short_place(place), place,
+       fmt::format("has run {} statements without an end (a loop that input would end?)",
+                   ImportLimits::executed),
+       fmt::format("take one pass of the loop with --assume {0}=then, or leave it out with =else",
+                   short_place(place)),
+       {{Question::Kind::branch, short_place(place), "then or else"}});
+  throw Stop{};
+}
+
+std::string Interpreter::short_place(const Place& place) const {
+  return fmt::format("{}:{}", std::filesystem::path(code_.files[place.file].name()).filename().string(),
+                     place.line);
+}
+
+int Interpreter::frame_index(std::vector<NamedFrame>& list, const NamedFrame& frame) {
+  const Vector3& p = frame.frame.position;
+  const Quaternion& q = frame.frame.orientation;
+  const std::string name = fmt::format("{} {}", &list == &program_.tools ? "tool" : "object", frame.name);
+  const auto [known, is_new] = frames_.emplace(
+      fmt::format("{} {} {} {} {} {} {} {} {}", name, frame.stationary, p.x(), p.y(), p.z(), q.w(), q.x(),
+                  q.y(), q.z()),
+      static_cast<int>(list.size()));
+  if (!is_new) return known->second;
+  list.push_back(frame);
+  if (const int variant = ++frame_variants_[name]; variant > 1)  // the program changed it
+    list.back().name = fmt::format("{} ({})", frame.name, variant);
+  return known->second;
+}
+
+std::string Interpreter::name_of(const Expression& expression) {
+  if (expression.kind != Expression::Kind::name) return "";
+  const Variable* found = find(expression.text);
+  return found && !found->alias.empty() ? found->alias : expression.text;
+}
+
+void Interpreter::emit(Instruction instruction, const Statement& statement) {
+  if (program_.instructions.size() >= ImportLimits::instructions) {
+    complain(statement.place,
+             fmt::format("would be move {} (no more are allowed)", ImportLimits::instructions + 1),
+             "simulate a shorter part of the program");
+    throw Stop{};
+  }
+  instruction.where = where(statement.place);
+  instruction.routine = routines_.back()->written;
+  instruction.text = code_.files[statement.place.file].line(statement.place.line);
+  program_.instructions.push_back(std::move(instruction));
+}
+
+Interpreter::Flow Interpreter::execute_routine(const Routine& routine) {
+  const Flow flow = execute(routine.body);
+  if (flow != Flow::jump) return flow;
+  complain(jump_->place, fmt::format("jumps to '{}', which is no label in a block around it", jump_->name),
+           "mend the label, or write a loop");
+  throw Stop{};
+}
+
+Interpreter::Flow Interpreter::execute(const Statement& statement) {
+  const Deeper deeper(*this, statement.place);
+  charge(1);
+  if (problems_.full()) throw Stop{};
+  exploration_.meet(&statement);
+  here_ = statement.place;
+  switch (statement.kind) {
+    case Kind::assign:
+      assign(statement.arguments[0], evaluate(statement.arguments[1]));
+      break;
+    case Kind::branch:
+      return run_branch(statement);
+    case Kind::choose:
+      return run_choice(statement);
+    case Kind::count:
+      return run_count(statement);
+    case Kind::while_loop:
+      return run_while(statement);
+    case Kind::until_loop:
+      return run_until(statement);
+    case Kind::endless:
+      return run_endless(statement);
+    case Kind::instruction:
+      run_instruction(statement);
+      break;
+    case Kind::give_back:
+      result_ = statement.arguments.empty() ? Value{} : evaluate(statement.arguments[0]);
+      return Flow::give_back;
+    case Kind::leave_loop:
+      return Flow::leave_loop;
+    case Kind::label:
+      break;
+    case Kind::jump:
+      jump_ = &statement;
+      return Flow::jump;
+    case Kind::finish:
+      throw Stop{};
+    case Kind::end_cycle:
+      throw EndOfCycle{};
+    case Kind::declare:
+      declare(statement);
+      break;
+  }
+  return Flow::next;
+}
+
+}  // namespace dresslife::sim

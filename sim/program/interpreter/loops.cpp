@@ -1,0 +1,418 @@
+// Loops, jumps back, and what begins again at its end: how often, until nothing new comes.
+#include <algorithm>
+#include <functional>
+
+#include "sim/program/interpreter/interpreter.h"
+
+namespace dresslife::sim {
+namespace {
+
+using Kind = Statement::Kind;
+
+// In search of the pass of an endless loop after which it repeats itself: enough for a pallet of 200 boxes,
+// and little beside what a program may run.
+constexpr int searched_passes = 200;
+constexpr long searched_work = ImportLimits::executed / 3;
+constexpr std::size_t searched_moves = 20'000;
+
+}  // namespace
+
+/// A loop that runs, as long as this lives.
+struct Interpreter::Round {
+  Round(Interpreter& run, const Place& place) : run_(run), at_(run.loops_.size()) {
+    run.loops_.push_back({place});
+  }
+  Round(const Round&) = delete;
+  ~Round() { run_.loops_.resize(at_); }
+  long again() {
+    run_.charge(1);
+    return ++run_.loops_[at_].passes;
+  }
+  Interpreter& run_;
+  std::size_t at_;
+};
+
+namespace {
+
+/// The end of passes that only search for further questions.
+class Barren {
+ public:
+  explicit Barren(const Exploration& exploration) : exploration_(exploration), news_(exploration.news()) {}
+  /// Whether enough passes in a row met nothing new.
+  bool again() {
+    constexpr int enough = 3;
+    count_ = exploration_.news() == news_ ? count_ + 1 : 0;
+    news_ = exploration_.news();
+    return count_ >= enough;
+  }
+
+ private:
+  const Exploration& exploration_;
+  long news_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+/// A body that runs again and again, as long as this lives.
+struct Interpreter::Again {
+  Again(Interpreter& run, const std::vector<Statement>& body) : run_(run), at_(run.endless_.size()) {
+    run.endless_.push_back(&body);
+  }
+  Again(const Again&) = delete;
+  ~Again() { run_.endless_.resize(at_); }
+  Interpreter& run_;
+  std::size_t at_;
+};
+
+Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
+  std::optional<Round> round;            // of jumps back
+  std::map<std::size_t, Passes> passes;  // from each label back to it
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (body[i].kind == Kind::label) passes.try_emplace(i, program_.instructions);
+    const Flow flow = execute(body[i]);
+    if (flow == Flow::next) continue;
+    if (flow != Flow::jump) return flow;
+    const auto label = std::find_if(body.begin(), body.end(), [&](const Statement& statement) {
+      return statement.kind == Kind::label && statement.name == jump_->name;
+    });
+    if (label == body.end()) return flow;  // in a block around this one
+    const auto target = static_cast<std::size_t>(label - body.begin());
+    if (target <= i) {
+      if (!round) round.emplace(*this, jump_->place);
+      const long count = round->again();
+      if (jumps_for_ever(body, target, i) && count >= std::max(1, options_.passes)) {
+        note(jump_->place, "an endless loop; the motion is " + passes_text(count));
+        throw Stop{};
+      }
+      end_where_it_repeats(passes.try_emplace(target, program_.instructions).first->second, jump_->place);
+    }
+    charge(1);
+    i = target;
+  }
+  return Flow::next;
+}
+
+/// At a jump back: with the data of an earlier one everything repeats without end.
+void Interpreter::end_where_it_repeats(Passes& passes, const Place& place) {
+  if (passes.count() >= searched_passes) return;
+  passes.add(state());
+  const auto wanted = static_cast<std::size_t>(options_.passes);
+  if (!passes.repeats() || passes.count() < wanted) return;
+  const std::size_t kept = passes.kept(wanted);
+  program_.instructions.resize(passes.end(kept));
+  note(place, "an endless loop; the motion is " + passes_text(static_cast<long>(kept)));
+  throw Stop{};
+}
+
+/// The jump stands in `body` itself, and nothing between it and its label leaves the way round.
+bool Interpreter::jumps_for_ever(const std::vector<Statement>& body, std::size_t label,
+                                 std::size_t jump) const {
+  if (body[jump].kind != Kind::jump) return false;  // in an arm of a branch
+  const std::vector<Statement> round(body.begin() + static_cast<long>(label),
+                                     body.begin() + static_cast<long>(jump));
+  return !holds_loop_exit(round);
+}
+
+Expression Interpreter::counter_of(const Statement& statement) {
+  Expression counter;
+  counter.kind = Expression::Kind::name;
+  counter.text = statement.name;
+  counter.place = statement.place;
+  return counter;
+}
+
+Interpreter::Flow Interpreter::run_count(const Statement& statement) {
+  std::optional<bool> decision = assumed(statement.place);
+  const auto end_unknown = [&] {  // where the counter stands behind a loop whose end is not known
+    if (statement.keeps_counter)
+      make_unknown(counter_of(statement),
+                   {"", "is the counter of the loop in " + short_place(statement.place)});
+    return Flow::next;
+  };
+  if (decision && !*decision) return end_unknown();
+  const auto from = number(statement.arguments[0]), to = number(statement.arguments[1]);
+  const Expression& written_step = statement.arguments[2];
+  std::optional<double> step = from && to && *to < *from ? -1 : 1;  // RAPID counts either way
+  if (written_step.kind != Expression::Kind::none) step = number(written_step);
+  if (!decision && (!from || !to || !step || *step == 0)) {
+    Value unknown;
+    for (const Expression& bound : statement.arguments) unknown = unknown_value(unknown, evaluate(bound));
+    if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
+      return leave_out(statement, unknown);
+    decision = ask(statement.place,
+                   "counts to what is known only while the robot runs (then: one pass, else: none)", unknown,
+                   "then or =else", 2, true, "a number") == 0;
+    if (!*decision) return end_unknown();
+  }
+  const double first = from.value_or(1), last = decision ? first : *to, by = decision ? 1 : *step;
+  Scope& variables = locals_.back();
+  const auto before = variables.find(statement.name);
+  const std::optional<Variable> hidden =
+      before == variables.end() ? std::nullopt : std::optional(before->second);
+  const auto count = [&](double value) {
+    if (statement.keeps_counter) {
+      assign(counter_of(statement), number_value(value));
+    } else {
+      variables.insert_or_assign(statement.name, Variable{.state = Variable::State::ready,
+                                                          .value = number_value(value),
+                                                          .written = statement.place,
+                                                          .counter = true});
+    }
+  };
+  Round round(*this, statement.place);
+  Flow flow = Flow::next;
+  double value = first;
+  for (long k = 0; flow == Flow::next && (by > 0 ? value <= last : value >= last);) {
+    round.again();
+    count(value);
+    flow = execute(statement.branches[0].body);
+    value = first + static_cast<double>(++k) * by;
+    if (!statement.keeps_counter || flow != Flow::next) continue;
+    const Value counter = evaluate(counter_of(statement));  // the body may have changed it
+    if (!counter.is_number()) {
+      ask(statement.place, "counts with a variable that is known only while the robot runs", counter,
+          "then or =else", 2, true, "a number");
+      break;
+    }
+    value = counter.number + by;
+  }
+  if (statement.keeps_counter) {
+    if (flow == Flow::next) decision ? static_cast<void>(end_unknown()) : count(value);
+  } else if (hidden) {
+    variables.insert_or_assign(statement.name, *hidden);
+  } else {
+    variables.erase(statement.name);
+  }
+  return flow == Flow::leave_loop ? Flow::next : flow;
+}
+
+Interpreter::Flow Interpreter::run_while(const Statement& statement) {
+  std::optional<bool> decision = assumed(statement.place);
+  const Expression& condition = statement.arguments[0];
+  if (!decision && condition.kind == Expression::Kind::truth && condition.number != 0)
+    return run_endless(statement);
+  Flow flow = Flow::next;
+  Round round(*this, statement.place);
+  while (flow == Flow::next) {
+    if (decision && !*decision) break;
+    if (!decision) {
+      const Value go_on = evaluate(condition);
+      if (!go_on.known()) {
+        if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
+          return leave_out(statement, go_on);
+        decision = ask(statement.place,
+                       "repeats while something holds that is known only while the robot runs (then: one "
+                       "pass, else: none)",
+                       go_on, "then or =else", 2, compares_known(condition), "") == 0;
+        if (!*decision) break;
+      } else if (go_on.number == 0) {
+        break;
+      }
+    }
+    const long passes = round.again();
+    flow = execute(statement.branches[0].body);
+    if (decision && passes >= std::max(1, options_.passes)) break;
+  }
+  return flow == Flow::leave_loop ? Flow::next : flow;
+}
+
+Interpreter::Flow Interpreter::run_until(const Statement& statement) {
+  Round round(*this, statement.place);
+  while (true) {
+    const Flow flow = execute(statement.branches[0].body);
+    if (flow != Flow::next) return flow == Flow::leave_loop ? Flow::next : flow;
+    if (assumed(statement.place)) return Flow::next;
+    const Value done = evaluate(statement.arguments[0]);
+    if (!done.known()) {
+      note(statement.place,
+           "a loop that ends when something holds that is known only while the robot runs, of which one pass "
+           "is "
+           "taken" +
+               because(done),
+           matters(statement));
+      return Flow::next;
+    }
+    if (done.number != 0) return Flow::next;
+    round.again();
+  }
+}
+
+/// A sum over all that the program has assigned.
+std::uint64_t Interpreter::state(bool with_locals) const {
+  std::uint64_t sum = 14695981039346656037u;  // FNV-1a
+  const auto take = [&](const void* bytes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      sum = (sum ^ static_cast<const unsigned char*>(bytes)[i]) * 1099511628211u;
+  };
+  const std::function<void(const Value&)> value = [&](const Value& v) {
+    take(&v.kind, sizeof v.kind);
+    if (v.kind == Value::Kind::number || v.kind == Value::Kind::truth) take(&v.number, sizeof v.number);
+    take(v.text.data(), v.text.size());
+    for (const Value& item : v.items) value(item);
+  };
+  const auto scope = [&](const Scope& variables) {
+    for (const auto& [name, variable] : variables) {
+      if (!variable.assigned) continue;
+      take(name.data(), name.size() + 1);
+      value(variable.value);
+    }
+  };
+  scope(globals_);
+  for (const Scope& variables : module_data_) scope(variables);
+  if (with_locals)
+    for (const Scope& variables : locals_) scope(variables);
+  return sum;
+}
+
+/// The endless loop of a main program is one cycle of the motion; nothing can follow it.
+Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
+  const bool leaves = holds_loop_exit(statement.branches[0].body);
+  const std::size_t wanted = options_.passes > 0 ? options_.passes : assumed(statement.place) ? 1 : 0;
+  const std::size_t before = program_.instructions.size();
+  const long work_before = executed_;
+  Round round(*this, statement.place);
+  const Again again(*this, statement.branches[0].body);
+  Passes passes(program_.instructions);
+  const std::size_t problems = problems_.count();
+  bool hinted = false;
+  Barren barren(exploration_);
+  while (true) {
+    const Flow flow = execute(statement.branches[0].body);
+    if (flow != Flow::next) return flow == Flow::leave_loop ? Flow::next : flow;
+    passes.add(state());
+    round.again();
+    if (problems_.count() > problems || exploration_.guessing()) {  // what further passes ask counts, too
+      if (passes.count() > 1 && !hinted)
+        problems_.hint(problems,
+                       fmt::format("in pass {} of the loop in {}: --passes {} ends before", passes.count(),
+                                   short_place(statement.place), passes.count() - 1));
+      hinted = true;
+      const bool mistaken = !exploration_.guessing() && problems_.mistakes() > 0;
+      if (mistaken || barren.again() || (wanted && passes.count() >= wanted)) throw Stop{};
+      continue;
+    }
+    if (passes.count() == wanted || (!wanted && passes.repeats())) break;
+    const bool searched = passes.count() >= searched_passes || executed_ - work_before > searched_work ||
+                          program_.instructions.size() - before > searched_moves;
+    if (!wanted && !leaves && searched) break;
+  }
+  if (!wanted && program_.instructions.size() == before) {
+    const bool could_move = moves(statement, module_);
+    note(statement.place,
+         could_move
+             ? "an endless loop that makes none of its moves: what it depends on is written from outside; "
+               "choose with --assume"
+             : "an endless loop: what stands behind it is never run",
+         could_move);
+    throw Stop{};
+  }
+  const std::size_t kept = passes.kept(wanted);
+  const bool cut = !wanted && !passes.repeats() && passes.by_motion() == 0;
+  program_.instructions.resize(passes.end(kept));
+  note(statement.place,
+       fmt::format(
+           "an endless loop; the motion is {}{}", passes_text(static_cast<long>(kept)),
+           cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
+       cut);
+  throw Stop{};
+}
+
+/// Runs the routine; true: it ended the program instead of itself.
+bool Interpreter::ends_within(const Routine& routine) {
+  within_itself_.emplace(program_.instructions);
+  try {
+    call(routine, {}, routine.place);
+  } catch (const Stop&) {
+    leave_all_routines();
+    return true;
+  } catch (const EndOfCycle&) {
+    leave_all_routines();
+  }
+  return false;
+}
+
+void Interpreter::leave_all_routines() {
+  locals_.resize(1);
+  routines_.clear();
+  loops_.clear();
+  module_ = -1;
+}
+
+/// Single values that another task's module gives and this program writes, too: how tasks wait for each
+/// other.
+std::string Interpreter::shared_and_written() const {
+  std::string names;
+  for (const auto& [name, variable] : globals_)
+    if (variable.datum && variable.datum->statement.elsewhere && variable.assigned &&
+        variable.value.items.empty())
+      names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+/// A routine that begins again at its end: as an endless loop around it. What cannot be known of a later cycle
+/// does not take away the first one.
+void Interpreter::run_cycles(const Routine& routine) {
+  const std::size_t wanted = options_.passes;
+  const std::uint64_t state_before = state();
+  const long work_before = executed_;
+  const Again again(*this, routine.body);
+  Passes passes(program_.instructions);
+  Barren barren(exploration_);
+  bool asking = false;
+  while (true) {
+    const Problems before = problems_;
+    const bool ended = ends_within(routine);
+    constexpr std::size_t few_moves = 2;  // make no motion
+    const bool one_cycle = passes.count() > 0 && passes.end(passes.count()) >= few_moves;
+    if (!asking && problems_.count() > before.count() && one_cycle && !passes.only_lines_of_the_first()) {
+      problems_.hint(before.count(), fmt::format("in pass {} of {}: --passes {} ends before",
+                                               passes.count() + 1, routine.written, passes.count()));
+      asking = true;
+    }
+    if (!asking && problems_.count() > before.count() && one_cycle) {
+      const Problem& first = problems_.list()[before.count()];
+      const std::string why = fmt::format("{} ({})", first.what, first.where.text());
+      problems_ = before;
+      const std::size_t kept = passes.by_motion() ? passes.by_motion() : 1;
+      program_.instructions.resize(passes.end(kept));
+      return note(routine.place,
+                  fmt::format("{} begins again at its end, and its next cycle {}; the motion is {}",
+                              routine.written, why, passes_text(static_cast<long>(kept))),
+                  true);
+    }
+    asking |= problems_.count() > before.count() || exploration_.guessing();
+    if (ended) return;
+    passes.add(state());
+    if (asking) {  // what later cycles ask counts, too
+      const bool mistaken = !exploration_.guessing() && problems_.mistakes() > 0;
+      if (mistaken || barren.again() || (wanted && passes.count() >= wanted)) return;
+      continue;
+    }
+    if (passes.count() == 1 && wanted <= 1 && state() == state_before) return;
+    if (passes.count() == wanted || (!wanted && passes.repeats())) break;
+    if (!wanted && (passes.count() >= searched_passes || executed_ - work_before > searched_work ||
+                    program_.instructions.size() > searched_moves))
+      break;
+  }
+  const std::size_t last = passes.count();
+  if (!wanted && passes.repeats() && passes.end(last) == passes.end(last - 1))
+    if (const std::string shared = shared_and_written(); !shared.empty())
+      note(routine.place,
+           fmt::format("{} ends in passes without a move, and another task may write what has no value here "
+                       "({}): choose with --assume what it decides",
+                       routine.written, shared),
+           true);
+  const std::size_t kept = passes.kept(wanted);
+  const bool cut = !wanted && !passes.repeats() && passes.by_motion() == 0;
+  program_.instructions.resize(passes.end(kept));
+  if (kept > 1 || cut)
+    note(routine.place,
+         fmt::format(
+             "{} begins again at its end; the motion is {}{}", routine.written,
+             passes_text(static_cast<long>(kept)),
+             cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
+         cut);
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,355 @@
+#include "sim/program/interpreter/parser.h"
+
+#include <algorithm>
+
+namespace dresslife::sim {
+namespace {
+
+using Kind = Expression::Kind;
+
+constexpr int precedence_of_signs = 6;  // of - and + before a value
+
+/// Precedence of a binary operator; 0: not one.
+int precedence(const Token& token, Grammar grammar) {
+  static constexpr std::pair<std::string_view, int> table[] = {
+      {"or", 1}, {"xor", 1}, {"exor", 1}, {"b_or", 1}, {"b_exor", 1}, {"and", 2}, {"b_and", 2},
+      {"=", 3},  {"==", 3},  {"<>", 3},   {"<", 3},    {">", 3},      {"<=", 3},  {">=", 3},
+      {"+", 4},  {"-", 4},   {"*", 5},    {"/", 5},    {"div", 5},    {"mod", 5}, {":", 6}};
+  if (token.kind != Token::Kind::sign && token.kind != Token::Kind::word) return 0;
+  for (const auto& [name, level] : table)
+    if (same_word(token.text, name)) return level;
+  if (grammar == Grammar::urscript && (token.text == "%" || token.text == "!=")) return token.text == "%" ? 5 : 3;
+  return 0;
+}
+
+/// i + 1
+Expression counted_from_one(Expression index) {
+  if (index.kind == Kind::number) {
+    index.number += 1;
+    return index;
+  }
+  Expression one, sum;
+  one.kind = Kind::number;
+  one.number = 1;
+  sum.kind = Kind::binary;
+  sum.text = "+";
+  one.place = sum.place = index.place;
+  sum.depth = index.depth + 1;
+  sum.items = {std::move(index), std::move(one)};
+  return sum;
+}
+
+}  // namespace
+
+struct Cursor::Deeper {
+  explicit Deeper(Cursor& cursor) : cursor_(cursor) {
+    if (++cursor_.nesting_ > ImportLimits::nesting) {
+      --cursor_.nesting_;
+      cursor_.fail(fmt::format("is nested more than {} deep", ImportLimits::nesting), "write it simpler");
+    }
+  }
+  ~Deeper() { --cursor_.nesting_; }
+  Cursor& cursor_;
+};
+
+const Token& Cursor::peek(int ahead) const { return tokens_[std::min(at_ + ahead, tokens_.size() - 1)]; }
+
+Token Cursor::next() {
+  const Token token = peek();
+  if (at_ + 1 < tokens_.size()) ++at_;
+  return token;
+}
+
+bool Cursor::at_word(std::string_view word, int ahead) const {
+  return peek(ahead).kind == Token::Kind::word && same_word(peek(ahead).text, word);
+}
+
+bool Cursor::at_sign(std::string_view sign, int ahead) const {
+  return peek(ahead).kind == Token::Kind::sign && peek(ahead).text == sign;
+}
+
+bool Cursor::take_word(std::string_view word) {
+  if (!at_word(word)) return false;
+  next();
+  return true;
+}
+
+bool Cursor::take_sign(std::string_view sign) {
+  if (!at_sign(sign)) return false;
+  next();
+  return true;
+}
+
+std::string Cursor::word(const char* what) {
+  if (peek().kind != Token::Kind::word)
+    fail(fmt::format("has {} where {} is expected", seen(), what), "mend the line");
+  return lower_case(next().text);
+}
+
+void Cursor::need_word(std::string_view word) {
+  if (!take_word(word)) fail(fmt::format("has {} where {} is expected", seen(), word), "mend the line");
+}
+
+void Cursor::need_sign(std::string_view sign) {
+  if (!take_sign(sign)) fail(fmt::format("has {} where '{}' is expected", seen(), sign), "mend the line");
+}
+
+Place Cursor::place(int ahead) const { return {file_, peek(ahead).line, peek(ahead).column}; }
+
+void Cursor::fail(const std::string& what, const std::string& remedy) const {
+  throw SyntaxError{place(), what, remedy};
+}
+
+std::string Cursor::seen() const {
+  const Token& token = peek();
+  switch (token.kind) {
+    case Token::Kind::end:
+      return "the end of the file";
+    case Token::Kind::line_end:
+      return "the end of the line";
+    case Token::Kind::text:
+      return "a text";
+    default:
+      return fmt::format("'{}'", token.text.substr(0, 40));
+  }
+}
+
+Expression Cursor::finished(Expression e) const {
+  for (const Expression& item : e.items) e.depth = std::max(e.depth, item.depth + 1);
+  if (e.depth > ImportLimits::nesting)
+    fail(fmt::format("is an expression of more than {} levels", ImportLimits::nesting),
+         "write it in several statements");
+  return e;
+}
+
+Expression Cursor::expression(int lowest) {
+  const Deeper deeper(*this);
+  Expression left = unary(lowest);
+  while (true) {
+    const int level = precedence(peek(), grammar_);
+    if (level < lowest || level == 0 || (at_sign(":") && !krl_)) return left;
+    Expression both;
+    both.kind = Kind::binary;
+    both.place = place();
+    both.text = lower_case(next().text);
+    if (both.text == "%" || both.text == "!=") both.text = both.text == "%" ? "mod" : "<>";
+    both.items.push_back(std::move(left));
+    both.items.push_back(expression(level + 1));
+    left = finished(std::move(both));
+  }
+}
+
+/// RAPID's NOT in front of an expression takes all that AND joins: NOT a AND b is NOT (a AND b).
+Expression Cursor::unary(int lowest) {
+  const Deeper deeper(*this);
+  const bool negation = at_word("not") || at_word("b_not");
+  if (!negation && !at_sign("-") && !at_sign("+")) return primary();
+  Expression e;
+  e.kind = Kind::unary;
+  e.place = place();
+  e.text = lower_case(next().text);
+  const int operand = grammar_ == Grammar::rapid && lowest <= 1 ? 2 : 3;
+  e.items.push_back(negation && !krl_ ? expression(operand) : unary(precedence_of_signs));
+  return finished(std::move(e));
+}
+
+Expression Cursor::primary() {
+  const Token& token = peek();
+  Expression e;
+  e.place = place();
+  switch (token.kind) {
+    case Token::Kind::number:
+      e.kind = Kind::number;
+      e.whole = krl_ && (token.text[0] == '\'' || token.text.find_first_of(".eE") == std::string_view::npos);
+      e.number = next().number;
+      return e;
+    case Token::Kind::text:
+      e.kind = Kind::text;
+      e.text = std::string(next().text.substr(0, 1000));
+      return e;
+    case Token::Kind::word:
+      if (at_word("true") || at_word("false")) {
+        e.kind = Kind::truth;
+        e.number = at_word("true");
+        next();
+        return e;
+      }
+      if (krl_ && token.text == "#" && peek(1).kind == Token::Kind::word) {  // # State: #State
+        next();
+        e.kind = Kind::name;
+        e.text = fmt::format("#{}", lower_case(next().text));
+        return e;
+      }
+      return reference();
+    default:
+      break;
+  }
+  if (take_sign("(")) {
+    e = expression();
+    need_sign(")");
+    return e;
+  }
+  if (at_sign("[") && !krl_) return aggregate_in_order();
+  if (at_sign("{") && krl_) return aggregate_with_names();
+  fail(fmt::format("has {} where a value is expected", seen()), "mend the line");
+}
+
+Expression Cursor::aggregate_in_order() {
+  const Deeper deeper(*this);
+  Expression e;
+  e.kind = Kind::aggregate;
+  e.place = place();
+  need_sign("[");
+  if (!at_sign("]")) {
+    do e.items.push_back(expression());
+    while (take_sign(","));
+  }
+  need_sign("]");
+  return finished(std::move(e));
+}
+
+Expression Cursor::aggregate_with_names() {
+  const Deeper deeper(*this);
+  Expression e;
+  e.kind = Kind::aggregate;
+  e.place = place();
+  need_sign("{");
+  if (peek().kind == Token::Kind::word && at_sign(":", 1)) {  // {E6POS: X 1, ...}
+    e.text = word("a type");
+    next();
+  }
+  while (!at_sign("}")) {
+    std::string key = word("the name of a component");
+    if (take_sign("[")) need_sign("]");  // POINT2[] " "
+    e.keys.push_back(std::move(key));
+    e.items.push_back(expression());
+    if (!take_sign(",")) break;
+  }
+  need_sign("}");
+  return finished(std::move(e));
+}
+
+Expression Cursor::reference() {
+  const Deeper deeper(*this);
+  Expression e;
+  e.place = place();
+  e.kind = Kind::name;
+  e.text = word("a name");
+  const bool rapid = grammar_ == Grammar::rapid;
+  const std::string_view open = rapid ? "{" : "[", close = rapid ? "}" : "]";
+  if (grammar_ == Grammar::urscript && e.text == "p" && at_sign("[")) {
+    e.kind = Kind::call;
+    e.items = aggregate_in_order().items;
+    return finished(std::move(e));
+  }
+  while (true) {
+    Expression outer;
+    outer.place = place();
+    if (at_sign(".") && peek(1).kind == Token::Kind::word) {
+      next();
+      outer.kind = Kind::field;
+      outer.text = word("a component");
+      outer.items.push_back(std::move(e));
+    } else if (at_sign(open)) {
+      next();
+      outer.kind = Kind::element;
+      outer.items.push_back(std::move(e));
+      while (!at_sign(close)) {
+        if (krl_ && take_sign(",")) continue;  // NAME[,]: a whole array of two dimensions
+        if (at_sign("*"))
+          next();  // the open dimension of a parameter
+        else
+          outer.items.push_back(grammar_ == Grammar::urscript ? counted_from_one(expression()) : expression());
+        if (!take_sign(",")) break;
+      }
+      need_sign(close);
+      if (outer.items.size() == 1) {  // KRL: a whole array, NAME[]
+        e = Expression(std::move(outer.items[0]));
+        continue;
+      }
+    } else if (at_sign("(") && grammar_ == Grammar::urscript && e.kind == Kind::field) {  // object.method(...)
+      next();
+      outer.kind = Kind::call;
+      outer.text = fmt::format("{}.{}", e.items[0].text, e.text);
+      outer.place = e.place;
+      outer.items = arguments(")");
+      need_sign(")");
+    } else if (at_sign("(") && e.kind == Kind::name) {
+      next();
+      outer.kind = Kind::call;
+      outer.text = e.text;
+      outer.place = e.place;
+      outer.items = arguments(")");
+      need_sign(")");
+    } else {
+      return e;
+    }
+    e = finished(std::move(outer));
+  }
+}
+
+std::vector<Expression> Cursor::arguments(std::string_view close) {
+  std::vector<Expression> list;
+  bool comma = true;  // an argument may come
+  while (!at_sign(close) && !at_end() && peek().kind != Token::Kind::line_end) {
+    if (take_sign(",")) {
+      if (comma && krl_) list.emplace_back();  // KRL leaves arguments out: F( , 3)
+      comma = true;
+      continue;
+    }
+    if (take_sign("\\")) {
+      Expression value;
+      value.place = place();
+      const std::string option = word("the name of an argument");
+      if (take_sign(":=")) {
+        value = expression();
+      } else if (take_sign("?")) {  // \x?y: given as far as the routine's own argument y is
+        value = expression();
+        value.if_present = true;
+      }
+      value.option = option;
+      list.push_back(std::move(value));
+      continue;
+    }
+    if (!comma)
+      fail(fmt::format("has {} where ',' or the end of the statement is expected", seen()), "mend the line");
+    if (grammar_ == Grammar::urscript && peek().kind == Token::Kind::word && at_sign("=", 1)) {  // a=1.2
+      const std::string option = word("the name of an argument");
+      next();
+      list.push_back(expression());
+      list.back().option = option;
+      comma = false;
+      continue;
+    }
+    if (!krl_ && peek().kind == Token::Kind::word && at_sign(":=", 1)) {  // Tool:=gun: in its place anyway
+      word("the name of an argument");
+      next();
+    }
+    list.push_back(expression());
+    comma = false;
+    while (at_sign("|")) next();
+  }
+  return list;
+}
+
+// ---- statements -------------------------------------------------------------------------------------------
+
+bool StatementParser::at_any(const std::vector<const char*>& words) const {
+  return std::any_of(words.begin(), words.end(), [&](const char* word) { return at_.at_word(word); });
+}
+
+void StatementParser::fail_at_end(std::string word) const {
+  for (char& c : word)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  at_.fail(fmt::format("has {} before {}", at_.seen(), word), fmt::format("close the block with {}", word));
+}
+
+Statement StatementParser::labelled(Statement::Kind kind) {
+  Statement s;
+  s.kind = kind;
+  s.place = at_.place();
+  s.name = at_.word("a label");
+  return s;
+}
+
+}  // namespace dresslife::sim

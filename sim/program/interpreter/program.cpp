@@ -1,0 +1,218 @@
+#include "sim/program/interpreter/program.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <sstream>
+
+namespace dresslife::sim {
+
+namespace {
+
+constexpr std::size_t listed_problems = 50;
+constexpr std::size_t most_questions = 300;  // of one round
+
+}  // namespace
+
+std::string ArmConfiguration::text() const {
+  switch (kind) {
+    case Kind::any:
+      return "";
+    case Kind::abb:
+      return fmt::format("abb {}", fmt::join(numbers, " "));
+    case Kind::kuka:
+      return fmt::format("kuka {}", fmt::join(numbers, " "));
+    case Kind::motoman:
+      return fmt::format("motoman {}", fmt::join(numbers, " "));
+    case Kind::near:
+      return fmt::format("near {}", fmt::join(numbers, " "));
+    case Kind::fanuc:
+      break;
+  }
+  return fmt::format("fanuc {}{}{} {} {} {}", numbers[0] ? 'F' : 'N', numbers[1] ? 'U' : 'D',
+                     numbers[2] ? 'T' : 'B', numbers[3], numbers[4], numbers[5]);
+}
+
+std::optional<ArmConfiguration> arm_configuration(const std::string& text) {
+  std::istringstream words(text);
+  std::string kind, word;
+  ArmConfiguration read;
+  if (!(words >> kind)) return read;
+  if (kind == "fanuc") {
+    read.kind = ArmConfiguration::Kind::fanuc;
+    if (!(words >> word) || word.size() != 3) return {};
+    constexpr std::array letters{"NF", "DU", "BT"};
+    for (int i = 0; i < 3; ++i) {
+      const std::size_t which = std::string(letters[i]).find(word[i]);
+      if (which == std::string::npos) return {};
+      read.numbers.push_back(static_cast<int>(which));
+    }
+  }
+  while (words >> word) {
+    int number = 0;
+    const auto end = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (end.ec != std::errc() || end.ptr != word.data() + word.size()) return {};
+    read.numbers.push_back(number);
+  }
+  const std::size_t count = read.numbers.size();
+  if (kind == "abb") read.kind = ArmConfiguration::Kind::abb;
+  if (kind == "kuka") read.kind = ArmConfiguration::Kind::kuka;
+  if (kind == "motoman") read.kind = ArmConfiguration::Kind::motoman;
+  if (kind == "near") read.kind = ArmConfiguration::Kind::near;
+  const bool six = kind == "fanuc" || kind == "motoman" || kind == "near";
+  const bool whole = (kind == "abb" && count == 4) || (kind == "kuka" && count == 2) || (six && count == 6);
+  return whole ? std::optional(read) : std::nullopt;
+}
+
+void Problems::add(const pipeline::Where& where, const std::string& what, const std::string& remedy,
+                   const std::string& routine) {
+  const auto same = [&](const Problem& p) {
+    return p.where.line == where.line && p.where.column == where.column && p.where.file == where.file &&
+           p.what == what;
+  };
+  if (full() || std::any_of(problems_.begin(), problems_.end(), same))
+    return;  // a line in a loop is reported once
+  problems_.push_back({.where = where, .what = what, .remedy = remedy, .routine = routine});
+}
+
+/// Whether it is already reported; then its line is counted, and its further questions are added.
+bool Problems::counted(const Problem& problem) {
+  for (Problem& known : problems_) {
+    const bool same_line = known.where.line == problem.where.line && known.where.file == problem.where.file;
+    if (known.about.empty() || known.decision != problem.decision ||
+        (known.about != problem.about && !(known.decision && same_line)))
+      continue;
+    if (!same_line) known.more_uses.emplace(problem.where.file, problem.where.line);
+    known.more_uses.insert(problem.more_uses.begin(), problem.more_uses.end());
+    known.certain |= problem.certain;
+    for (const Question& question : problem.questions)
+      if (std::none_of(known.questions.begin(), known.questions.end(), [&](const Question& asked) {
+            return asked.kind == question.kind && asked.name == question.name;
+          }))
+        known.questions.push_back(question);
+    return true;
+  }
+  return false;
+}
+
+void Problems::add_use(Problem problem) {
+  if (!full() && !counted(problem)) problems_.push_back(std::move(problem));
+}
+
+namespace {
+
+/// How an answer is written is seen where the value itself is used, not where others depend on it.
+void note_forms(std::vector<Problem>& problems, const Problem& by) {
+  for (const Question& asked : by.questions)
+    for (Problem& problem : problems)
+      for (Question& question : problem.questions)
+        if (question.form.empty() && question.kind == asked.kind && question.name == asked.name) question.form = asked.form;
+}
+
+/// Whether a branch depends on nothing but what other problems ask for.
+bool asked_already(const std::vector<Problem>& problems, const Problem& branch) {
+  const auto asked = [&](const Question& question) {
+    return std::any_of(problems.begin(), problems.end(), [&](const Problem& known) {
+      return known.certain >= branch.certain && std::any_of(known.questions.begin(), known.questions.end(), [&](const Question& q) {
+               return q.kind == question.kind && q.name == question.name;
+             });
+    });
+  };
+  return branch.decision && !branch.questions.empty() && std::all_of(branch.questions.begin(), branch.questions.end(), asked);
+}
+
+}  // namespace
+
+void Problems::add_all(const Problems& others) {
+  for (const Problem& problem : others.list()) {
+    note_forms(problems_, problem);
+    if (problem.about.empty())
+      add(problem.where, problem.what, problem.remedy, problem.routine);
+    else if (!asked_already(problems_, problem))
+      add_use(problem);
+  }
+}
+
+void Problems::hint(std::size_t from, const std::string& more) {
+  for (std::size_t i = from; i < problems_.size(); ++i) problems_[i].remedy += fmt::format(" ({})", more);
+}
+
+std::size_t Problems::mistakes() const {
+  return static_cast<std::size_t>(std::count_if(
+      problems_.begin(), problems_.end(), [](const Problem& problem) { return problem.questions.empty(); }));
+}
+
+bool Problems::asks() const { return mistakes() < problems_.size(); }
+
+bool Problems::full() const {
+  return mistakes() >= listed_problems || problems_.size() - mistakes() >= most_questions;
+}
+
+namespace {
+
+/// " (here and 74 times more)"; of a decision its lines, since each has an answer of its own.
+std::string further_uses(const Problem& problem) {
+  constexpr int listed = 8;
+  const std::size_t count = problem.more_uses.size();
+  if (count == 0) return "";
+  if (!problem.decision)
+    return count == 1 ? " (here and once more)" : fmt::format(" (here and {} times more)", count);
+  std::string lines;
+  int shown = 0;
+  for (const auto& [file, line] : problem.more_uses)
+    if (++shown <= listed)
+      lines += fmt::format("{}{}:{}", shown == 1 ? "" : ", ", std::filesystem::path(file).filename().string(),
+                           line);
+  return fmt::format(" (here and in {}{})", lines, shown > listed ? ", ..." : "");
+}
+
+}  // namespace
+
+std::vector<Problem> Problems::sorted() const {
+  std::vector<Problem> sorted = problems_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
+    return std::tie(a.where.file, a.where.line, a.where.column) <
+           std::tie(b.where.file, b.where.line, b.where.column);
+  });
+  return sorted;
+}
+
+void Problems::throw_if_any() const {
+  if (problems_.empty()) return;
+  std::vector<Problem> all = sorted();
+  std::string rest;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Problem& problem = all[i];
+    problem.what =
+        (problem.routine.empty() ? "" : problem.routine + " ") + problem.what + further_uses(problem);
+    if (i > 0 && i < listed_problems)
+      rest += std::string("\n") + pipeline::InputError(problem.where, problem.what, problem.remedy).what();
+  }
+  if (all.size() > listed_problems)
+    rest += fmt::format("\n({} more are not listed here)", all.size() - listed_problems);
+  throw Unread(all, rest);
+}
+
+SourceFile::SourceFile(std::string name, std::string text)
+    : name_(std::move(name)), text_(std::move(text)), starts_{0} {
+  for (std::size_t i = 0; i < text_.size(); ++i)
+    if (text_[i] == '\n') starts_.push_back(i + 1);
+}
+
+std::string SourceFile::line(int number) const { return from(number, 1); }
+
+std::string SourceFile::from(int number, int column) const {
+  if (number < 1 || number > static_cast<int>(starts_.size()) || column < 1) return "";
+  std::size_t begin = std::min(starts_[number - 1] + static_cast<std::size_t>(column) - 1, text_.size());
+  std::size_t end = std::min(text_.find('\n', begin), text_.size());
+  const auto blank = [&](std::size_t i) { return static_cast<unsigned char>(text_[i]) <= ' '; };
+  while (begin < end && blank(begin)) ++begin;
+  while (end > begin && blank(end - 1)) --end;
+  std::string line = text_.substr(begin, std::min<std::size_t>(end - begin, 200));
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = c == '\t' ? ' ' : '?';
+  return line;
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,64 @@
+#include "sim/program/interpreter/program_folder.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace dresslife::sim {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Programs that a program calls, itself or through others.
+std::set<std::string> reached_from(const std::string& program, const CallGraph& graph) {
+  std::set<std::string> reached;
+  std::vector<std::string> open{program};
+  while (!open.empty()) {
+    const auto at = graph.find(open.back());
+    open.pop_back();
+    if (at == graph.end()) continue;
+    for (const std::string& name : at->second.names)
+      if (graph.contains(name) && reached.insert(name).second) open.push_back(name);
+  }
+  return reached;
+}
+
+}  // namespace
+
+bool moves(const std::string& program, const CallGraph& graph) {
+  std::set<std::string> reached = reached_from(program, graph);
+  reached.insert(program);
+  return std::any_of(reached.begin(), reached.end(),
+                     [&](const std::string& name) { return graph.at(name).moves; });
+}
+
+std::vector<std::string> uncalled_programs(const CallGraph& graph) {
+  std::set<std::string> called;
+  for (const auto& [name, calls] : graph)
+    for (const std::string& other : calls.names)
+      if (other != name) called.insert(other);
+  std::vector<std::string> found, mains;
+  for (const auto& [name, calls] : graph) {
+    if (called.contains(name) || !moves(name, graph)) continue;
+    found.push_back(name);
+    if (name.starts_with("main")) mains.push_back(name);
+  }
+  return mains.size() == 1 ? mains : found;
+}
+
+std::string only_start(const fs::path& folder, std::vector<std::string> choices, const char* what) {
+  constexpr std::size_t listed_programs = 20;
+  if (choices.empty())
+    throw pipeline::InputError({folder.string()}, fmt::format("holds no {} that moves the robot", what),
+                               "name the routine to run with --routine (motion.routine in a job)");
+  if (choices.size() == 1) return choices[0];
+  const std::size_t more = choices.size() - std::min(choices.size(), listed_programs);
+  choices.resize(choices.size() - more);
+  throw pipeline::InputError({folder.string()}, "holds several programs, and none that calls them",
+                             fmt::format("name one with --routine (motion.routine in a job): {}{}",
+                                         fmt::join(choices, ", "), more ? fmt::format(" and {} more", more) : ""));
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,35 @@
+// The words of RAPID and KRL: identifiers, numbers, texts and signs, each with its place. Both languages
+// ignore case.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "sim/program/interpreter/program.h"
+
+namespace dresslife::sim {
+
+struct Token {
+  enum class Kind { word, number, text, sign, line_end, end };
+  Kind kind = Kind::end;
+  std::string_view text;  ///< of the source; of a text without its quotes
+  double number = 0;
+  int line = 0, column = 0;
+};
+
+struct TokenRules {
+  char comment;            ///< begins a comment up to the line's end
+  std::string_view extra;  ///< characters that may begin a word besides letters
+  bool line_ends;          ///< whether a line's end ends a statement
+  bool based_numbers;      ///< 'H1F' and 'B0110'
+};
+
+/// Cuts a file up; what is no word of any kind becomes a problem and is left out. The last token is
+/// Kind::end. The tokens point into `source`.
+std::vector<Token> tokens_of(const SourceFile& source, const TokenRules& rules, Problems& problems);
+
+/// Whether two words are the same but for case.
+bool same_word(std::string_view a, std::string_view b);
+std::string lower_case(std::string_view word);
+
+}  // namespace dresslife::sim

@@ -1,0 +1,114 @@
+// Folders with KUKA programs: a whole backup (KRC/R1 with Program, System, TP and Mada) or programs beside
+// each other. Left out: STEU (the controller's own data) and templates. Submit programs (.sub) move no robot,
+// but write to what the programs read.
+//
+// Where it begins, unless a routine is asked for: in what CELL.SRC calls, else in the program that no other
+// one calls, of those that move the robot.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "pipeline/base/plain_file.h"
+#include "pipeline/settings/document.h"
+#include "sim/program/interpreter/encoding.h"
+#include "sim/program/interpreter/tokens.h"
+#include "sim/program/krl/krl.h"
+
+namespace dresslife::sim {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string stem_of(const fs::path& file) { return lower_case(file.stem().string()); }
+bool is_program(const fs::path& file) { return lower_case(file.extension().string()) == ".src"; }
+
+/// Whether a file lies, below `folder`, in a folder of one of these names.
+bool lies_in(const fs::path& file, const fs::path& folder, const std::set<std::string>& names) {
+  const fs::path below = file.lexically_relative(folder).parent_path();
+  return std::any_of(below.begin(), below.end(),
+                     [&](const fs::path& part) { return names.contains(lower_case(part.string())); });
+}
+
+/// The folder R1 of the backup that a file lies in; empty: none.
+fs::path robot_of(const fs::path& file) {
+  for (fs::path at = file.parent_path(); !at.empty() && at != at.parent_path(); at = at.parent_path())
+    if (lower_case(at.filename().string()) == "r1") return at;
+  return {};
+}
+
+Calls calls_of(const fs::path& file) {
+  static const std::set<std::string> moves{"ptp",   "lin",    "circ",    "sptp",   "slin",
+                                           "scirc", "spline", "ptp_rel", "lin_rel"};
+  Calls calls;
+  const SourceFile source(file.string(), decoded_text(pipeline::read_text(file)));
+  Problems ignored;  // the parser reports them
+  const std::vector<Token> tokens = tokens_of(source, {';', "$#", true, true}, ignored);
+  for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+    if (tokens[i].kind != Token::Kind::word) continue;
+    const std::string word = lower_case(tokens[i].text);
+    calls.moves |= moves.contains(word);
+    if (calls.name.empty() && word == "def") calls.name = lower_case(tokens[i + 1].text);
+    if (tokens[i + 1].text == "(") calls.names.insert(word);
+  }
+  return calls;
+}
+
+/// Programs that could be meant: those that CELL calls by their numbers, else those that no program calls.
+std::vector<std::string> starts(CallGraph graph) {
+  std::vector<std::string> found;
+  if (const auto cell = graph.find("cell"); cell != graph.end()) {
+    for (const std::string& name : cell->second.names)
+      if (name != "cell" && graph.contains(name) && moves(name, graph)) found.push_back(name);
+    graph.erase(cell);
+  }
+  return found.empty() ? uncalled_programs(graph) : found;
+}
+
+void check_one_robot(const fs::path& folder, const std::vector<fs::path>& files) {
+  std::set<std::string> robots;
+  for (const fs::path& file : files)
+    if (const fs::path robot = robot_of(file); is_program(file) && !robot.empty())
+      robots.insert(robot.string());
+  if (robots.size() < 2) return;
+  throw pipeline::InputError({folder.string()}, fmt::format("holds the programs of {} robots", robots.size()),
+                             fmt::format("name one of: {}", fmt::join(robots, ", ")));
+}
+
+}  // namespace
+
+Backup krl_backup(const fs::path& folder, const std::vector<fs::path>& files, const std::string& routine) {
+  static const std::set<std::string> foreign{"steu", "template", "templates"};
+  // What KUKA installs, and what it calls by itself.
+  static const std::set<std::string> system_folders{"system", "tp", "mada"};
+  static const std::set<std::string> system_programs{"masref_user", "tm_useraction", "colldetect_useraction"};
+  Backup backup;
+  backup.language = Language::krl;
+  backup.routine = routine;
+  CallGraph graph;
+  std::map<std::string, fs::path> file_of;
+  for (const fs::path& file : files) {
+    const std::string end = lower_case(file.extension().string());
+    if ((end != ".src" && end != ".dat" && end != ".sub") || lies_in(file, folder, foreign)) continue;
+    backup.files.push_back(file);
+    if (end == ".src" && !lies_in(file, folder, system_folders) && !system_programs.contains(stem_of(file)))
+      if (Calls calls = calls_of(file); !calls.name.empty()) {
+        file_of.emplace(calls.name, file);
+        graph[calls.name] = std::move(calls);
+      }
+  }
+  check_one_robot(folder, backup.files);
+  const auto put_first = [&](const std::string& name) {  // it names the motion
+    std::stable_partition(backup.files.begin(), backup.files.end(),
+                          [&](const fs::path& file) { return is_program(file) && file_of[name] == file; });
+  };
+  if (!routine.empty()) {
+    put_first(lower_case(routine.substr(0, routine.find_first_of("( "))));
+    return backup;
+  }
+  backup.routine = only_start(folder, starts(graph), "KUKA program");
+  put_first(backup.routine);
+  return backup;
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,600 @@
+// What BAS.SRC and $CONFIG.DAT of a controller define: the frames that are in use, BAS and its cases, and the
+// functions that the editor writes behind WITH. Source: bas.src as KSS 5 to 8 install it.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/program/interpreter/tokens.h"
+#include "sim/program/krl/dialect.h"
+#include "sim/program/krl/krl.h"
+
+namespace dresslife::sim {
+
+using namespace krl;
+
+namespace {
+
+constexpr const char* harmless_names[] = {
+    "wait",     "halt",    "interrupt", "trigger",     "pulse",        "signal",   "ext",
+    "extfct",   "extp",    "extfctp",   "import",      "enum",         "struc",    "channel",
+    "anin",     "anout",   "brake",     "resume",      "cwrite",       "cread",    "copen",
+    "cclose",   "gripper", "err_raise", "err_clear",   "eb_test",      "sync",     "on_error_proceed",
+    "continue", "sread",   "swrite",    "sopen",       "strclear",     "stradd",   "strcopy",
+    "strfind",  "h50",     "$timer",    "$timer_flag", "clear_krlmsg", "ir_stopm", "$cycflag",
+    "$in",      "$anin",   "$err",      "ciostate",    advance_stop};
+constexpr const char* harmless_beginnings[] = {"eki_", "msg", "set_krl", "exists_krl", "diag_"};
+/// Of these, those that write to what they are given.
+constexpr const char* writing_names[] = {"cread",  "sread",    "copen",     "sopen",
+                                         "swrite", "cwrite",   "cclose",    "strcopy",
+                                         "stradd", "strclear", "msgdialog", "exists_krldlg"};
+
+Expression part_of(Expression whole, Expression::Kind kind, const Place& place) {
+  Expression part;
+  part.kind = kind;
+  part.place = place;
+  part.depth = 2;
+  part.items.push_back(std::move(whole));
+  return part;
+}
+
+/// Fields by which inline forms use an FDAT.
+constexpr const char* fdat_fields[] = {".tool_no", ".base_no", ".ipo_frame"};
+
+Value scaled(const Value& value, double factor) {
+  return value.is_number() ? number_value(value.number * factor) : value;
+}
+
+/// At most this number, where both are known.
+Value at_most(const Value& value, const std::optional<double>& most) {
+  return value.is_number() && most && value.number > *most ? number_value(*most) : value;
+}
+
+}  // namespace
+
+namespace krl {
+
+Expression field_at(const std::string& name, const std::string& field, const Place& place) {
+  Expression e = part_of(name_at(name, place), Expression::Kind::field, place);
+  e.text = field;
+  return e;
+}
+
+Expression element_at(const std::string& name, int index, const Place& place) {
+  Expression e = part_of(name_at(name, place), Expression::Kind::element, place), number;
+  number.kind = Expression::Kind::number;
+  number.number = index;
+  number.place = place;
+  e.items.push_back(number);
+  return e;
+}
+
+}  // namespace krl
+
+bool Krl::harmless(const std::string& name) const {
+  return std::find(std::begin(harmless_names), std::end(harmless_names), name) != std::end(harmless_names) ||
+         std::any_of(std::begin(harmless_beginnings), std::end(harmless_beginnings),
+                     [&](const char* beginning) { return name.starts_with(beginning); });
+}
+
+bool Krl::writes(const std::string& name, int, const Expression&) const {
+  if (kind_of(name) || name == "bas" || name == "asyptp") return false;  // moves read their targets
+  const bool writing =
+      std::find(std::begin(writing_names), std::end(writing_names), name) != std::end(writing_names);
+  return writing || name.starts_with("eki_") || !harmless(name);
+}
+
+// ---- values -----------------------------------------------------------------------------------------------
+
+Value Krl::record(const std::array<double, 6>& numbers, const char* type) const {
+  Value value = initial(type);
+  for (std::size_t i = 0; i < 6 && i < value.items.size(); ++i) value.items[i] = number_value(numbers[i]);
+  return value;
+}
+
+const RecordType* Krl::type_of(const std::string&) const { return nullptr; }  // store() shapes what it takes
+
+Value Krl::initial(const std::string& type) const { return prototype(type, 0); }
+
+/// A variable of a type before anything is assigned to it: its lists, with nothing in them.
+Value Krl::prototype(const std::string& type, int depth) const {
+  constexpr int deepest = 6;  // structures in structures
+  if (type == "signal") return unknown_value("", "is a signal of inputs or outputs");
+  if (type == "import") return unknown_value("", "is imported from another module");
+  Value value = unset_value();
+  if (type == "int" || type == "real") {
+    value.numeric = type == "int" ? Value::Numeric::integer : Value::Numeric::real;
+    return value;
+  }
+  if (const auto known = prototypes_.find(type); known != prototypes_.end()) return known->second;
+  const RecordType* record = depth < deepest ? code_.record(type) : nullptr;
+  std::vector<Value> items;
+  std::size_t weight = 0;
+  for (std::size_t i = 0; record && i < record->fields.size() && weight < ImportLimits::values; ++i) {
+    const Value item = prototype(record->field_types[i], depth + 1);
+    const bool list = record->sizes[i] > 0 && record->field_types[i] != "char";  // a text is one value
+    const std::size_t count = list ? static_cast<std::size_t>(record->sizes[i]) : 1;
+    weight += count * item.weight();
+    if (weight < ImportLimits::values)
+      items.push_back(list ? list_value(std::vector<Value>(count, item)) : item);
+  }
+  if (record && weight < ImportLimits::values) value = list_value(std::move(items), record);
+  return prototypes_.emplace(type, value).first->second;
+}
+
+namespace {
+
+/// An external axis at zero stays there, whatever the controller keeps of it.
+bool is_idle_axis(const std::string& field, const Value& value) {
+  return value.is_number() && value.number == 0 &&
+         std::find(std::begin(external_names), std::end(external_names), field) != std::end(external_names);
+}
+
+}  // namespace
+
+/// As the controller assigns: components by their names, REAL to INT rounded.
+void Krl::store(Value& place, Value value) const {
+  const bool both = place.kind == Value::Kind::list && value.kind == Value::Kind::list;
+  if (both && place.type && value.type) {
+    for (std::size_t i = 0; i < place.items.size() && i < place.type->fields.size(); ++i) {
+      Value& item = place.items[i];
+      if (const Value* part = value.field(place.type->fields[i]))
+        store(item, *part);
+      else if (!is_unset(item) && !is_idle_axis(place.type->fields[i], item))
+        item = forgotten(item, unknown_value(place.type->fields[i], "is left out of the aggregate").cause);
+    }
+  } else if (both && !place.type && !value.type && place.items.size() == value.items.size()) {
+    for (std::size_t i = 0; i < place.items.size(); ++i) store(place.items[i], value.items[i]);
+  } else {
+    const Value::Numeric numeric = place.numeric;
+    place = std::move(value);
+    if (numeric == Value::Numeric::any) return;
+    if (const auto code = letter(place)) place = number_value(*code);
+    place.numeric = numeric;
+    if (place.is_number() && numeric == Value::Numeric::integer) place.number = std::round(place.number);
+  }
+}
+
+/// A CHAR is the number of its letter.
+std::optional<double> Krl::letter(const Value& text) const {
+  if (text.kind != Value::Kind::text || text.text.size() != 1) return {};
+  return static_cast<unsigned char>(text.text[0]);
+}
+
+std::string Krl::form_of(const std::string& type) const {
+  if (type == "int" || type == "real") return "a number";
+  if (type == "bool") return "TRUE or FALSE";
+  if (type == "char") return "a letter in double quotes";
+  if (type == "frame") return "{X .., Y .., Z .., A .., B .., C ..} in mm and deg";
+  if (type == "pos" || type == "e3pos" || type == "e6pos")
+    return "{X .., Y .., Z .., A .., B .., C .., S .., T ..} in mm and deg";
+  if (type == "pdat") return "{VEL .., ACC .., APO_DIST ..} in % and mm";
+  if (type == "ldat") return "{VEL .., ACC .., APO_DIST ..} in m/s, % and mm";
+  if (type == "fdat") return "{TOOL_NO .., BASE_NO .., IPO_FRAME #BASE}";
+  if (type == "axis" || type == "e3axis" || type == "e6axis")
+    return "{A1 .., A2 .., A3 .., A4 .., A5 .., A6 ..} in deg";
+  return "";
+}
+
+/// A name that its module does not declare is in the data list that is not there, or in $CONFIG.DAT.
+bool Krl::shares(const std::string& name, int module) const {
+  return name.starts_with("$") || code_.modules[module].whole;
+}
+
+/// What the editor of inline forms puts into the data list of the program; other names that no file declares are
+/// taken to be those of $CONFIG.DAT.
+bool Krl::is_of_module(const std::string& name) const {
+  static const std::set<std::string> of_all{"fhome",  "xhome",  "xhome1", "xhome2",
+                                            "xhome3", "xhome4", "xhome5"};
+  const auto numbered = [&](const char* beginning) {
+    return name.starts_with(beginning) && !name.empty() && name.back() >= '0' && name.back() <= '9';
+  };
+  return !of_all.contains(name) &&
+         (name.starts_with("x") || name.starts_with("f") || numbered("ppdat") || numbered("lcpdat") ||
+          numbered("cpdat") || numbered("pdat") || numbered("ldat"));
+}
+
+/// An unknown value that an inline form takes from its data, asked for as those are kept: the whole FDAT, PDAT or
+/// LDAT, in its form. The editor gives a new PDAT and LDAT the values of PDEFAULT and LDEFAULT.
+Value Krl::of_form(const Value& value, const char* type) const {
+  const std::string kind = type, form = form_of(kind);
+  const Cause* known = value.kind == Value::Kind::unknown ? value.cause.get() : nullptr;
+  if (!known || known->name.empty() || known->behind || !known->others.empty() ||
+      (!known->form.empty() && known->form != form) || known->name.find("_act") != std::string::npos)
+    return value;
+  Cause cause = *known;
+  if (kind == "fdat")
+    for (const std::string field : fdat_fields)
+      if (cause.name.ends_with(field)) cause.name.resize(cause.name.size() - field.size());
+  cause.form = form;
+  cause.standard = kind == "pdat" ? "pdefault" : kind == "ldat" ? "ldefault" : "";
+  Value asked;
+  asked.cause = std::make_shared<const Cause>(std::move(cause));
+  return asked;
+}
+
+// ---- frames -----------------------------------------------------------------------------------------------
+
+bool Krl::Frames::same(const Frames& other) const {
+  const auto equal = [](const Frame& a, const Frame& b) {
+    return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+  };
+  return unknown.known() && other.unknown.known() && stationary == other.stationary &&
+         equal(tool, other.tool) && equal(base, other.base);
+}
+
+Frame Krl::Frames::flange(const Frame& pose) const {
+  if (!stationary) return base * pose * inverse(tool);
+  return base * inverse(pose) *
+         inverse(tool);  // the flange holds the work at `tool`, the tool stands at `base`
+}
+
+Frame Krl::Frames::pose(const Frame& flange) const {
+  if (!stationary) return inverse(base) * flange * tool;
+  return inverse(flange * tool) * base;
+}
+
+/// TOOL_DATA[n] and BASE_DATA[n] that the user gives; others are unknown under their names.
+std::optional<Value> Krl::named_frame(const std::string& path) {
+  const bool tool = path.starts_with("tool_data["), base = path.starts_with("base_data[");
+  if ((!tool && !base) || path.find_first_of(".]") != path.size() - 1) return {};
+  const Value* list = run_->variable(path.substr(0, 9));
+  const std::size_t index = static_cast<std::size_t>(std::clamp(std::atof(path.c_str() + 10), 0.0, 1e6));
+  if (list && index >= 1 && index <= list->items.size() && !is_unset(list->items[index - 1])) return {};
+  for (const NamedFrame& frame : tool ? tools_ : work_objects_)
+    if (lower_case(frame.name) == path) return frame_value(frame.frame);
+  if (std::optional<Value> given = run_->given(path)) return given;
+  return unknown_value(fmt::format("{}[{}]", tool ? "TOOL_DATA" : "BASE_DATA", index), "is in no file read");
+}
+
+/// TOOL_DATA[n] or BASE_DATA[n]; 0 is the flange or the world.
+Value Krl::numbered(const char* list, const Value& number, Interpreter& run) {
+  if (!number.is_number()) return unknown_value(number);
+  if (number.number <= 0) return frame_value(Frame{});
+  return run.evaluate(element_at(list, static_cast<int>(std::min(number.number, 1e6)), Place{}));
+}
+
+/// The element of TOOL_DATA or BASE_DATA with these contents, the one in use first; else the variable itself.
+std::string Krl::name_of(const char* list, const std::array<double, 6>& numbers, Interpreter& run) {
+  const bool tool = std::string(list) == "tool_data";
+  const auto number = setting(tool ? "$act_tool" : "$act_base", "", run);
+  const Value* data = run.variable(list);
+  std::string name;
+  const auto add = [&](double index, const std::array<double, 6>& contents) {
+    if (contents == numbers && (name.empty() || (number && *number == index)))
+      name = fmt::format("{}[{}]", tool ? "TOOL_DATA" : "BASE_DATA", index);
+  };
+  for (std::size_t i = 0; data && i < data->items.size(); ++i)
+    if (const Coordinates read = coordinates(data->items[i], frame_names); read.all())
+      add(static_cast<double>(i + 1), read.numbers);
+  for (const NamedFrame& frame : tool ? tools_ : work_objects_)
+    if (const std::string path = lower_case(frame.name); path.starts_with(fmt::format("{}[", list)))
+      add(std::atof(path.c_str() + 10), numbers_of(frame.frame));
+  return name.empty() ? (tool ? "$TOOL" : "$BASE") : name;
+}
+
+/// Contents of $TOOL or $BASE. What the program has not assigned the controller holds from before: the user gives it.
+Frame Krl::current(const char* variable, const char* list, Frames& frames, std::string& name,
+                   Interpreter& run) {
+  const Value* value = run.variable(variable);
+  Coordinates read = value ? coordinates(*value, frame_names) : Coordinates{};
+  if (read.unknown.known() && !read.all())
+    if (const std::optional<Value> held = run.given(variable)) {
+      const Coordinates given = coordinates(*held, frame_names);
+      for (std::size_t i = 0; i < read.numbers.size(); ++i)
+        if (!std::exchange(read.given[i], read.given[i] || given.given[i]))
+          read.numbers[i] = given.numbers[i];
+    }
+  if (!read.all()) {
+    Value& why = frames.unknown.known() ? frames.unknown : frames.base_too;
+    const char* none =
+        read.any() ? "is set in part only" : "is assigned nowhere before: the controller holds it";
+    why = read.unknown.known() ? unknown_value(run.answer_name(variable), none, form_of("frame"))
+                               : read.unknown;
+    return {};
+  }
+  name = name_of(list, read.numbers, run);
+  return frame_from(read.numbers);
+}
+
+Krl::Frames Krl::current_frames(Interpreter& run) {
+  Frames frames;
+  frames.tool_name = "$TOOL", frames.base_name = "$BASE";
+  frames.unknown = frames.base_too = truth_value(true);
+  frames.tool = current("$tool", "tool_data", frames, frames.tool_name, run);
+  frames.base = current("$base", "base_data", frames, frames.base_name, run);
+  const Value* mode = run.variable("$ipo_mode");
+  frames.stationary = mode && mode->kind == Value::Kind::text && mode->text == "#tcp";
+  if (mode && mode->kind == Value::Kind::unknown && !is_unset(*mode) && frames.unknown.known())
+    frames.unknown = *mode;
+  // $BASE is given in $WORLD, in which the robot may stand elsewhere.
+  if (const Value* root = run.variable("$robroot")) {
+    if (const Coordinates place = coordinates(*root, frame_names); place.all())
+      frames.base = inverse(frame_from(place.numbers)) * frames.base;
+    else if (!place.unknown.known() && frames.unknown.known())
+      frames.unknown = place.unknown;
+  }
+  return frames;
+}
+
+// ---- BAS --------------------------------------------------------------------------------------------------
+
+/// Percent of DEF_VEL_PTP, of an axis' largest speed.
+Value Krl::axis_speed(const Value& percent, Interpreter& run) {
+  return scaled(at_most(percent, 100), setting("def_vel_ptp", "", run).value_or(100) / 100);
+}
+
+/// Controllers that adapt accelerations to the load take the percentage itself, the others that of
+/// DEF_ACC_PTP.
+Value Krl::axis_acceleration(const Value& percent, Interpreter& run) {
+  const Value* adapts = run.variable("$adap_acc");
+  const bool whole = !adapts || adapts->kind != Value::Kind::text || adapts->text != "#none";
+  return whole ? at_most(percent, 100)
+               : scaled(at_most(percent, 100), setting("def_acc_ptp", "", run).value_or(100) / 100);
+}
+
+Value Krl::path_speed(const Value& speed, Interpreter& run) {
+  const auto most = setting("def_vel_cp", "", run);
+  if (most && speed.is_number() && speed.number > *most) return number_value(*most);
+  return scaled(speed, setting("def_vel_fact", "", run).value_or(1));
+}
+
+void Krl::set_axes(const char* list, const Value& percent, const Place& place, Interpreter& run) {
+  for (int axis = 1; axis <= 6; ++axis) run.assign(element_at(list, axis, place), percent);
+}
+
+void Krl::set_path_acceleration(const Value& percent, const Place& place, Interpreter& run) {
+  const double whole = setting("def_acc_cp", "", run).value_or(standard_path_acceleration);
+  run.assign(field_at("$acc", "cp", place), scaled(at_most(percent, 100), whole / 100));
+}
+
+void Krl::use_tool(const Value& number, const Place& place, Interpreter& run) {
+  run.assign(name_at("$tool", place), numbered("tool_data", number, run));
+  run.assign(name_at("$act_tool", place), number);
+}
+
+void Krl::use_base(const Value& number, const Place& place, Interpreter& run) {
+  run.assign(name_at("$base", place), numbered("base_data", number, run));
+  run.assign(name_at("$act_base", place), number);
+  if (!number.is_number() || number.number < 1) return;
+  const auto machine = [&](const char* field, Expression whole) {
+    Expression part = part_of(std::move(whole), Expression::Kind::field, place);
+    part.text = field;
+    return run.evaluate(part);
+  };
+  if (!run.variable("machine_frame_dat") || !run.variable("machine_def")) return;
+  const Value unit =
+      machine("mach_def_index", element_at("machine_frame_dat", static_cast<int>(number.number), place));
+  if (!unit.is_number() || unit.number < 1) return;
+  const Value kind = machine("mech_type", element_at("machine_def", static_cast<int>(unit.number), place));
+  if (kind.kind == Value::Kind::text && kind.text != "#none" && kind.text != "#robot")
+    run.note(place,
+             fmt::format("BASE_DATA[{}] lies on an external axis: it is taken to stand still", number.number),
+             true);
+}
+
+void Krl::form_frames(const Place& place, Interpreter& run) {
+  const auto part = [&](const char* field) {
+    return of_form(run.evaluate(field_at("fdat_act", field, place)), "fdat");
+  };
+  use_tool(part("tool_no"), place, run);
+  use_base(part("base_no"), place, run);
+  run.assign(name_at("$ipo_mode", place), part("ipo_frame"));
+}
+
+void Krl::joint_data(const Place& place, Interpreter& run) {
+  const auto part = [&](const char* field) {
+    return of_form(run.evaluate(field_at("pdat_act", field, place)), "pdat");
+  };
+  set_axes("$acc_axis", axis_acceleration(part("acc"), run), place, run);
+  const Value distance = part("apo_dist");
+  const Value mode = part("apo_mode");
+  if (mode.kind == Value::Kind::text && mode.text == "#cdis")
+    run.assign(field_at("$apo", "cdis", place), distance);
+  else
+    run.assign(field_at("$apo", "cptp", place), at_most(distance, 100));
+}
+
+void Krl::path_data(const Place& place, Interpreter& run) {
+  const auto part = [&](const char* field) {
+    return of_form(run.evaluate(field_at("ldat_act", field, place)), "ldat");
+  };
+  set_path_acceleration(part("acc"), place, run);
+  run.assign(field_at("$apo", "cdis", place), part("apo_dist"));
+  run.assign(name_at("$ori_type", place), part("ori_typ"));
+  run.assign(name_at("$circ_type", place), part("circ_typ"));
+}
+
+/// BAS(#INITMOV, 0): what $CONFIG.DAT has for a start. Of its missing values only the speed is a question.
+void Krl::initialise(const Place& place, Interpreter& run) {
+  const auto standard = [&](const char* name) {
+    const Value value = run.evaluate(name_at(name, place));
+    return value.known() ? value : unset_value();
+  };
+  set_axes("$acc_axis", axis_acceleration(number_value(100), run), place, run);
+  set_axes("$vel_axis", axis_speed(number_value(100), run), place, run);
+  set_path_acceleration(number_value(100), place, run);
+  run.assign(field_at("$vel", "cp", place), path_speed(run.evaluate(name_at("def_vel_cp", place)), run));
+  run.assign(field_at("$vel", "ori1", place), standard("def_vel_ori1"));
+  run.assign(field_at("$vel", "ori2", place), standard("def_vel_ori2"));
+  for (const char* field : {"cptp", "cdis", "cvel", "cori"})
+    run.assign(field_at("$apo", field, place), standard(fmt::format("def_apo_{}", field).c_str()));
+  run.assign(name_at("$ipo_mode", place), text_value("#base"));
+  run.assign(name_at("$ori_type", place), text_value("#var"));
+  run.assign(name_at("$circ_type", place), text_value("#base"));
+  use_base(number_value(0), place, run);
+  if (run.variable("def_vel_cp") && !run.variable("tool_data")) {
+    run.note(place, "BAS(#INITMOV) takes TOOL_DATA[1], which $CONFIG.DAT does not hold: the flange is taken",
+             true);
+    use_tool(number_value(0), place, run);
+  } else {
+    use_tool(number_value(1), place, run);
+  }
+}
+
+void Krl::basics(const Statement& statement, Interpreter& run) {
+  if (statement.arguments.empty()) return;
+  const Place& place = statement.place;
+  const std::string what = run.evaluate(statement.arguments[0]).text;
+  const Value number = statement.arguments.size() > 1 ? run.evaluate(statement.arguments[1]) : Value{};
+  const auto set_speed = [&](const Value& speed) {
+    run.assign(field_at("$vel", "cp", place), path_speed(speed, run));
+  };
+  if (what == "#initmov") {
+    initialise(place, run);
+  } else if (what == "#vel_ptp") {
+    set_axes("$vel_axis", axis_speed(number, run), place, run);
+  } else if (what == "#acc_ptp") {
+    set_axes("$acc_axis", axis_acceleration(number, run), place, run);
+  } else if (what == "#vel_cp") {
+    set_speed(number);
+  } else if (what == "#acc_cp" || what == "#acc_glue") {
+    set_path_acceleration(number, place, run);
+  } else if (what == "#tool") {
+    use_tool(number, place, run);
+  } else if (what == "#base" || what == "#ex_base") {
+    use_base(number, place, run);
+  } else if (what == "#frames") {
+    form_frames(place, run);
+  } else if (what == "#ptp_dat" || what == "#ptp_params") {
+    joint_data(place, run);
+    if (what == "#ptp_params") form_frames(place, run);
+    const Value percent =
+        what == "#ptp_params" ? number : of_form(run.evaluate(field_at("pdat_act", "vel", place)), "pdat");
+    set_axes("$vel_axis", axis_speed(percent, run), place, run);
+  } else if (what == "#cp_dat" || what == "#cp_params") {
+    path_data(place, run);
+    if (what == "#cp_params") form_frames(place, run);
+    set_speed(what == "#cp_params" ? number
+                                   : of_form(run.evaluate(field_at("ldat_act", "vel", place)), "ldat"));
+  } else if (!what.starts_with("#out_") && what != "#group") {
+    run.note(place, fmt::format("BAS({}): not a known case", what.empty() ? "?" : what), true);
+  }
+}
+
+// ---- functions --------------------------------------------------------------------------------------------
+
+/// What the editor writes behind WITH.
+std::optional<Value> Krl::spline_function(const Expression& call, const std::vector<Value>& values,
+                                          Interpreter& run) {
+  const std::string& name = call.text;
+  const auto is = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(), [&](const char* other) { return name == other; });
+  };
+  const bool of_whole = !call.items.empty() && call.items[0].kind == Expression::Kind::field;
+  const char* data = is({"stool2"}) || (of_whole && is({"sbase", "sipo_mode"})) ? "fdat"
+                     : is({"sacc_joint", "sapo_ptp"})                           ? "pdat"
+                     : is({"sacc_cp", "sapo", "sori_typ", "scirc_typ"})         ? "ldat"
+                                                                                : "";
+  const Value first = values.empty() ? Value{} : *data ? of_form(values[0], data) : values[0];
+  const auto part = [&](const Value& whole, const char* field) {
+    const Value* value = whole.field(field);
+    return value ? *value : unknown_value(whole);
+  };
+  const auto with = [&](const char* type, std::initializer_list<std::pair<const char*, Value>> fields) {
+    Value value = initial(type);
+    for (const auto& [field, content] : fields)
+      if (const Value* place = value.field(field)) store(const_cast<Value&>(*place), content);
+    return value;
+  };
+  if (name == "svel_joint" || name == "sacc_joint") {
+    const bool speed = name == "svel_joint";
+    const Value percent = speed ? axis_speed(first, run) : axis_acceleration(part(first, "acc"), run);
+    set_axes(speed ? "$vel_axis" : "$acc_axis", percent, call.place, run);
+    return percent;
+  }
+  if (name == "svel_cp")
+    return with("cp", {{"cp", at_most(first, setting("def_vel_cp", "", run))},
+                       {"ori1", run.evaluate(name_at("def_vel_oris", call.place))}});
+  if (name == "sacc_cp") {
+    const double whole = setting("def_acc_cp", "", run).value_or(standard_path_acceleration);
+    return with("cp", {{"cp", scaled(at_most(part(first, "acc"), 100), whole / 100)}});
+  }
+  if (name == "sapo") return with("cont", {{"cdis", part(first, "apo_dist")}, {"cptp", number_value(100)}});
+  if (name == "sapo_ptp") {
+    const bool by_distance = part(first, "apo_mode").text == "#cdis";
+    return with("cont", {{"cdis", by_distance ? part(first, "apo_dist") : number_value(1e6)},
+                         {"cptp", by_distance ? number_value(100) : part(first, "apo_dist")}});
+  }
+  if (name == "stool2") {
+    run.assign(name_at("$act_tool", call.place), part(first, "tool_no"));
+    run.assign(name_at("$act_base", call.place), part(first, "base_no"));
+    return numbered("tool_data", part(first, "tool_no"), run);
+  }
+  if (name == "stool") return numbered("tool_data", first, run);
+  if (name == "sbase") return numbered("base_data", first, run);
+  if (name == "sipo_mode") return first.kind == Value::Kind::list ? part(first, "ipo_frame") : first;
+  if (name == "sori_typ") return part(first, "ori_typ");
+  if (name == "scirc_typ") return part(first, "circ_typ");
+  if (name == "sgear_jerk") {
+    const Value* percent = first.field("gear_jerk");
+    if (!percent || !percent->is_number()) return unset_value();
+    set_axes("$gear_jerk", at_most(*percent, 100), call.place, run);
+    return *percent;
+  }
+  if (name == "sjerk") {
+    const Value* percent = first.field("jerk_fac");
+    if (!percent || !percent->is_number()) return unset_value();
+    const double whole = setting("def_jerk_struc", "cp", run).value_or(standard_path_jerk);
+    return with("jerk_struc", {{"cp", scaled(at_most(*percent, 100), whole / 100)}});
+  }
+  for (const char* other : {"sload", "scirc_m", "s_exax_ign"})
+    if (name == other) return unset_value();
+  return {};
+}
+
+/// VARSTATE("name"); a name that no file declares may stand in one that is not there.
+Value Krl::state_of(const Value& name, Interpreter& run) {
+  if (name.kind != Value::Kind::text) return unknown_value(name);
+  const Value* value = run.variable(lower_case(name.text));
+  if (!value)
+    return run.variable("def_vel_cp") ? text_value("#unknown")
+                                      : unknown_value(name.text, "is in no file read");
+  if (is_unset(*value)) return text_value("#declared");
+  return value->known() ? text_value("#initialized") : unknown_value(*value);
+}
+
+std::optional<Value> Krl::arithmetic(const Expression& call, const std::vector<Value>& values) {
+  const double x = values.size() == 1 && values[0].is_number() ? values[0].number : NAN;
+  const auto finite = [&](double y) {
+    return std::isfinite(y) ? number_value(y) : values.empty() ? Value{} : unknown_value(values[0]);
+  };
+  if (call.text == "abs") {
+    Value absolute = finite(std::abs(x));
+    if (!values.empty()) absolute.numeric = values[0].numeric;
+    return absolute;
+  }
+  if (call.text == "sqrt") return finite(std::sqrt(x));
+  if (call.text == "sin") return finite(std::sin(x * degree));
+  if (call.text == "cos") return finite(std::cos(x * degree));
+  if (call.text == "tan") return finite(std::tan(x * degree));
+  if (call.text == "acos") return finite(std::acos(x) / degree);
+  if (call.text == "atan2" && values.size() == 2 && values[0].is_number() && values[1].is_number())
+    return finite(std::atan2(values[0].number, values[1].number) / degree);
+  return {};
+}
+
+std::optional<Value> Krl::function(const Expression& call, Interpreter& run) {
+  static const std::set<std::string> known{
+      ":",         "inv_pos", "abs",        "sqrt",    "sin",        "cos",     "tan",
+      "acos",      "atan2",   "svel_joint", "svel_cp", "sacc_joint", "sacc_cp", "sapo",
+      "sapo_ptp",  "stool",   "stool2",     "sbase",   "sipo_mode",  "sload",   "sori_typ",
+      "scirc_typ", "scirc_m", "sgear_jerk", "sjerk",   "s_exax_ign", "varstate"};
+  if (!known.contains(call.text)) return {};
+  std::vector<Value> values;
+  for (const Expression& argument : call.items) values.push_back(run.evaluate(argument));
+  if (call.text == ":" || call.text == "inv_pos") {  // the second frame, given in the first
+    Frame product;
+    for (const Value& value : values) {
+      const Coordinates read = coordinates(value, frame_names);
+      if (!read.unknown.known() || !read.any())
+        return unknown_value(read.unknown.known() ? value : read.unknown);
+      product = product * frame_from(read.numbers);
+    }
+    return frame_value(call.text == ":" ? product : inverse(product));
+  }
+  if (call.text == "varstate") return state_of(values.empty() ? Value{} : values[0], run);
+  if (auto value = arithmetic(call, values)) return value;
+  return spline_function(call, values, run);
+}
+
+}  // namespace dresslife::sim

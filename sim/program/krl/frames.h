@@ -1,0 +1,47 @@
+// KUKA's positions: frames {X, Y, Z, A, B, C} with angles about z, y', x'' and axis angles {A1 .. A6}, of
+// which a program may give some only.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/program/interpreter/interpreter.h"
+
+namespace dresslife::sim {
+
+namespace krl {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double millimetre = 1e-3;
+constexpr const char* axis_names[] = {"a1", "a2", "a3", "a4", "a5", "a6"};
+constexpr const char* frame_names[] = {"x", "y", "z", "a", "b", "c"};
+constexpr const char* external_names[] = {"e1", "e2", "e3", "e4", "e5", "e6"};
+
+/// Six numbers of a record [mm and deg], and which of them it gives.
+struct Coordinates {
+  std::array<double, 6> numbers{};
+  std::array<bool, 6> given{};
+  Value unknown;  ///< what is known only while the robot runs, with its causes; known: there is none
+  bool any() const {
+    return std::any_of(given.begin(), given.end(), [](bool g) { return g; });
+  }
+  bool all() const {
+    return std::all_of(given.begin(), given.end(), [](bool g) { return g; });
+  }
+};
+
+/// A variable that is declared and not assigned yet.
+Value unset_value();
+bool is_unset(const Value& value);  ///< with everything in it
+
+Coordinates coordinates(const Value& record, const char* const (&names)[6]);
+Frame frame_from(const std::array<double, 6>& numbers);
+std::array<double, 6> numbers_of(const Frame& frame);
+
+}  // namespace krl
+
+}  // namespace dresslife::sim

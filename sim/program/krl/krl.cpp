@@ -1,0 +1,838 @@
+#include "sim/program/krl/krl.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "sim/program/interpreter/arc.h"
+#include "sim/program/interpreter/tokens.h"
+#include "sim/program/krl/dialect.h"
+#include "sim/program/krl/spline.h"
+
+namespace dresslife::sim {
+
+using namespace krl;
+
+namespace {
+
+constexpr const char* standing_names[] = {"$axis_act", "$axis_act_meas", "$pos_act",  "$pos_act_mes",
+                                          "$axis_int", "$pos_int",       "$axis_ret", "$pos_ret"};
+
+bool is_standing(const std::string& name) {
+  return std::find(std::begin(standing_names), std::end(standing_names), name) != std::end(standing_names);
+}
+
+/// Whether a move carries a word: C_DIS, #TOOL, in_spline.
+bool has(const Statement& statement, const char* word) {
+  return (" " + statement.text + " ").find(fmt::format(" {} ", word)) != std::string::npos;
+}
+
+/// Whether the spline planner makes a move: only it takes $GEAR_JERK and $JERK.
+bool is_spline(const Statement& statement) { return statement.name.starts_with("s") || has(statement, "in_spline"); }
+
+/// A distance of SAPO_PTP that stands for "the percentage counts alone" [mm].
+constexpr double no_distance = 1e5;
+
+constexpr const char* target_form =
+    "{X .., Y .., Z .., A .., B .., C .., S .., T ..} in mm and deg, or {A1 .., A2 .., A3 .., A4 .., A5 .., A6 ..}";
+
+constexpr double most_angle = 3600;  // of CA [deg]
+
+}  // namespace
+
+Krl::Krl(const Code& code, const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects)
+    : code_(code), tools_(tools), work_objects_(work_objects) {}
+
+std::optional<Instruction::Kind> Krl::kind_of(const std::string& name) {
+  std::string plain = name.starts_with("s") ? name.substr(1) : name;
+  if (plain.ends_with("_rel")) plain.resize(plain.size() - 4);
+  if (plain == "ptp") return Instruction::Kind::joint;
+  if (plain == "lin" || plain == "pl") return Instruction::Kind::linear;
+  if (plain == "circ") return Instruction::Kind::circular;
+  return {};
+}
+
+bool Krl::matters(const std::string& name) const { return kind_of(name).has_value() || name == "bas"; }
+
+std::optional<Value> Krl::constant(const std::string& name) {
+  if (name.starts_with("#")) return text_value(name);
+  if (name == "$nullframe" || name == "$world") return frame_value(Frame{});
+  if (name == "$num_ax") return number_value(6);
+  if (name == "$t1" || name == "$t2") return truth_value(false);  // what wears cables is automatic operation
+  if (name == "$on_path") return truth_value(false);              // a program runs from its first line
+  const bool axes = name == "$axis_act" || name == "$axis_act_meas" || name == "$axis_int";
+  if (!axes && name != "$pos_act" && name != "$pos_act_mes" && name != "$pos_int") return named_frame(name);
+  const auto numbers = axes ? axes_ : place_before(current_frames(*run_));
+  if (numbers) {
+    Value place = record(*numbers, axes ? "e6axis" : "e6pos");
+    for (std::size_t i = 0; i < external_.size(); ++i)
+      if (const Value* part = external_[i] ? place.field(external_names[i]) : nullptr)
+        store(const_cast<Value&>(*part), number_value(*external_[i]));
+    return place;
+  }
+  if (std::optional<Value> given = run_->given_here(name)) return given;
+  return place_here(axes, *run_);
+}
+
+// ---- targets ----------------------------------------------------------------------------------------------
+
+void Krl::ask_for_target(const Expression& written, const Value& value, Interpreter& run) {
+  const std::string path = run.path_of(written), answer = path.empty() ? "" : run.answer_name(path);
+  const std::string name = path.empty() ? std::string("a position") : fmt::format("'{}'", path);
+  const Cause* cause = value.first_cause();
+  std::vector<Question> questions;
+  if (!path.empty()) questions = {{Question::Kind::value, answer, target_form}};
+  if (is_unset(value)) {
+    run.miss(answer.empty() ? name : answer, written.place,
+             fmt::format("moves to {}, which has no value yet", name),
+             fmt::format("assign it before the move, give the file that holds its value (.dat), or --value "
+                         "'{}={{X ...}}'",
+                         path.empty() ? "NAME" : answer),
+             questions);
+  } else if (!path.empty() && cause && cause->name == answer) {
+    run.miss(answer, written.place, fmt::format("moves to {}, which no file read declares", name),
+             fmt::format("give the .dat file that declares it, write the target as a constant, or --value "
+                         "'{}={{X ...}}'",
+                         answer),
+             questions);
+  } else {
+    Coordinates none;
+    none.unknown = value;
+    ask_for_part(written, none, run);
+  }
+}
+
+/// All that the target lacks in one line: it is answered in one round.
+void Krl::ask_for_part(const Expression& written, const Coordinates& read, Interpreter& run) {
+  const Value value = run.evaluate(written);
+  const bool whole = value.kind == Value::Kind::unknown;
+  run.ask_for(read.unknown, written.place, "moves to a place that is known only while the robot runs", "",
+              whole ? target_form : "a number");
+}
+
+/// Numbers of where the robot stands that the user gives: "cell.src:12:$pos_act".
+std::optional<std::array<double, 6>> Krl::given_place(bool axes, Interpreter& run) {
+  const auto value = run.given_here(axes ? "$axis_act" : "$pos_act");
+  const Coordinates read =
+      value ? axes ? coordinates(*value, axis_names) : coordinates(*value, frame_names) : Coordinates{};
+  return read.all() ? std::optional(read.numbers) : std::nullopt;
+}
+
+/// What a target leaves out stays as it was where the robot stands.
+void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter& run) {
+  run.ask_for(
+      place_here(axes, run), written.place,
+      "gives some coordinates only, from a place whose other coordinates are not known: the move before goes to axis "
+      "angles or is not known",
+      "move to a pose with X, Y, Z, A, B, C before", "");
+}
+
+/// Where the robot stands is unknown: what the last move's target depends on is asked for too, but that may be given
+/// in the other form.
+Value Krl::place_here(bool axes, Interpreter& run) const {
+  const Value here = unknown_value(run.name_here(axes ? "$axis_act" : "$pos_act"),
+                                   "is where the robot stands", form_of(axes ? "axis" : "frame"));
+  return lost_.cause ? unknown_value(lost_, here) : here;
+}
+
+/// The numbers of the last target, in other frames where they have changed since.
+std::optional<std::array<double, 6>> Krl::place_before(const Frames& frames) const {
+  if (!numbers_ || frames.same(numbers_in_)) return numbers_;
+  if (!frames.unknown.known() || !numbers_in_.unknown.known()) return numbers_;  // they are asked for
+  return numbers_of(frames.pose(numbers_in_.flange(frame_from(*numbers_))));
+}
+
+bool Krl::read_external(const Expression& written, const Value& value, bool relative, Instruction& move,
+                        Interpreter& run) {
+  const Coordinates read = coordinates(value, external_names);
+  if (!read.unknown.known()) {
+    ask_for_part(written, read, run);
+    return false;
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (read.given[i]) external_[i] = read.numbers[i] + (relative ? external_[i].value_or(0) : 0);
+    if (external_[i]) count = i + 1;
+  }
+  for (std::size_t i = 0; i < count; ++i) move.target.external_axes.push_back(external_[i].value_or(0));
+  return true;
+}
+
+namespace {
+
+/// A place in the frame of the move, from what is written and the place before; absent: not known.
+std::optional<std::array<double, 6>> moved(const Coordinates& read, Krl::From from,
+                                           const std::optional<std::array<double, 6>>& before) {
+  if (read.all() && from == Krl::From::origin) return read.numbers;
+  if (!before) return {};
+  std::array<double, 6> numbers = *before;
+  if (from == Krl::From::origin) {
+    for (int i = 0; i < 6; ++i)
+      if (read.given[i]) numbers[i] = read.numbers[i];
+  } else if (from == Krl::From::tool) {
+    numbers = numbers_of(frame_from(*before) * frame_from(read.numbers));
+  } else {
+    for (int i = 0; i < 6; ++i) numbers[i] += read.numbers[i];
+  }
+  return numbers;
+}
+
+}  // namespace
+
+bool Krl::read_via(const Expression& via, From from, const Frames& frames, Instruction& move,
+                   Interpreter& run) {
+  const Value value = run.evaluate(via);
+  const Coordinates read = coordinates(value, frame_names);
+  if (coordinates(value, axis_names).any()) {
+    run.complain(via.place, "has a CIRC by axis angles", "write a frame");
+    return false;
+  }
+  if (!read.unknown.known() || !read.any()) {
+    read.unknown.known() ? ask_for_target(via, value, run) : ask_for_part(via, read, run);
+    return false;
+  }
+  auto before = place_before(frames);
+  if (!before) before = given_place(false, run);
+  const auto numbers = moved(read, from, before);
+  if (!numbers) {
+    ask_for_place_before(via, false, run);
+    return false;
+  }
+  move.via = frame_from(*numbers);
+  return true;
+}
+
+/// A setting by name (#VAR, #BASE) that depends on what is known only while the robot runs.
+void Krl::ask_for_kind(const Value* kind, const char* what, const Place& place, Interpreter& run) {
+  if (kind && kind->kind == Value::Kind::unknown && !is_unset(*kind))
+    run.ask_for(*kind, place, fmt::format("{} that is known only while the robot runs", what),
+                "assign a constant", "a name");
+}
+
+/// $ORI_TYPE = #CONSTANT: the tool keeps the orientation that it has, whatever the target says.
+bool Krl::keeps_orientation(const Place& place, bool unknown, Interpreter& run) {
+  const Value* type = run.variable("$ori_type");
+  ask_for_kind(type, "turns the tool by an $ORI_TYPE", place, run);
+  const std::string kind = type && type->kind == Value::Kind::text ? type->text : "";
+  if (kind == "#joint")
+    run.note(place, "turns the tool by the wrist's axes ($ORI_TYPE #JOINT): it is turned evenly", true);
+  if (kind != "#constant") return false;
+  if (unknown)
+    run.note(
+        place,
+        "keeps the orientation ($ORI_TYPE #CONSTANT) of an unknown place: the target's is taken",
+        true);
+  return !unknown;
+}
+
+bool Krl::read_target(const Expression& written, From from, const Frames& frames, Instruction& move,
+                      Interpreter& run) {
+  if (read_known_target(written, from, frames, move, run)) {
+    lost_ = {};
+    return true;
+  }
+  numbers_.reset(), axes_.reset();
+  lost_ = unknown_value(run.evaluate(written));
+  return false;
+}
+
+bool Krl::read_known_target(const Expression& written, From from, const Frames& frames, Instruction& move,
+                            Interpreter& run) {
+  const Value value = run.answered(written);
+  const Coordinates axes = coordinates(value, axis_names), frame = coordinates(value, frame_names);
+  for (const Coordinates* read : {&axes, &frame})
+    if (!read->unknown.known()) {
+      ask_for_part(written, *read, run);
+      return false;
+    }
+  const bool outside = coordinates(value, external_names).any();  // PTP {E1 200}: the robot stays
+  const bool joint = axes.any() || (!frame.any() && outside && axes_);
+  if (!joint && !frame.any() && !outside) {
+    ask_for_target(written, value, run);
+    return false;
+  }
+  if (joint && move.kind != Instruction::Kind::joint) {
+    run.complain(written.place, "goes along a path to axis angles (the controller stops here)",
+                 "write a frame");
+    return false;
+  }
+  if (from == From::place && !joint && (frame.numbers[4] != 0 || frame.numbers[5] != 0)) {
+    run.complain(written.place, "turns about B or C by a relative amount (in $BASE the law is not public)",
+                 "write the target's angles, or #TOOL");
+    return false;
+  }
+  const auto before = joint ? axes_ : place_before(frames);
+  const Coordinates& read = joint ? axes : frame;
+  auto numbers = moved(read, from, before);
+  if (!numbers) numbers = moved(read, from, given_place(joint, run));
+  if (numbers && move.kind != Instruction::Kind::joint && keeps_orientation(written.place, !before, run))
+    std::copy(before->begin() + 3, before->end(), numbers->begin() + 3);
+  if (!numbers) {
+    ask_for_place_before(written, joint, run);
+    return false;
+  }
+  if (!read_external(written, value, from != From::origin, move, run)) return false;
+  if (joint) {
+    for (double number : *numbers) move.target.joints.push_back(number * degree);
+    axes_ = numbers;
+    numbers_.reset();
+    return true;
+  }
+  move.target.pose = frame_from(*numbers);
+  numbers_ = numbers;
+  numbers_in_ = frames;
+  axes_.reset();
+  const Value *status = value.field("s"), *turn = value.field("t");
+  if (move.kind == Instruction::Kind::joint && status && turn && status->is_number() && turn->is_number())
+    move.target.configuration = {ArmConfiguration::Kind::kuka,
+                                 {static_cast<int>(std::clamp(status->number, 0.0, 63.0)),
+                                  static_cast<int>(std::clamp(turn->number, 0.0, 63.0))}};
+  return true;
+}
+
+// ---- speed and zone ---------------------------------------------------------------------------------------
+
+/// A number that a system variable or a part of one holds.
+std::optional<double> Krl::setting(const std::string& name, const char* field, Interpreter& run) {
+  const Value* value = run.variable(name);
+  if (value && *field) value = value->field(field);
+  return value && value->is_number() ? std::optional(value->number) : std::nullopt;
+}
+
+bool Krl::read_axis_speed(const Statement& statement, Instruction& move, Interpreter& run) {
+  const auto slowest = [&](const char* list) -> std::optional<double> {  // axes move together
+    double percent = 100;
+    const Value* values = run.variable(list);
+    for (std::size_t axis = 0; values && axis < 6 && axis < values->items.size(); ++axis) {
+      const Value& value = values->items[axis];
+      if (is_unset(value)) continue;
+      if (!value.is_number() || !(value.number > 0)) {
+        run.ask_for(value, statement.place,
+                    fmt::format("moves with {}[{}] that is not a known number above 0", list, axis + 1),
+                    value.causes().empty()
+                        ? "assign a constant"
+                        : "give the file that holds it (PDEFAULT and its like: $CONFIG.DAT)",
+                    "a number in %");
+        return {};
+      }
+      percent = std::min(percent, value.number);
+    }
+    return percent;
+  };
+  const auto speed = slowest("$vel_axis"), acceleration = slowest("$acc_axis");
+  if (!speed || !acceleration) return false;
+  move.speed.axis_percent = *speed;
+  move.acceleration_percent = std::max(1.0, *acceleration);
+  const Value* jerks = run.variable("$gear_jerk");
+  for (std::size_t axis = 0; is_spline(statement) && jerks && axis < 6 && axis < jerks->items.size(); ++axis)
+    if (const Value& jerk = jerks->items[axis]; jerk.is_number() && jerk.number > 0)
+      move.jerk_percent = std::clamp(jerk.number, 1.0, move.jerk_percent);
+  return true;
+}
+
+bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpreter& run) {
+  const Value* velocity = run.variable("$vel");
+  const Value* held = velocity ? velocity->field("cp") : nullptr;
+  std::optional<Value> speed;
+  if (held && !is_unset(*held))
+    speed = *held;
+  else
+    speed = run.given("$vel.cp");
+  if (!speed) {
+    run.miss("$vel.cp", statement.place,
+             "moves along a path before $VEL.CP is assigned (its value lies in the controller)",
+             "assign $VEL.CP in m/s, or give --value '$VEL.CP=...'",
+             {{Question::Kind::value, "$vel.cp", "a speed in m/s"}});
+    return false;
+  }
+  if (!speed->is_number() || !(speed->number > 0)) {
+    run.ask_for(*speed, statement.place, "moves along a path at a $VEL.CP that is not a known number above 0",
+                "assign a constant in m/s, give $config.dat", "a speed in m/s");
+    return false;
+  }
+  move.speed.tool = speed->number;
+  if (const auto turn = setting("$vel", "ori1", run); turn && *turn > 0)
+    move.speed.orientation = *turn * degree;
+  const Value* accelerations = run.variable("$acc");
+  const Value* path = accelerations ? accelerations->field("cp") : nullptr;
+  if (path && path->kind == Value::Kind::unknown && !is_unset(*path) && path->first_cause()) {
+    run.ask_for(*path, statement.place,
+                "moves along a path at an $ACC.CP that is known only while the robot runs",
+                "assign a constant in m/s2", "an acceleration in m/s2");
+    return false;
+  }
+  const auto acceleration = setting("$acc", "cp", run), whole = setting("def_acc_cp", "", run);
+  if (acceleration && *acceleration > 0)
+    move.acceleration_percent =
+        std::clamp(100 * *acceleration / whole.value_or(standard_path_acceleration), 1.0, 100.0);
+  if (const auto jerk = setting("$jerk", "cp", run); is_spline(statement) && jerk && *jerk > 0)
+    move.jerk_percent = std::clamp(100 * *jerk / standard_path_jerk, 1.0, 100.0);
+  return true;
+}
+
+/// $OV_PRO slows every move down.
+bool Krl::read_override(const Statement& statement, Instruction& move, Interpreter& run) {
+  const Value* value = run.variable("$ov_pro");
+  if (!value || is_unset(*value)) return true;
+  if (!value->is_number() || !(value->number > 0)) {
+    run.ask_for(*value, statement.place, "moves at an override $OV_PRO that is not a known number above 0",
+                "assign a constant in %", "a number in %");
+    return false;
+  }
+  const double share = std::min(value->number, 100.0) / 100;
+  for (std::optional<double>* speed : {&move.speed.axis_percent, &move.speed.tool, &move.speed.orientation})
+    if (*speed) **speed *= share;
+  return true;
+}
+
+bool Krl::read_speed(const Statement& statement, Instruction& move, Interpreter& run) {
+  const bool read = move.kind == Instruction::Kind::joint ? read_axis_speed(statement, move, run)
+                                                          : read_path_speed(statement, move, run);
+  return read && read_override(statement, move, run);
+}
+
+void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& run) {
+  const auto known = [&](const char* field, const char* written) {
+    auto number = setting("$apo", field, run);
+    if (const auto given = number ? std::nullopt : run.given(lower_case(written));
+        given && given->is_number())
+      number = given->number;
+    const Value part = number ? Value{} : run.evaluate(field_at("$apo", field, statement.place));
+    const Cause* cause = is_unset(part) ? nullptr : part.first_cause();
+    if (!number && cause && !cause->asked().empty() && !cause->asked().starts_with("$apo"))
+      run.ask_for(part, statement.place,
+                  fmt::format("approximates by {}, which is known only while the robot runs", written),
+                  "assign a constant", "a number");
+    else if (!number)
+      run.note(statement.place,
+               fmt::format(
+                   "approximation by {0}: no file sets it, so that the robot stops at the target (give --value '{0}=...')",
+                   written),
+               true);
+    return number;
+  };
+  if (has(statement, "in_spline") && !has(statement, "last")) {
+    move.zone.percent = 100;  // a spline does not stop between its points
+    return;
+  }
+  if (const auto ahead = setting("$advance", "", run); ahead && *ahead <= 0)
+    return;  // moves are not known ahead
+  const bool joint = move.kind == Instruction::Kind::joint,
+             by_distance = has(statement, "c_dis") || has(statement, "c_spl");
+  const auto distance = setting("$apo", "cdis", run);
+  if (has(statement, "c_ptp") || (joint && by_distance && distance && *distance >= no_distance)) {
+    move.zone.percent = std::clamp(known("cptp", "$APO.CPTP").value_or(0), 0.0, 100.0);
+  } else if (by_distance) {
+    move.zone.distance = std::max(0.0, known("cdis", "$APO.CDIS").value_or(0)) * millimetre;
+  } else if (has(statement, "c_vel")) {
+    // From v % of the speed V on: (v V)^2 / 2a of the way V^2 / 2a in which the robot would stop.
+    const double share = std::clamp(known("cvel", "$APO.CVEL").value_or(0), 0.0, 100.0) / 100;
+    move.zone.percent = 100 * share * share;
+  } else if (has(statement, "c_ori")) {
+    run.note(statement.place, "approximation by an angle (C_ORI): the robot stops at the target", true);
+  }
+}
+
+/// Origins of the parts of a move.
+void Krl::add_origins(const Expression& target, const Frames& frames, Instruction& move, Interpreter& run) {
+  const auto add = [&](const char* part, const std::string& written, const Expression& from) {
+    const Place place = run.origin(from);
+    move.origins.push_back({part, written, place.line ? run.where(place) : pipeline::Where{}});
+  };
+  const bool joint = move.kind == Instruction::Kind::joint;
+  add("target", run.written(target), target);
+  if (move.tool >= 0)
+    add("tool", frames.stationary ? frames.base_name : frames.tool_name, name_at("$tool", {}));
+  if (move.work_object >= 0)
+    add("work object", frames.stationary ? frames.tool_name : frames.base_name, name_at("$base", {}));
+  add("speed", joint ? "$VEL_AXIS" : "$VEL.CP", name_at(joint ? "$vel_axis" : "$vel", {}));
+  if (move.zone.distance > 0 || move.zone.percent > 0) add("zone", "$APO", name_at("$apo", {}));
+}
+
+// ---- moves ------------------------------------------------------------------------------------------------
+
+/// A move to $AXIS_ACT; before the first move also one to a variable that keeps it.
+bool Krl::stands_still(const Expression& target, Interpreter& run) const {
+  if (target.kind != Expression::Kind::name) return false;
+  if (is_standing(target.text)) return true;
+  const auto moves = [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; };
+  const auto& made = run.program().instructions;
+  if (std::any_of(made.begin(), made.end(), moves)) return false;
+  const Place last = run.origin(target);  // "p = $AXIS_ACT", unless a part of it was written since
+  if (last.line == 0) return false;
+  std::string line = lower_case(code_.files[last.file].from(last.line, last.column));
+  line.resize(std::min(line.find(';'), line.size()));
+  std::erase(line, ' ');
+  return line.starts_with(target.text + "=") && is_standing(line.substr(target.text.size() + 1));
+}
+
+void Krl::set_frames(const Frames& frames, Instruction& move, Interpreter& run) {
+  const auto trivial = [](const Frame& f) { return f.position.isZero(0) && f.orientation.vec().isZero(0); };
+  // #TCP: the tool stands in $BASE, the work is held at $TOOL.
+  const bool turned = frames.stationary;
+  const NamedFrame tool{turned ? frames.base_name : frames.tool_name, turned ? frames.base : frames.tool,
+                        turned};
+  const NamedFrame object{turned ? frames.tool_name : frames.base_name, turned ? frames.tool : frames.base,
+                          turned};
+  if (turned || !trivial(tool.frame)) move.tool = run.frame_index(run.program().tools, tool);
+  if (turned || !trivial(object.frame))
+    move.work_object = run.frame_index(run.program().work_objects, object);
+}
+
+bool Krl::ask_for_frames(const Frames& frames, const Statement& statement, Interpreter& run) {
+  if (frames.unknown.known()) return false;
+  ask_for_frame(frames.unknown, statement, run);
+  if (!frames.base_too.known()) ask_for_frame(frames.base_too, statement, run);
+  return true;
+}
+
+void Krl::ask_for_frame(const Value& unknown, const Statement& statement, Interpreter& run) {
+  const Cause* cause = unknown.first_cause();
+  const bool listed =
+      cause && (cause->name.starts_with("TOOL_DATA[") || cause->name.starts_with("BASE_DATA["));
+  if (listed) {
+    const bool tool = cause->name[0] == 'T';
+    const auto kind = tool ? Question::Kind::tool : Question::Kind::work_object;
+    run.miss(cause->name, statement.place,
+             fmt::format("moves with {}, which no file read declares", cause->name),
+             fmt::format(
+                 "give the file that declares it ($config.dat), or --frames FILE.yaml (motion.{} in a job) "
+                 "with the name '{}'",
+                 tool ? "tools" : "work_objects", cause->name),
+             {{kind, cause->name, ""}});
+  } else {
+    run.ask_for(unknown, statement.place, "moves with a $TOOL or $BASE that the files do not contain",
+                "assign a constant frame", "{X .., Y .., Z .., A .., B .., C ..} in mm and deg");
+  }
+}
+
+/// The arc, on by the angle of CA where there is one, and with a tool that turns with the way where it does.
+void Krl::go_round(const Statement& statement, const Expression* whole_angle,
+                   const std::optional<std::array<double, 6>>& start, Instruction move, Interpreter& run) {
+  const Value* type = run.variable("$circ_type");
+  ask_for_kind(type, "turns the tool on its arc by a $CIRC_TYPE", statement.place, run);
+  const bool by_path = type && type->kind == Value::Kind::text && type->text == "#path";
+  const bool turning = by_path && start && keeps_orientation(statement.place, false, run);
+  if (by_path && !turning)
+    run.note(statement.place, "turns the tool with the way ($CIRC_TYPE #PATH): it is turned evenly", true);
+  if (!whole_angle && !turning) return run.emit(move, statement);
+  const Value given = whole_angle ? run.evaluate(*whole_angle) : number_value(0);
+  if (!given.is_number())
+    return run.ask_for(given, statement.place, "goes round by a CA that is known only while the robot runs",
+                       "write a constant", "an angle in deg");
+  if (!start)
+    return run.complain(statement.place, "goes round by CA from a place that is not known",
+                        "write a LIN before");
+
+  const Frame from = frame_from(*start), to = move.target.pose;
+  const auto arc = arc_through(from.position, move.via.position, to.position);
+  constexpr double taught_alike = 0.1 * degree;  // as well as points are taught
+  if (!arc || std::abs(given.number) > most_angle) {
+    run.complain(
+        statement.place,
+        arc ? "goes round by more than ten turns" : "has no circle: its points lie on a line, or two are one",
+        "mend the points");
+  } else if (!turning && from.orientation.angularDistance(to.orientation) > taught_alike) {
+    run.complain(statement.place, "turns the tool while it goes round by CA (KUKA's law is not public)",
+                 "write the end of the arc as the target, without CA");
+  } else {
+    const std::vector<Frame> poses =
+        poses_along(*arc, from, whole_angle ? given.number * degree : arc->angle, turning);
+    const MoveZone zone = move.zone;
+    for (std::size_t i = 0; i + 1 < poses.size(); i += 2) {
+      move.via = poses[i], move.target.pose = poses[i + 1];
+      move.zone = i + 2 < poses.size() ? MoveZone{0, 100} : zone;
+      run.emit(move, statement);
+    }
+    if (!poses.empty()) numbers_ = numbers_of(poses.back());
+  }
+}
+
+void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpreter& run) {
+  Instruction move;
+  move.kind = kind;
+  const From from = !statement.name.ends_with("_rel") ? From::origin
+                    : has(statement, "#tool")         ? From::tool
+                                                      : From::place;
+  const Expression* target = nullptr;
+  const Expression* via = nullptr;
+  const Expression* angle = nullptr;  // of the whole arc
+  for (const Expression& argument : statement.arguments) {
+    if (argument.option == "ca") {
+      angle = &argument;
+      continue;
+    }
+    via = target;
+    target = &argument;
+  }
+  if (!target || (kind == Instruction::Kind::circular && !via)) {
+    run.complain(statement.place, "has a CIRC without a point on the way and a target", "write both");
+    return;
+  }
+  if (stands_still(*target, run)) {
+    run.note(statement.place, "the robot stands there already: no move");
+    return;
+  }
+  const Frames frames = current_frames(run);
+  const auto start = place_before(frames);
+  bool whole = kind != Instruction::Kind::circular || read_via(*via, from, frames, move, run);
+  whole &= read_target(*target, from, frames, move, run);
+  if (!whole) ask_for_frames(frames, statement, run);  // a place needs them
+  const bool has_speed = read_speed(statement, move, run);
+  read_zone(statement, move, run);  // all that the move lacks is asked for together
+  if (!has_speed || !whole) return;
+  // Axis angles need no frames, unless the tool's way decides where blending begins.
+  const bool free = !move.target.joints.empty() && move.zone.distance == 0;
+  if (frames.unknown.known())
+    set_frames(frames, move, run);
+  else if (!free && ask_for_frames(frames, statement, run))
+    return;
+  if (statement.name.starts_with("spl") && has(statement, "in_spline"))
+    spline_points_.insert(run.program().instructions.size());
+  add_origins(*target, frames, move, run);
+  if (kind == Instruction::Kind::circular)
+    go_round(statement, angle, start, move, run);
+  else
+    run.emit(move, statement);
+  for (const long number : braking_) handlers_happen(number, run);
+}
+
+// ---- interrupts -------------------------------------------------------------------------------------------
+
+namespace {
+
+/// Whether a routine, or one that it calls, stops the robot's move.
+bool brakes(const Code& code, const std::vector<Statement>& body, int module, int depth) {
+  constexpr int deepest = 4;  // calls in handlers
+  return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
+           if (statement.name == "brake" || statement.name == "resume") return true;
+           for (const Branch& branch : statement.branches)
+             if (brakes(code, branch.body, module, depth)) return true;
+           const Routine* called =
+               statement.kind == Statement::Kind::instruction ? code.find(statement.name, module) : nullptr;
+           return called && brakes(code, called->body, called->module, depth + 1);
+         });
+}
+
+}  // namespace
+
+/// Variables that a handler writes are unknown, because it may have run.
+void Krl::handlers_happen(long number, Interpreter& run) {
+  const auto handler = handlers_.find(number);
+  if (handler == handlers_.end()) return;
+  const Statement& call = *handler->second.call;
+  run.forget_writes_of(call, handler->second.module,
+                       fmt::format("may be written by the interrupt {} (declared in {})", call.text,
+                                   run.short_place(call.place)));
+}
+
+/// An interrupt is taken not to happen. If it would stop moves, that is reported.
+void Krl::interrupt(const Statement& statement, Interpreter& run) {
+  const Value number = statement.arguments.empty() ? number_value(0) : run.evaluate(statement.arguments[0]);
+  const long key = number.is_number() ? static_cast<long>(std::clamp(number.number, -1e6, 1e6)) : -1;
+  if (statement.name == "interrupt_decl") {
+    const Statement& call = statement.branches[0].body[0];
+    if (call.name == "ir_stopm") return;  // after a stop by the operator
+    handlers_[key] = {&call, run.module()};
+  } else if (statement.name == "interrupt_off") {
+    statement.arguments.empty() ? braking_.clear() : static_cast<void>(braking_.erase(key));
+  } else if (const auto handler = handlers_.find(key); handler != handlers_.end()) {
+    handlers_happen(key, run);
+    if (!brakes(code_, {*handler->second.call}, handler->second.module, 0)) return;
+    braking_.insert(key);
+    run.note(statement.place,
+             fmt::format("an interrupt that may stop a move ({}): it is taken not to happen",
+                         handler->second.call->text),
+             true);
+  }
+}
+
+/// What WITH sets counts for this move only.
+bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& run) {
+  std::map<std::string, std::pair<Value, Place>> before;
+  const auto keep = [&](const std::string& name) {
+    if (const Value* value = run.variable(name))
+      before.emplace(name, std::pair(*value, run.origin(name_at(name, {}))));
+  };
+  for (const Branch& settings : statement.branches)
+    for (const Statement& s : settings.body) {
+      for (const char* list : {"$vel_axis", "$acc_axis", "$gear_jerk"})
+        keep(list);  // SVEL_JOINT and its like set all of them
+      const Expression* base = &s.arguments[0];
+      while (base->kind != Expression::Kind::name) base = &base->items[0];
+      keep(base->text);
+      Value value = run.evaluate(s.arguments[1]);
+      if (s.arguments[0].kind == Expression::Kind::field)  // $VEL.CP = SVEL_CP(...)
+        if (const Value* part = value.field(s.arguments[0].text)) value = Value(*part);
+      run.assign(s.arguments[0], std::move(value));
+    }
+  move_now(kind, statement, run);
+  for (auto& [name, kept] : before) run.set(name, std::move(kept.first), kept.second);
+  return true;
+}
+
+bool Krl::wait(const Statement& statement, Interpreter& run) {
+  const Value time = run.answered(statement.arguments[0]);
+  if (!time.is_number()) {
+    run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
+                "write it as a constant", "a time in s");
+  } else if (statement.continued && !run.program().instructions.empty()) {
+    run.note(statement.place,
+             "CONTINUE: the time passes while the robot moves, and is not added to the motion", true);
+  } else if (time.number > 0) {  // the controller does not wait for 0 and less
+    Instruction wait;
+    wait.kind = Instruction::Kind::dwell;
+    wait.dwell = time.number;
+    run.emit(wait, statement);
+  }
+  return true;
+}
+
+namespace {
+
+/// The move that ends in a blend so far; null: none does.
+Instruction* blending(Interpreter& run) {
+  auto& made = run.program().instructions;
+  if (made.empty() || made.back().kind == Instruction::Kind::dwell) return nullptr;
+  const MoveZone& zone = made.back().zone;
+  return zone.distance > 0 || zone.percent > 0 ? &made.back() : nullptr;
+}
+
+}  // namespace
+
+/// The move before ends at its target.
+void Krl::wait_for_robot(const Statement& statement, Interpreter& run) {
+  Instruction* const before = blending(run);
+  if (!before) return;
+  if (statement.arguments.empty()) {
+    before->zone = {};
+    return;
+  }
+  run.note(
+      statement.place,
+      fmt::format(
+          "'{}' is declared in no file read: if it is a SIGNAL, the robot stops at the target before, where its "
+          "blend is taken; give the $config.dat that declares it",
+          statement.arguments[0].text),
+      true);
+}
+
+void Krl::may_have_run(const Statement& statement, const Cause& why, Interpreter& run) {
+  if (statement.name == advance_stop && !why.line.empty() && blending(run))
+    run.note(
+        statement.place,
+        fmt::format("the robot stops at the target before if the branch in {} leads here: its blend is taken",
+                    why.line),
+        true);
+}
+
+bool Krl::instruction(const Statement& statement, Interpreter& run) {
+  if (const auto kind = kind_of(statement.name)) return move(*kind, statement, run);
+  if (statement.name == "wait_sec") return wait(statement, run);
+  if (statement.name == advance_stop) {
+    wait_for_robot(statement, run);
+    return true;
+  }
+  if (statement.name == "asyptp") {
+    run.note(statement.place, "ASYPTP: external axes move on their own, beside the robot", true);
+    return true;
+  }
+  if (statement.name == "bas") {
+    basics(statement, run);
+    return true;
+  }
+  if (statement.name == "rsi_movecorr") {
+    numbers_.reset(), axes_.reset();
+    lost_ = {};
+    run.note(statement.place, "RSI_MOVECORR: a sensor leads the robot", true);
+    return true;
+  }
+  if (statement.name.starts_with("interrupt_")) {
+    interrupt(statement, run);
+    return true;
+  }
+  if (statement.name == "trigger") {  // it happens during a move, before or behind the statements that follow
+    const Statement& inner = statement.branches[0].body[0];
+    const std::string why = fmt::format("is written by the TRIGGER in {}", run.short_place(statement.place));
+    if (inner.kind == Statement::Kind::assign)
+      run.make_unknown(inner.arguments[0], {"", why});
+    else
+      run.forget_writes_of(inner, run.module(), why);
+    run.note(statement.place, "TRIGGER: input, output or logic");
+    return true;
+  }
+  if (statement.name == "p00") {  // talks to the line's controller, which answers with a program's number
+    run.make_unknown(name_at("pgno", statement.place),
+                     {"", "is the program's number that the line's controller sends"});
+    run.note(statement.place, "P00: input, output or logic");
+    return true;
+  }
+  return false;
+}
+
+// ---- the program ------------------------------------------------------------------------------------------
+
+namespace {
+
+/// KUKA writes zeros for axes that are not there.
+void leave_out_unused_axes(Program& program) {
+  const auto unused = [](const Instruction& i) {
+    return std::all_of(i.target.external_axes.begin(), i.target.external_axes.end(),
+                       [](double e) { return e == 0; });
+  };
+  if (std::all_of(program.instructions.begin(), program.instructions.end(), unused))
+    for (Instruction& instruction : program.instructions) instruction.target.external_axes.clear();
+}
+
+}  // namespace
+
+namespace {
+
+/// The routine to start with: the one that is asked for, else the first of the first file or of its module.
+const Routine* start_of(const Code& code) {
+  if (code.start.empty()) {
+    const Routine* of_module = nullptr;
+    for (const Routine& routine : code.routines) {
+      if (routine.place.file == 0) return &routine;
+      if (!of_module && routine.module == 0) of_module = &routine;
+    }
+    return of_module;
+  }
+  if (const Routine* routine = code.find(code.start, -1)) return routine;
+  for (const Routine& routine : code.routines)  // a local one is meant where there is no other
+    if (routine.name == code.start) return &routine;
+  return nullptr;
+}
+
+}  // namespace
+
+void run_krl(const Code& code, const ImportOptions& options, const std::vector<NamedFrame>& tools,
+             const std::vector<NamedFrame>& work_objects, Program& program, Problems& problems) {
+  const Routine* routine = start_of(code);
+  if (!routine) {
+    std::vector<std::string> names;
+    for (const Routine& other : code.routines)
+      if (names.size() < 40) names.push_back(other.written);
+    if (options.routine.empty())  // other files' routines are not what the user names
+      problems.add({code.files.empty() ? "" : code.files[0].name(), 1, 1}, "holds no DEF",
+                   "name the .src file that holds the program, or write DEF NAME() .. END");
+    else
+      problems.add({code.files.empty() ? "" : code.files[0].name(), 1, 1},
+                   fmt::format("has no routine '{}'", options.routine),
+                   names.empty() ? "give the .src file too" : fmt::format("name one of: {}", fmt::join(names, ", ")));
+    return;
+  }
+  explore(
+      [&](Exploration& exploration, Program& made, Problems& found) {
+        Krl krl(code, tools, work_objects);
+        Interpreter interpreter(code, krl, options, made, found, exploration);
+        krl.attach(interpreter);
+        interpreter.run(*routine);
+        bend_splines(krl.spline_points(), made);
+        leave_out_unused_axes(made);
+      },
+      program, problems);
+}
+
+}  // namespace dresslife::sim

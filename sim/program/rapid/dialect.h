@@ -1,0 +1,97 @@
+// RAPID's instructions and functions, and the state of the robot that they share. rapid.cpp chooses among
+// them, moves.cpp contains those that move.
+#pragma once
+
+#include <cmath>
+
+#include "sim/program/interpreter/interpreter.h"
+
+namespace dresslife::sim {
+
+/// Where an instruction keeps its arguments: indices among those without a name, -1: none, -2: the last, -3:
+/// the one before.
+struct Signature {
+  const char* name;
+  Instruction::Kind kind;
+  bool joints;  ///< the target is a jointtarget
+  int via, target, speed, zone, tool;
+};
+
+/// Null: no move.
+const Signature* rapid_move(const std::string& instruction);
+
+class Rapid final : public Dialect {
+ public:
+  Rapid(const Code& code, const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects)
+      : code_(code), tools_(tools), work_objects_(work_objects) {}
+
+  std::optional<Value> constant(const std::string& name) override;
+  std::optional<Value> function(const Expression& call, Interpreter& run) override;
+  bool instruction(const Statement& statement, Interpreter& run) override;
+  bool matters(const std::string& name) const override;
+  bool only_waits(const std::string& name) const override { return name == "waittime"; }
+  /// In production main runs until it is stopped.
+  bool begins_again(const Routine& routine) const override { return routine.name == "main"; }
+  bool harmless(const std::string& name) const override;
+  std::string move_meant(const Statement& statement) const override;
+  bool writes(const std::string& name, int position, const Expression& argument) const override;
+  const RecordType* type_of(const std::string& name) const override { return code_.record(name); }
+  void store(Value& place, Value value) const override;
+  Value initial(const std::string& type) const override;
+  std::string form_of(const std::string& type) const override;
+
+ private:
+  // ---- moves.cpp
+  bool move(const Signature& signature, const Statement& statement, Interpreter& run);
+  bool read_target(const Expression& written, bool joints, Instruction& move, Interpreter& run);
+  std::optional<Frame> read_via(const Expression& written, Interpreter& run);
+  bool read_speed(const Expression& written, Instruction& move, Interpreter& run);
+  void read_weld_speed(const Statement& statement, Instruction& move, Interpreter& run);
+  bool read_zone(const Expression& written, Instruction& move, Interpreter& run);
+  bool read_tool(const Expression& written, Instruction& move, Interpreter& run);
+  bool read_work_object(const Expression& written, Instruction& move, Interpreter& run);
+  std::optional<NamedFrame> tool_of(const Expression& written, Interpreter& run);
+  std::optional<NamedFrame> work_object_of(const Expression& written, Interpreter& run);
+  bool read_options(const Statement& statement, Instruction& move, Interpreter& run);
+  static void print_options(const Statement& statement, Interpreter& run);
+  std::optional<Value> typed(const Expression& written, const char* type, const char* what, Interpreter& run);
+  void displace(const Statement& statement, Interpreter& run);
+  std::optional<Value> position_with(const Expression* tool, const Expression* work_object, Interpreter& run);
+  Value current_position(const Expression& call, Interpreter& run);
+  void shift_external_axes(const Statement& statement, Interpreter& run);
+
+  // ---- rapid.cpp
+  Value tool_value(const NamedFrame& tool) const;
+  Value work_object_value(const NamedFrame& object) const;
+  void settings(const Statement& statement, Interpreter& run);
+  void wait(const Statement& statement, Interpreter& run);
+  bool arithmetic(const Statement& statement, Interpreter& run);
+  void connect(const Statement& statement, Interpreter& run);
+  bool steers(const std::vector<Statement>& body, int module, int depth) const;
+  bool named_data(const Statement& statement, Interpreter& run);
+  Value offset(const Expression& call, bool in_tool, Interpreter& run);
+  Value text_to_value(const Expression& call, Interpreter& run);
+
+  const Code& code_;
+  const std::vector<NamedFrame>& tools_;
+  const std::vector<NamedFrame>& work_objects_;
+  double acceleration_percent_ = 100, jerk_percent_ = 100;
+  double speed_factor_ = 1, speed_limit_ = INFINITY;  // of VelSet; [m/s]
+  double override_ = 1;                               // of SpeedRefresh
+  Frame displacement_;                                // of PDispSet and PDispOn
+  std::vector<double> external_shift_;                // of EOffsSet and EOffsOn [mm or deg]
+  bool configuration_of_paths_ = true, configuration_of_joint_moves_ = true;  // ConfL, ConfJ
+
+  /// Where the last move led.
+  struct Reached {
+    Value target;                  // its robtarget or jointtarget
+    bool by_joints = false;        // it is a jointtarget
+    Frame displacement;            // that held for it
+    NamedFrame tool, work_object;  // of it
+  };
+  std::optional<Reached> reached_;
+  Value lost_;                   // why it is not known where the last move led
+  bool lost_by_joints_ = false;  // that was a move to axis angles
+};
+
+}  // namespace dresslife::sim

@@ -1,0 +1,482 @@
+// RAPID's moves: target, speed, zone, tool, work object, and what displaces them.
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "pipeline/settings/fields.h"
+#include "sim/program/rapid/dialect.h"
+#include "sim/program/rapid/functions.h"
+#include "sim/program/rapid/types.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double millimetre = 1e-3;
+constexpr double no_axis = 9e8;  // 9E9 means: no such axis
+
+constexpr auto J = Instruction::Kind::joint;
+constexpr auto L = Instruction::Kind::linear;
+constexpr auto C = Instruction::Kind::circular;
+
+constexpr Signature signatures[] = {
+    {"moveabsj", J, true, -1, 0, 1, 2, 3},    {"movej", J, false, -1, 0, 1, 2, 3},
+    {"movel", L, false, -1, 0, 1, 2, 3},      {"movec", C, false, 0, 1, 2, 3, 4},
+    {"triggabsj", J, true, -1, 0, 1, 3, 4},   {"triggj", J, false, -1, 0, 1, 3, 4},
+    {"triggl", L, false, -1, 0, 1, 3, 4},     {"triggc", C, false, 0, 1, 2, 4, 5},
+    {"trigglios", L, false, -1, 0, 1, 2, 3},  {"triggjios", J, false, -1, 0, 1, 2, 3},
+    {"searchl", L, false, -1, 2, 3, -1, 4},   {"searchc", C, false, 2, 3, 4, -1, 5},
+    {"movejdo", J, false, -1, 0, 1, 2, 3},    {"moveldo", L, false, -1, 0, 1, 2, 3},
+    {"movecdo", C, false, 0, 1, 2, 3, 4},     {"movejao", J, false, -1, 0, 1, 2, 3},
+    {"movelao", L, false, -1, 0, 1, 2, 3},    {"movecao", C, false, 0, 1, 2, 3, 4},
+    {"movejgo", J, false, -1, 0, 1, 2, 3},    {"movelgo", L, false, -1, 0, 1, 2, 3},
+    {"movecgo", C, false, 0, 1, 2, 3, 4},     {"movejsync", J, false, -1, 0, 1, 2, 3},
+    {"movelsync", L, false, -1, 0, 1, 2, 3},  {"movecsync", C, false, 0, 1, 2, 3, 4},
+    {"egmmovel", L, false, -1, 1, 2, 3, 4},   {"egmmovec", C, false, 1, 2, 3, 4, 5},
+    {"arcl", L, false, -1, 0, 1, -3, -2},     {"arclstart", L, false, -1, 0, 1, -3, -2},
+    {"arclend", L, false, -1, 0, 1, -3, -2},  {"arcc", C, false, 0, 1, 2, -3, -2},
+    {"arccstart", C, false, 0, 1, 2, -3, -2}, {"arccend", C, false, 0, 1, 2, -3, -2},
+    {"arcmovel", L, false, -1, 0, 1, 2, 3},   {"arcmovej", J, false, -1, 0, 1, 2, 3},
+    {"arcmovec", C, false, 0, 1, 2, 3, 4},    {"displ", L, false, -1, 0, 1, -3, -2},
+    {"dispc", C, false, 0, 1, 2, -3, -2},     {"spotl", L, false, -1, 0, 1, -1, -2},
+    {"spotj", J, false, -1, 0, 1, -1, -2},    {"spotml", L, false, -1, 0, 1, -1, -2},
+    {"spotmj", J, false, -1, 0, 1, -1, -2},
+};
+
+bool is_weld(const std::string& name) { return name.starts_with("arc") && !name.starts_with("arcmove"); }
+
+double at(const Value& value, std::size_t i) { return value.items[i].number; }
+
+bool is_frame(std::string_view type) { return type == "tooldata" || type == "wobjdata"; }
+
+std::vector<double> external_of(const Value& extax, const std::vector<double>& shift) {
+  std::vector<double> axes;
+  for (std::size_t i = 0; i < extax.items.size(); ++i)
+    if (const double axis = extax.items[i].number; std::abs(axis) < no_axis)
+      axes.push_back(axis + (i < shift.size() ? shift[i] : 0));
+  return axes;
+}
+
+/// What a move's part is called and where it was last written.
+void remember(Instruction& move, const char* part, const Expression& written, Interpreter& run) {
+  const Place place = run.origin(written);
+  move.origins.push_back({part, run.written(written), place.line > 0 ? run.where(place) : pipeline::Where{}});
+}
+
+}  // namespace
+
+std::string Rapid::move_meant(const Statement& statement) const {
+  constexpr std::ptrdiff_t fewest = 4;  // target, speed, zone, tool
+  const auto given = std::count_if(statement.arguments.begin(), statement.arguments.end(),
+                                   [](const Expression& argument) { return argument.option.empty(); });
+  if (given < fewest || !statement.name.starts_with("mov")) return "";
+  static const std::map<std::string, std::string> moves{
+      {"moveabsj", "MoveAbsJ"}, {"movej", "MoveJ"}, {"movel", "MoveL"}, {"movec", "MoveC"}};
+  std::vector<std::string> names;
+  for (const auto& [name, written] : moves) names.push_back(name);
+  const std::string nearest = pipeline::nearest_word(statement.name, names);
+  return nearest.empty() ? "" : moves.at(nearest);
+}
+
+const Signature* rapid_move(const std::string& instruction) {
+  for (const Signature& signature : signatures)
+    if (instruction == signature.name) return &signature;
+  return nullptr;
+}
+
+std::optional<Value> Rapid::typed(const Expression& written, const char* type, const char* what,
+                                  Interpreter& run) {
+  const std::size_t problems = run.problem_count();
+  Value value = run.answered(written);
+  if (!value.known() && run.problem_count() != problems) return {};  // the reason is reported
+  if (!value.known()) {
+    const std::vector<const Cause*> causes = value.causes();
+    const std::string name = causes.size() == 1 && causes[0]->line.empty() ? causes[0]->asked() : "";
+    if (is_frame(type) && !name.empty() && name.find(':') == std::string::npos && !run.variable(name)) {
+      const auto kind = type == std::string("tooldata") ? Question::Kind::tool : Question::Kind::work_object;
+      run.miss(name, written.place, fmt::format("names {} '{}' that no module read declares", what, name),
+               "give the module that declares it too (--module, motion.modules), or its frame in --frames "
+               "FILE.yaml (motion.tools, motion.work_objects)",
+               {{kind, name, ""}});
+    } else if (written.kind == Expression::Kind::name && !run.variable(written.text)) {
+      run.miss(written.text, written.place,
+               fmt::format("names {} '{}' that no module read declares", what, written.text),
+               fmt::format("give the module that declares it too (--module, motion.modules), or {} (motion.values)",
+                           run.remedy_for(value)),
+               run.questions_for(value, form_of(type)));
+    } else {
+      // What else it depends on is written in another way than the argument itself.
+      const bool itself = name == run.answer_name(run.path_of(written)) || name == run.name_here(run.written(written));
+      run.ask_for(value, written.place, fmt::format("has {} that is known only while the robot runs", what), "",
+                  itself ? form_of(type) : "");
+    }
+    return {};
+  }
+  const RecordType* record = code_.record(type);
+  if (value.type == record || (!value.type && value.kind == Value::Kind::list && run.shape(value, record)))
+    return value;
+  run.complain(written.place, fmt::format("has no {} where {} is expected", type, what), "mend the argument");
+  return {};
+}
+
+bool Rapid::read_target(const Expression& written, bool joints, Instruction& move, Interpreter& run) {
+  const auto value = typed(written, joints ? "jointtarget" : "robtarget", "a target", run);
+  if (!value) {
+    reached_.reset();
+    lost_ = unknown_value(run.evaluate(written));
+    lost_by_joints_ = joints;
+    return false;
+  }
+  remember(move, "target", written, run);
+  reached_ = Reached{*value, joints, displacement_, {}, {}};
+  if (joints) {
+    for (const Value& axis : value->items[0].items)
+      if (std::abs(axis.number) < no_axis) move.target.joints.push_back(axis.number * degree);
+    move.target.external_axes = external_of(value->items[1], external_shift_);
+    return true;
+  }
+  const auto q = rapid_orientation(value->items[1]);
+  if (!q) {
+    const bool unset = *value == rapid_initial(code_, "robtarget");
+    // One that the program itself has set to zeros is no question: the controller stops here.
+    const std::string path = unset && !run.was_assigned(written) ? run.answer_name(run.path_of(written)) : "";
+    if (path.empty())
+      run.complain(written.place,
+                   unset ? "has a target that the program set to zeros" : "has a target whose quaternion has not the length 1",
+                   "mend its orientation");
+    else
+      run.miss(path, written.place, "has a target that was never given a value (all of it is 0)",
+               fmt::format("give it one, in the program or with --value '{}=...'", path),
+               {{Question::Kind::value, path, form_of("robtarget")}});
+    return false;
+  }
+  move.target.pose = displacement_ * Frame{rapid_position(value->items[0]), *q};
+  const bool checked =
+      move.kind == Instruction::Kind::joint ? configuration_of_joint_moves_ : configuration_of_paths_;
+  if (checked) {
+    move.target.configuration.kind = ArmConfiguration::Kind::abb;
+    for (const Value& number : value->items[2].items)
+      move.target.configuration.numbers.push_back(static_cast<int>(std::clamp(number.number, -1e6, 1e6)));
+  }
+  move.target.external_axes = external_of(value->items[3], external_shift_);
+  return true;
+}
+
+std::optional<Frame> Rapid::read_via(const Expression& written, Interpreter& run) {
+  const auto value = typed(written, "robtarget", "a circle point", run);
+  if (!value) return {};
+  const auto q = rapid_orientation(value->items[1]);
+  return displacement_ * Frame{rapid_position(value->items[0]), q.value_or(Quaternion::Identity())};
+}
+
+bool Rapid::read_speed(const Expression& written, Instruction& move, Interpreter& run) {
+  const auto value = typed(written, "speeddata", "a speed", run);
+  if (!value) return false;
+  remember(move, "speed", written, run);
+  if (!(at(*value, 0) > 0) && !(at(*value, 1) > 0)) {
+    run.complain(written.place, "has a speed that is not above 0", "give v_tcp in mm/s");
+    return false;
+  }
+  const double factor = speed_factor_ * override_;
+  const bool largest = written.kind == Expression::Kind::name && written.text == "vmax";
+  if (!largest && at(*value, 0) > 0)
+    move.speed.tool = std::min(at(*value, 0) * millimetre * factor, speed_limit_);
+  if (!largest && at(*value, 1) > 0) move.speed.orientation = at(*value, 1) * degree * factor;
+  return true;
+}
+
+/// ArcL and ArcC weld at the speed of their welddata; on the way to the seam that of the instruction counts.
+void Rapid::read_weld_speed(const Statement& statement, Instruction& move, Interpreter& run) {
+  if (statement.name.ends_with("start")) return;
+  for (std::size_t i = 3; i < statement.arguments.size(); ++i) {
+    const Expression& argument = statement.arguments[i];
+    if (!argument.option.empty()) continue;
+    const Value value = run.evaluate(argument);
+    // welddata begins with the speed and three more parts; seamdata begins with times, a zone is typed.
+    if (value.kind != Value::Kind::list || value.type || value.items.size() < 2 ||
+        !value.items[0].is_number())
+      continue;
+    if (value.items[0].number > 0) {
+      move.speed.tool = value.items[0].number * millimetre * override_;
+      remember(move, "speed", argument, run);
+    }
+  }
+}
+
+bool Rapid::read_zone(const Expression& written, Instruction& move, Interpreter& run) {
+  const auto value = typed(written, "zonedata", "a zone", run);
+  if (!value) return false;
+  remember(move, "zone", written, run);
+  move.zone.distance = value->items[0].number != 0 ? 0 : std::max(0.0, at(*value, 1)) * millimetre;
+  return true;
+}
+
+std::optional<NamedFrame> Rapid::tool_of(const Expression& written, Interpreter& run) {
+  const auto value = typed(written, "tooldata", "a tool", run);
+  if (!value) return {};
+  const auto frame = rapid_frame(value->items[1]);
+  if (!frame) {
+    run.complain(written.place, "has a tool whose quaternion has not the length 1", "mend its tframe");
+    return {};
+  }
+  const std::string name = run.name_of(written);
+  return NamedFrame{name.empty() ? "tool" : name, *frame, value->items[0].number == 0};
+}
+
+bool Rapid::read_tool(const Expression& written, Instruction& move, Interpreter& run) {
+  const auto tool = tool_of(written, run);
+  if (!tool) return false;
+  remember(move, "tool", written, run);
+  if (reached_) reached_->tool = *tool;
+  if (tool->name != "tool0") move.tool = run.frame_index(run.program().tools, *tool);
+  return true;
+}
+
+std::optional<NamedFrame> Rapid::work_object_of(const Expression& written, Interpreter& run) {
+  const auto value = typed(written, "wobjdata", "a work object", run);
+  if (!value) return {};
+  const auto user = rapid_frame(value->items[3]), object = rapid_frame(value->items[4]);
+  if (!user || !object) {
+    run.complain(written.place, "has a work object whose quaternion has not the length 1", "mend its frames");
+    return {};
+  }
+  if (value->items[1].number == 0)
+    run.note(written.place,
+             fmt::format("work object {}: another mechanical unit moves it, but it is taken to stand still",
+                         run.written(written)),
+             true);
+  const std::string name = run.name_of(written);
+  return NamedFrame{name.empty() ? "work object" : name, *user * *object, value->items[0].number != 0};
+}
+
+bool Rapid::read_work_object(const Expression& written, Instruction& move, Interpreter& run) {
+  const auto object = work_object_of(written, run);
+  if (!object) return false;
+  remember(move, "work object", written, run);
+  if (reached_) reached_->work_object = *object;
+  if (object->name != "wobj0") move.work_object = run.frame_index(run.program().work_objects, *object);
+  return true;
+}
+
+bool Rapid::read_options(const Statement& statement, Instruction& move, Interpreter& run) {
+  bool whole = true;
+  for (const Expression& argument : statement.arguments) {
+    const std::string& option = argument.option;
+    if (option == "wobj" && !(argument.if_present && !run.present(argument)))
+      whole &= read_work_object(argument, move, run);
+    if (option != "t" && option != "v" && option != "z") continue;
+    const Value given = run.answered(argument);
+    const double number = given.is_number() ? given.number : -1;
+    if (!(number >= 0) || (number == 0 && option != "z")) {
+      run.ask_for(given, argument.place, fmt::format("has no number above 0 after \\{}", option),
+                  "write it as a constant", option == "t" ? "a time in s" : option == "v" ? "mm/s" : "mm");
+      whole = false;
+      continue;
+    }
+    if (option == "t") move.speed.duration = number;
+    if (option == "v")
+      move.speed.tool = std::min(number * millimetre * speed_factor_ * override_, speed_limit_);
+    if (option == "z") move.zone.distance = number * millimetre;
+  }
+  return whole;
+}
+
+/// What an option adds to a move and is not read.
+void Rapid::print_options(const Statement& statement, Interpreter& run) {
+  for (const Expression& argument : statement.arguments) {
+    if (argument.option == "id")
+      run.note(argument.place,
+               "\\ID: another robot or a positioner moves at the same time (MultiMove), only this one is read", true);
+    if (argument.option == "weave")
+      run.note(argument.place,
+               fmt::format("\\Weave:={}: the torch swings about its line, which is followed without it",
+                           run.written(argument)),
+               true);
+  }
+}
+
+bool Rapid::move(const Signature& signature, const Statement& statement, Interpreter& run) {
+  std::vector<const Expression*> given;
+  for (const Expression& argument : statement.arguments)
+    if (argument.option.empty() && argument.kind != Expression::Kind::none) given.push_back(&argument);
+  const int count = static_cast<int>(given.size());
+  const auto index = [&](int written) {
+    return written == -2 ? count - 1 : written == -3 ? count - 2 : written;
+  };
+  const int zone = index(signature.zone), tool = index(signature.tool);
+  if (std::max({signature.target, signature.speed, zone, tool}) >= count || tool <= signature.speed) {
+    run.complain(statement.place, fmt::format("gives {} {} arguments, too few", statement.text, count),
+                 "give target, speed, zone and tool");
+    return true;
+  }
+  Instruction move;
+  move.kind = signature.kind;
+  move.acceleration_percent = acceleration_percent_;
+  move.jerk_percent = jerk_percent_;
+  const std::size_t problems = run.problem_count();
+  const bool unshifted = std::any_of(statement.arguments.begin(), statement.arguments.end(),
+                                     [](const Expression& e) { return e.option == "noeoffs"; });
+  const std::vector<double> shift = external_shift_;
+  if (unshifted) external_shift_.clear();
+  bool whole = read_target(*given[signature.target], signature.joints, move, run);
+  external_shift_ = shift;
+  if (signature.via >= 0) {
+    const auto via = read_via(*given[signature.via], run);
+    whole &= via.has_value();
+    if (via) move.via = *via;
+    remember(move, "via", *given[signature.via], run);
+  }
+  whole &= read_speed(*given[signature.speed], move, run);
+  if (zone > signature.speed) whole &= read_zone(*given[zone], move, run);
+  whole &= read_tool(*given[tool], move, run);
+  whole &= read_options(statement, move, run);
+  if (is_weld(statement.name)) read_weld_speed(statement, move, run);
+  if (!whole || run.problem_count() != problems) return true;
+  print_options(statement, run);
+  if (statement.name.starts_with("search")) {
+    run.note(statement.place, statement.text + ": the search goes to its end point", true);
+    run.assign(*given[1], reached_->target);
+  }
+  run.emit(move, statement);
+  if (!statement.name.starts_with("spot")) return true;
+  Instruction weld = move;
+  weld.kind = Instruction::Kind::dwell;
+  weld.dwell = run.options().spot_time;
+  run.emit(weld, statement);
+  return true;
+}
+
+// ---- where the robot is, and what displaces its targets ---------------------------------------------------
+
+/// The last target as a robtarget of another tool and work object (null: those of the last move), within the
+/// displacement that holds now. Absent: the robot stands at axis angles, or nothing was moved yet.
+std::optional<Value> Rapid::position_with(const Expression* tool, const Expression* work_object,
+                                          Interpreter& run) {
+  if (!reached_ || reached_->by_joints) return {};
+  const auto new_tool = tool ? tool_of(*tool, run) : std::optional(reached_->tool);
+  const auto new_object =
+      work_object ? work_object_of(*work_object, run) : std::optional(reached_->work_object);
+  const auto q = rapid_orientation(reached_->target.items[1]);
+  if (!new_tool || !new_object || !q) return {};
+  const bool standing = reached_->tool.stationary || reached_->work_object.stationary ||
+                        new_tool->stationary || new_object->stationary;
+  if (standing && (tool || work_object)) return {};
+  const Frame written{rapid_position(reached_->target.items[0]), *q};
+  const Frame seen = standing
+                         ? reached_->displacement * written
+                         : inverse(new_object->frame) * reached_->work_object.frame * reached_->displacement *
+                               written * inverse(reached_->tool.frame) * new_tool->frame;
+  const Frame target = inverse(displacement_) * seen;
+  Value value = reached_->target;
+  value.items[0] = rapid_pos(code_, target.position);
+  value.items[1] = rapid_orient(code_, target.orientation);
+  return value;
+}
+
+/// CRobT(\Tool:=t \WObj:=w), CPos(...), CJointT().
+Value Rapid::current_position(const Expression& call, Interpreter& run) {
+  const Expression *tool = nullptr, *work_object = nullptr;
+  for (const Expression& argument : call.items) {
+    if (argument.option == "tool") tool = &argument;
+    if (argument.option == "wobj") work_object = &argument;
+  }
+  const bool joints = call.text == "cjointt", lost = !reached_ && lost_.cause;
+  if (lost && lost_by_joints_ == joints) return lost_;  // where the last move went is asked for already
+  const std::string name = run.name_here(call.text), form = form_of(joints ? "jointtarget" : "robtarget");
+  if (joints) {
+    if (reached_ && reached_->by_joints) return reached_->target;
+    return unknown_value(name, reached_ || lost ? "asks for the axes at a target that is a pose"
+                                                : "asks where the robot stands at the start", form);
+  }
+  const auto position = position_with(tool, work_object, run);
+  if (!position)
+    return unknown_value(name, reached_ || lost ? "asks for the pose at axis angles"
+                                                : "asks where the robot stands at the start", form);
+  return call.text == "cpos" ? position->items[0] : *position;
+}
+
+/// PDispOn \Rot \ExeP:=reached, programmed, tool \WObj:=w: what takes the programmed point to where the robot
+/// is; without \Rot a shift alone. PDispSet frame. PDispOff.
+void Rapid::displace(const Statement& statement, Interpreter& run) {
+  const std::string& name = statement.name;
+  if (name == "pdispoff") displacement_ = Frame{};
+  if (name == "pdispset" && !statement.arguments.empty())
+    if (const auto pose = typed(statement.arguments[0], "pose", "a displacement", run))
+      if (const auto frame = rapid_frame(*pose)) displacement_ = *frame;
+  if (name != "pdispon") return;
+  const Expression *programmed = nullptr, *tool = nullptr, *executed = nullptr, *work_object = nullptr;
+  bool turns = false;
+  for (const Expression& argument : statement.arguments) {
+    if (argument.option == "exep") executed = &argument;
+    if (argument.option == "wobj") work_object = &argument;
+    turns |= argument.option == "rot";
+    if (argument.option.empty()) (programmed ? tool : programmed) = &argument;
+  }
+  displacement_ = Frame{};
+  if (!programmed || !tool) {
+    run.complain(statement.place, "has a PDispOn without the programmed point or the tool",
+                 "mend the instruction");
+    return;
+  }
+  Expression world;  // without \WObj
+  world.kind = Expression::Kind::name;
+  world.text = "wobj0";
+  world.place = statement.place;
+  std::optional<Value> from = typed(*programmed, "robtarget", "a programmed point", run);
+  std::optional<Value> to = executed ? typed(*executed, "robtarget", "a point that was reached", run)
+                                     : position_with(tool, work_object ? work_object : &world, run);
+  if (!executed && !to) to = run.given_here("crobt");
+  if (to && to->type == nullptr && !run.shape(*to, code_.record("robtarget"))) to.reset();
+  if (!executed && !to)
+    run.ask_for(reached_ || !lost_.cause ? unknown_value(run.name_here("crobt"), "is where the robot stands") : lost_,
+                statement.place,
+                "displaces by where the robot stands, which is known only with the robot "
+                "(axis angles, or the start)",
+                "give the point as \\ExeP, write the displacement with PDispSet", form_of("robtarget"));
+  const auto q = from ? rapid_orientation(from->items[1]) : std::nullopt;
+  const auto p = to ? rapid_orientation(to->items[1]) : std::nullopt;
+  if (!q || !p) return;
+  const Frame written{rapid_position(from->items[0]), *q}, reached{rapid_position(to->items[0]), *p};
+  displacement_ =
+      turns ? reached * inverse(written) : Frame{reached.position - written.position, Quaternion::Identity()};
+}
+
+/// EOffsSet shift; EOffsOn \ExeP:=reached, programmed; EOffsOff: added to the external axes of every target.
+void Rapid::shift_external_axes(const Statement& statement, Interpreter& run) {
+  external_shift_.clear();
+  if (statement.name == "eoffsoff") return;
+  const auto axes = [&](const Value& target) { return target.items.back(); };  // extjoint of either target
+  const auto target = [&](const Expression& written) {
+    Value value = run.evaluate(written);
+    const bool joints = value.type == code_.record("jointtarget");
+    return typed(written, joints ? "jointtarget" : "robtarget", "a point", run);
+  };
+  const Expression *first = nullptr, *executed = nullptr;
+  for (const Expression& argument : statement.arguments) {
+    if (argument.option == "exep") executed = &argument;
+    if (argument.option.empty() && !first) first = &argument;
+  }
+  if (!first) return;
+  if (statement.name == "eoffsset") {
+    if (const auto shift = typed(*first, "extjoint", "an offset", run))
+      for (const Value& axis : shift->items)
+        external_shift_.push_back(std::abs(axis.number) < no_axis ? axis.number : 0);
+    return;
+  }
+  const auto programmed = target(*first);
+  const auto reached = executed   ? target(*executed)
+                       : reached_ ? std::optional(reached_->target)
+                                  : std::nullopt;
+  if (programmed && !reached && !lost_.cause)
+    run.complain(statement.place,
+                 "shifts external axes (EOffsOn) by where the external axes stand at the start",
+                 "give the point as \\ExeP, or write the offset with EOffsSet");
+  if (!programmed || !reached) return;
+  const Value from = axes(*programmed), to = axes(*reached);
+  for (std::size_t i = 0; i < from.items.size() && i < to.items.size(); ++i) {
+    const double a = at(from, i), b = at(to, i);
+    external_shift_.push_back(std::abs(a) < no_axis && std::abs(b) < no_axis ? b - a : 0);
+  }
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,400 @@
+#include <algorithm>
+
+#include "sim/program/interpreter/parser.h"
+#include "sim/program/rapid/rapid.h"
+
+namespace dresslife::sim {
+namespace {
+
+using Kind = Statement::Kind;
+
+class RapidParser : StatementParser {
+ public:
+  RapidParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems)
+      : StatementParser(code, file, tokens, problems, Grammar::rapid) {}
+
+  void run() {
+    while (!at_.at_end() && !at_.at_word("module")) at_.next();  // %%% VERSION and LANGUAGE %%%
+    while (!at_.at_end() && !problems_.full()) module();
+  }
+
+ private:
+  void module() {
+    if (!at_.take_word("module")) {
+      at_.next();
+      return;
+    }
+    Module module;
+    module.place = at_.place();
+    module.written = std::string(at_.peek().text);
+    module.name = lower_case(module.written);
+    module_ = static_cast<int>(code_.modules.size());
+    code_.modules.push_back(std::move(module));
+    guarded([&] {
+      at_.word("the module's name");
+      if (at_.take_sign("("))
+        while (!at_.at_end() && !at_.take_sign(")")) at_.next();
+    });
+    while (!at_.at_end() && !at_.take_word("endmodule")) {
+      if (problems_.full()) return;
+      guarded([&] { member(); });
+    }
+  }
+
+  /// Runs `read`; a syntax error in it becomes a problem and the reading goes on behind the statement.
+  template <class Read>
+  void guarded(const Read& read) {
+    const Place before = at_.place();
+    if (attempt(read)) return;
+    while (!at_.at_end() && !at_.at_sign(";") && !opens_or_closes()) at_.next();
+    at_.take_sign(";");
+    if (const Place now = at_.place(); now.line == before.line && now.column == before.column) at_.next();
+  }
+
+  /// A word that a lost reader finds its way by.
+  bool opens_or_closes() const {
+    for (const char* word : {"endproc", "endfunc", "endtrap", "endmodule", "endif", "endfor", "endwhile",
+                             "endtest", "proc", "func", "else", "elseif", "case", "default"})
+      if (at_.at_word(word)) return true;
+    return false;
+  }
+
+  void member() {
+    const bool local = at_.take_word("local");
+    if (!local) at_.take_word("task");
+    if (at_.at_word("proc") || at_.at_word("func") || at_.at_word("trap")) return routine(local);
+    if (at_.take_word("record")) return record();
+    if (at_.at_word("const") || at_.at_word("var") || at_.at_word("pers")) {
+      code_.data.push_back({declaration(), module_, local});
+      return;
+    }
+    if (at_.take_word("alias")) {
+      while (!at_.at_end() && !at_.at_sign(";")) at_.next();
+      at_.need_sign(";");
+      return;
+    }
+    at_.fail(fmt::format("has {} where a declaration or a routine is expected", at_.seen()),
+             "mend the module");
+  }
+
+  void record() {
+    RecordType type;
+    type.name = at_.word("the record's name");
+    while (!at_.take_word("endrecord")) {
+      const RecordType* inner = code_.record(at_.word("a type"));
+      type.fields.push_back(at_.word("a component"));
+      type.types.push_back(inner);
+      at_.need_sign(";");
+    }
+    code_.records.push_back(std::move(type));
+  }
+
+  Statement declaration() {
+    Statement statement;
+    statement.kind = Kind::declare;
+    const bool persistent = at_.at_word("pers");
+    statement.constant = at_.at_word("const");
+    at_.next();  // CONST, VAR, PERS
+    statement.text = at_.word("a type");
+    statement.place = at_.place();
+    statement.name = at_.word("a name");
+    statement.arguments.emplace_back();
+    if (at_.take_sign("{")) {
+      do statement.arguments.push_back(at_.expression());
+      while (at_.take_sign(","));
+      at_.need_sign("}");
+    }
+    if (at_.take_sign(":="))
+      statement.arguments[0] = at_.expression();
+    else
+      statement.elsewhere = persistent;
+    at_.need_sign(";");
+    return statement;
+  }
+
+  /// A routine with a mistake is kept, so that a call of it reports the mistake.
+  void routine(bool local) {
+    Routine& routine = code_.routines.emplace_back();
+    routine.module = module_;
+    routine.local = local;
+    routine.place = at_.place();
+    routine.last_line = routine.place.line;
+    try {
+      routine_lines(routine);
+    } catch (const SyntaxError&) {
+      if (!routine.name.empty() && !at_end_of_routine()) skip_routine();
+      routine.last_line = at_.place().line;
+      throw;
+    }
+  }
+
+  bool at_end_of_routine() const { return at_any({"endmodule", "proc", "func", "trap"}) || at_.at_end(); }
+  void skip_routine() {
+    while (!at_end_of_routine())
+      if (at_any({"endproc", "endfunc", "endtrap"})) {
+        at_.next();
+        return;
+      } else {
+        at_.next();
+      }
+  }
+
+  void routine_lines(Routine& routine) {
+    const bool function = at_.at_word("func");
+    const std::string end = function ? "endfunc" : at_.at_word("trap") ? "endtrap" : "endproc";
+    at_.next();
+    if (function) at_.word("a type");
+    routine.place = at_.place();
+    routine.written = std::string(at_.peek().text);
+    routine.name = at_.word("the routine's name");
+    if (at_.take_sign("(")) parameters(routine);
+    routine.body = body({end.c_str(), "error", "undo", "backward"});
+    routine.handler = at_.place();
+    while (!at_.at_end() && !at_.at_word(end)) {  // handlers of errors: not of the normal cycle
+      if (at_.at_word("endmodule") || at_.at_word("proc") || at_.at_word("func")) break;
+      if (at_.peek().kind == Token::Kind::word) routine.handler_words.push_back(lower_case(at_.peek().text));
+      at_.next();
+    }
+    routine.last_line = at_.place().line;
+    at_.need_word(end);
+  }
+
+  void parameters(Routine& routine) {
+    bool alternative = false;  // of the optional parameter before: \switch a|switch b
+    while (!at_.take_sign(")")) {
+      if (at_.take_sign(",")) continue;
+      if (at_.take_sign("|")) {
+        alternative = true;
+        continue;
+      }
+      Parameter parameter;
+      parameter.option = at_.take_sign("\\") || alternative;
+      alternative = false;
+      parameter.given_back = at_.take_word("inout") || at_.take_word("var") || at_.take_word("pers");
+      if (!at_.take_word("switch")) at_.word("a type");
+      parameter.name = at_.word("a parameter");
+      if (at_.take_sign("{"))
+        while (!at_.take_sign("}")) {
+          if (at_.at_end()) at_.fail("ends in a list of parameters", "close it");
+          at_.next();
+        }
+      routine.parameters.push_back(std::move(parameter));
+    }
+  }
+
+  /// Statements up to one of these words, which is not taken.
+  std::vector<Statement> body(const std::vector<const char*>& until) {
+    return block(
+        until,
+        [&] {
+          return at_any({"endmodule", "endproc", "endfunc", "proc", "func"});
+        },
+        [&](std::vector<Statement>& statements) { guarded([&] { statement(statements); }); });
+  }
+
+  void statement(std::vector<Statement>& into) {
+    if (at_.take_sign(";")) return;
+    if (at_.at_sign("<") && at_.at_word("smt", 1) && at_.at_sign(">", 2)) return placeholder(into);
+    if (at_.peek().kind == Token::Kind::word && at_.at_sign(":", 1)) {
+      into.push_back(labelled(Kind::label));
+      at_.next();
+      return;
+    }
+    Statement s;
+    s.place = at_.place();
+    s.text = std::string(at_.peek().text);
+    if (at_.at_word("const") || at_.at_word("var") || at_.at_word("pers")) {
+      into.push_back(declaration());
+      return;
+    }
+    if (at_.take_word("if"))
+      if_statement(s);
+    else if (at_.take_word("for"))
+      for_statement(s);
+    else if (at_.take_word("while"))
+      while_statement(s);
+    else if (at_.take_word("test"))
+      test_statement(s);
+    else if (at_.take_word("return"))
+      return_statement(s);
+    else if (at_.take_word("exit"))
+      simple(s, Kind::finish);
+    else if (at_.take_word("exitcycle"))
+      simple(s, Kind::end_cycle);
+    else if (at_.take_word("goto"))
+      goto_statement(s);
+    else if (at_.take_word("connect"))
+      connect_statement(s);
+    else if (at_.at_sign("%"))
+      late_call(s);
+    else
+      assignment_or_call(s);
+    into.push_back(std::move(s));
+  }
+
+  /// <SMT>: an empty placeholder of the editor. The controller stops when it gets there.
+  void placeholder(std::vector<Statement>& into) {
+    Statement s;
+    s.place = at_.place();
+    for (int k = 0; k < 3; ++k) at_.next();
+    at_.take_sign(";");
+    s.name = s.text = unwritten_statement;
+    into.push_back(s);
+    s.kind = Kind::finish;
+    into.push_back(std::move(s));
+  }
+
+  void simple(Statement& s, Kind kind) {
+    s.kind = kind;
+    at_.need_sign(";");
+  }
+
+  void if_statement(Statement& s) {
+    s.kind = Kind::branch;
+    Branch branch;
+    branch.place = s.place;
+    branch.conditions.push_back(at_.expression());
+    if (!at_.take_word("then")) {  // the compact IF
+      statement(branch.body);
+      s.branches.push_back(std::move(branch));
+      return;
+    }
+    branch.body = body({"endif", "else", "elseif"});
+    s.branches.push_back(std::move(branch));
+    while (!at_.at_word("endif")) {
+      Branch next;
+      next.place = at_.place();
+      if (at_.take_word("elseif")) {
+        next.conditions.push_back(at_.expression());
+        at_.need_word("then");
+      } else {
+        at_.need_word("else");
+      }
+      next.body = body({"endif", "else", "elseif"});
+      s.branches.push_back(std::move(next));
+    }
+    at_.need_word("endif");
+  }
+
+  void loop_body(Statement& s, const char* end) {
+    at_.need_word("do");
+    s.branches.emplace_back();
+    s.branches[0].body = body({end});
+    at_.need_word(end);
+  }
+
+  void for_statement(Statement& s) {
+    s.kind = Kind::count;
+    s.name = at_.word("the loop's variable");
+    at_.need_word("from");
+    s.arguments.push_back(at_.expression());
+    at_.need_word("to");
+    s.arguments.push_back(at_.expression());
+    s.arguments.push_back(at_.take_word("step") ? at_.expression() : Expression{});
+    loop_body(s, "endfor");
+  }
+
+  void while_statement(Statement& s) {
+    s.kind = Kind::while_loop;
+    s.arguments.push_back(at_.expression());
+    loop_body(s, "endwhile");
+  }
+
+  void test_statement(Statement& s) {
+    s.kind = Kind::choose;
+    s.arguments.push_back(at_.expression());
+    cases(s, "endtest", [&] {
+      at_.need_sign(":");
+      return body({"endtest", "case", "default"});
+    });
+  }
+
+  void return_statement(Statement& s) {
+    s.kind = Kind::give_back;
+    if (!at_.at_sign(";")) s.arguments.push_back(at_.expression());
+    at_.need_sign(";");
+  }
+
+  void goto_statement(Statement& s) {
+    s = labelled(Kind::jump);
+    at_.need_sign(";");
+  }
+
+  int module_ = -1;
+
+  /// CONNECT number WITH trap; the call of the trap in a branch.
+  void connect_statement(Statement& s) {
+    s.name = "connect";
+    while (!at_.at_end() && !at_.at_sign(";") && !at_.at_word("with")) at_.next();
+    if (at_.take_word("with")) {
+      Statement call;
+      call.place = at_.place();
+      call.text = std::string(at_.peek().text);
+      call.name = at_.word("a trap");
+      s.branches.emplace_back();
+      s.branches[0].body.push_back(std::move(call));
+    }
+    while (!at_.at_end() && !at_.at_sign(";")) at_.next();
+    at_.need_sign(";");
+  }
+
+  void late_call(Statement& s) {  // %"routine"% arguments;
+    at_.next();
+    Expression name = at_.expression();
+    at_.need_sign("%");
+    const bool constant =
+        name.kind == Expression::Kind::text && name.text.find(':') == std::string::npos;  // "module:routine"
+    s.name = constant ? lower_case(name.text) : late_binding;
+    s.text = name.text;
+    s.arguments = at_.arguments(";");
+    if (s.name == late_binding) s.arguments.insert(s.arguments.begin(), std::move(name));
+    at_.need_sign(";");
+  }
+
+  void assignment_or_call(Statement& s) {
+    if (at_.at_sign(":=", 1) || at_.at_sign(".", 1) || at_.at_sign("{", 1)) {
+      s.kind = Kind::assign;
+      s.arguments.push_back(at_.reference());
+      at_.need_sign(":=");
+      s.arguments.push_back(at_.expression());
+      at_.need_sign(";");
+      return;
+    }
+    s.name = at_.word("a statement");
+    s.arguments = at_.arguments(";");
+    at_.need_sign(";");
+  }
+};
+
+}  // namespace
+
+namespace {
+
+/// ABB can encode modules: bytes without words.
+bool is_encoded(const std::string& text) {
+  const auto is_control = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < ' ' && byte != '\t' && byte != '\n' && byte != '\r' && byte != '\f' && byte != 0x1a;
+  };
+  constexpr std::ptrdiff_t one_in = 50;  // of random bytes it is one in ten; text has none
+  return std::count_if(text.begin(), text.end(), is_control) * one_in >
+         static_cast<std::ptrdiff_t>(text.size());
+}
+
+}  // namespace
+
+void parse_rapid(Code& code, int file, Problems& problems) {
+  if (is_encoded(code.files[file].text()))
+    return problems.add({code.files[file].name(), 1, 1}, "is encoded: its routines and data cannot be read",
+                        "give the module as text where the program needs it");
+  Problems in_words;
+  const std::vector<Token> tokens = tokens_of(code.files[file], {'!', "", false, false}, in_words);
+  const auto opens = [](const Token& token) { return lower_case(token.text) == "module"; };
+  if (std::none_of(tokens.begin(), tokens.end(), opens))
+    return problems.add({code.files[file].name(), 1, 1}, "holds no MODULE",
+                        "give a RAPID module (.mod, .prg, .sys)");
+  for (const Problem& problem : in_words.list()) problems.add(problem.where, problem.what, problem.remedy);
+  RapidParser(code, file, tokens, problems).run();
+}
+
+}  // namespace dresslife::sim

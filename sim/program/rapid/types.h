@@ -1,0 +1,22 @@
+// RAPID's records, and the speeds and zones that every controller knows by name. Units as in RAPID: mm, deg.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/program/interpreter/interpreter.h"
+
+namespace dresslife::sim {
+
+void add_rapid_types(Code& code);
+std::optional<Value> rapid_speed(const Code& code, const std::string& name);
+std::optional<Value> rapid_zone(const Code& code, const std::string& name);
+/// Value of a variable before its first assignment: zeros.
+Value rapid_initial(const Code& code, const std::string& type, int depth = 0);
+/// Input, output and logic, sorted.
+const std::vector<std::string>& harmless_rapid_instructions();
+/// Possible effect of a skipped instruction on the motion; null: not known.
+const char* rapid_named_effect(const std::string& instruction);
+
+}  // namespace dresslife::sim

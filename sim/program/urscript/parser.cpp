@@ -1,0 +1,336 @@
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+
+#include "sim/program/interpreter/parser.h"
+#include "sim/program/urscript/urscript.h"
+
+namespace dresslife::sim {
+namespace {
+
+using Kind = Statement::Kind;
+
+constexpr TokenRules rules{'#', "$", true, true};
+
+/// Inside brackets a statement goes on behind the line's end.
+std::vector<Token> without_inner_line_ends(std::vector<Token> tokens) {
+  int depth = 0;
+  std::vector<Token> kept;
+  for (const Token& token : tokens) {
+    if (token.kind == Token::Kind::sign && (token.text == "(" || token.text == "[")) ++depth;
+    if (token.kind == Token::Kind::sign && (token.text == ")" || token.text == "]"))
+      depth = std::max(0, depth - 1);
+    if (token.kind != Token::Kind::line_end || depth == 0) kept.push_back(token);
+  }
+  return kept;
+}
+
+class ScriptParser : StatementParser {
+ public:
+  ScriptParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems)
+      : StatementParser(code, file, tokens, problems, Grammar::urscript) {}
+
+  void run() {
+    module_ = static_cast<int>(code_.modules.size());
+    const std::filesystem::path path = code_.files[file_].name();
+    code_.modules.push_back({lower_case(path.stem().string()), path.stem().string(), {file_, 1, 1}});
+    Routine script;  // the statements outside of functions
+    script.written = path.stem().string();
+    script.name = "script:" + lower_case(script.written);
+    script.place = {file_, 1, 1};
+    script.module = module_;
+    while (!at_.at_end() && !problems_.full()) {
+      skip_line_ends();
+      if (!at_.at_end()) guarded([&] { statement(script.body); });
+    }
+    script.last_line = at_.place().line;
+    code_.routines.push_back(std::move(script));  // first: lines of functions are theirs
+    for (const std::size_t index : around_others_)
+      if (!is_within_another(index)) {  // "variables on the first scope level are treated as global"
+        globals_.insert(assigned_[index].begin(), assigned_[index].end());
+        globals_.insert(locals_[index].begin(), locals_[index].end());
+        locals_[index].clear();
+      }
+    for (std::size_t i = 0; i < routines_.size(); ++i) {
+      declare_locals(i);
+      code_.routines.push_back(std::move(routines_[i]));
+    }
+    for (const auto& [name, thread] : written_by_threads_)
+      if (globals_.contains(name)) code_.written_beside.emplace(name, "the thread " + thread);
+  }
+
+ private:
+  void skip_line_ends() {
+    while (at_.peek().kind == Token::Kind::line_end) at_.next();
+  }
+  void skip_line() {
+    while (!at_.at_end() && at_.peek().kind != Token::Kind::line_end) at_.next();
+  }
+  bool line_done() const { return at_.at_end() || at_.peek().kind == Token::Kind::line_end; }
+
+  template <class Read>
+  void guarded(const Read& read) {
+    const std::size_t before = at_.mark();
+    if (attempt(read)) return;
+    skip_line();
+    if (at_.mark() == before) at_.next();
+  }
+
+  std::vector<Statement> body(const std::vector<const char*>& until) {
+    skip_line_ends();
+    return block(
+        until, [] { return false; },
+        [&](std::vector<Statement>& statements) {
+          guarded([&] { statement(statements); });
+          skip_line_ends();
+        });
+  }
+
+  void statement(std::vector<Statement>& into) {
+    if (at_.at_sign("$") || at_.peek().text.starts_with("$"))
+      return skip_line();  // $ 3 "Waypoint_1" of PolyScope
+    Statement s;
+    s.place = at_.place();
+    s.text = std::string(at_.peek().text);
+    if (at_.at_word("def") || at_.at_word("thread") || at_.at_word("sec")) return routine();
+    if (at_.take_word("if")) {
+      if_statement(s);
+    } else if (at_.take_word("while")) {
+      while_statement(s);
+    } else if (at_.take_word("return")) {
+      s.kind = Kind::give_back;
+      if (!line_done()) s.arguments.push_back(at_.expression());
+    } else if (at_.take_word("break")) {
+      s.kind = Kind::leave_loop;
+    } else if (at_.take_word("continue")) {  // to the end of the loop's body
+      if (loops_.empty()) at_.fail("has a continue outside of loops", "remove it");
+      s.kind = Kind::jump;
+      s.name = loops_.back();
+    } else if (at_.take_word("halt")) {
+      s.kind = Kind::finish;
+    } else if (at_.take_word("pass")) {
+      return;
+    } else if (!assignment(s)) {
+      call(s);
+    }
+    if (!line_done() && at_.peek().kind != Token::Kind::word)  // one line may hold several statements
+      at_.fail(fmt::format("has {} behind the end of the statement", at_.seen()), "mend the line");
+    into.push_back(std::move(s));
+  }
+
+  /// [global, local] name = value, name[i] = value; false: there is no assignment.
+  bool assignment(Statement& s) {
+    const std::size_t begin = at_.mark();
+    const bool global = at_.take_word("global"), local = !global && at_.take_word("local");
+    Expression target = at_.reference();
+    if (!at_.take_sign("=")) {
+      if (global || local) at_.fail("declares a variable without a value", "write = and its value");
+      at_.back_to(begin);
+      return false;
+    }
+    const Expression* base = &target;
+    while (base->kind == Expression::Kind::field || base->kind == Expression::Kind::element)
+      base = &base->items[0];
+    if (base->kind != Expression::Kind::name) at_.fail("assigns to what is no variable", "mend the line");
+    if (global || routines_here_.empty())
+      globals_.insert(base->text);
+    else if (local)
+      locals_[routines_here_.back()].insert(base->text);
+    else
+      assigned_[routines_here_.back()].insert(base->text);
+    if (threads_ > 0) written_by_threads_.emplace(base->text, routines_[routines_here_.back()].written);
+    s.kind = Kind::assign;
+    s.arguments.push_back(std::move(target));
+    s.arguments.push_back(at_.at_word("run") ? run_thread(s) : at_.expression());
+    return true;
+  }
+
+  /// run name(): its value is a handle.
+  Expression run_thread(Statement& s) {
+    at_.need_word("run");
+    Expression call = at_.reference();
+    call.kind = Expression::Kind::call;
+    call.items.clear();
+    call.text = "run " + call.text;
+    call.place = s.place;
+    return call;
+  }
+
+  void call(Statement& s) {
+    if (at_.at_word("run")) {
+      const Expression thread = run_thread(s);
+      s.name = "run";
+      s.text = thread.text;
+      return;
+    }
+    for (const char* word : {"kill", "join"})
+      if (at_.take_word(word)) {
+        s.name = word;
+        return skip_line();
+      }
+    Expression target = at_.reference();
+    if (target.kind != Expression::Kind::call && target.kind != Expression::Kind::name)
+      at_.fail("is neither an assignment nor a call", "mend the line");
+    s.name = target.text;
+    s.text = target.text;
+    if (target.kind == Expression::Kind::call) s.arguments = std::move(target.items);
+  }
+
+  /// def name(a, b=1): ... end; thread name(): ... end
+  void routine() {
+    const bool thread = at_.at_word("thread");
+    at_.next();
+    const std::size_t index = routines_.size();
+    routines_.emplace_back();
+    Routine read;
+    read.place = at_.place();
+    read.written = std::string(at_.peek().text);
+    read.name = at_.word("the function's name");
+    read.module = module_;
+    std::vector<Statement> usual;  // values of parameters that a call leaves out
+    if (thread) read.robot = "thread";
+    if (at_.take_sign("("))
+      while (!at_.take_sign(")")) {
+        if (at_.take_sign(",")) continue;
+        if (line_done()) at_.fail("ends in a list of parameters", "close it");
+        const Place place = at_.place();
+        read.parameters.push_back({at_.word("a parameter"), false, false});
+        if (at_.take_sign("="))
+          usual.push_back(declaration(read.parameters.back().name, place, at_.expression()));
+      }
+    at_.take_sign(":");
+    routines_[index].written = read.written;
+    if (!routines_here_.empty()) around_others_.insert(routines_here_.back());
+    routines_here_.push_back(index);
+    threads_ += thread;
+    const std::vector<std::string> loops = std::move(loops_);
+    loops_.clear();
+    const bool whole = attempt([&] {
+      read.body = body({"end"});
+      at_.need_word("end");
+    });
+    loops_ = loops;
+    threads_ -= thread;
+    routines_here_.pop_back();
+    if (!whole) skip_line();
+    read.last_line = at_.place().line;
+    read.body.insert(read.body.begin(), usual.begin(), usual.end());
+    routines_[index] = std::move(read);
+  }
+
+  void if_statement(Statement& s) {
+    s.kind = Kind::branch;
+    while (true) {
+      Branch branch;
+      branch.place = s.branches.empty() ? s.place : at_.place();
+      const bool otherwise = !s.branches.empty() && at_.take_word("else");
+      if (!otherwise) {
+        if (!s.branches.empty()) at_.need_word("elif");
+        branch.conditions.push_back(at_.expression());
+      }
+      at_.take_sign(":");
+      branch.body = body({"end", "elif", "else"});
+      s.branches.push_back(std::move(branch));
+      if (at_.take_word("end")) return;
+    }
+  }
+
+  void while_statement(Statement& s) {
+    s.kind = Kind::while_loop;
+    s.arguments.push_back(at_.expression());
+    at_.take_sign(":");
+    loops_.push_back(fmt::format("continue {}", s.place.line));
+    s.branches.emplace_back();
+    s.branches[0].body = body({"end"});
+    Statement label;
+    label.kind = Kind::label;
+    label.place = at_.place();
+    label.name = loops_.back();
+    s.branches[0].body.push_back(std::move(label));
+    loops_.pop_back();
+    at_.need_word("end");
+  }
+
+  bool is_within_another(std::size_t index) const {  // routines are counted by where they begin
+    return std::any_of(routines_.begin(), routines_.begin() + static_cast<long>(index),
+                       [&](const Routine& other) { return other.last_line >= routines_[index].last_line; });
+  }
+
+  /// What a function assigns without global, and what is global nowhere, is its own.
+  void declare_locals(std::size_t index) {
+    Routine& routine = routines_[index];
+    std::set<std::string> own = locals_[index];
+    for (const std::string& name : assigned_[index])
+      if (!globals_.contains(name)) own.insert(name);
+    for (const Parameter& parameter : routine.parameters) own.erase(parameter.name);
+    for (const std::string& name : own)
+      routine.body.insert(routine.body.begin(), declaration(name, routine.place, {}));
+  }
+
+  static Statement declaration(const std::string& name, const Place& place, Expression value) {
+    Statement s;
+    s.kind = Kind::declare;
+    s.place = place;
+    s.name = name;
+    s.arguments.push_back(std::move(value));
+    return s;
+  }
+
+  int module_ = -1, threads_ = 0;
+  std::vector<Routine> routines_;
+  std::vector<std::size_t> routines_here_;  // that are being read, the innermost last
+  std::set<std::size_t> around_others_;     // that hold other routines
+  std::vector<std::string> loops_;          // labels at their ends
+  std::set<std::string> globals_;
+  std::map<std::size_t, std::set<std::string>> assigned_, locals_;
+  std::map<std::string, std::string> written_by_threads_;
+};
+
+/// In URScript the case of a name counts, in the tree it does not: of several spellings of one name in these files
+/// all but one get a number behind them, "count#2". The one in small letters keeps its name, since those of the
+/// language are small. `names` holds the new ones and has to live as long as the tokens.
+void number_spellings(const Code& code, std::vector<Token>& tokens, std::deque<std::string>& names) {
+  static const std::set<std::string> words{"true", "false",  "none",  "def",    "end",   "if",   "elif",  "else",     "while", "return",
+                                           "global", "local", "thread", "break", "continue", "and",  "or",   "not", "xor",      "run"};
+  std::map<std::string, std::set<std::string, std::greater<>>> spellings;  // small letters last in ASCII: first here
+  Problems ignored;                                                        // the parser reports them
+  for (const SourceFile& source : code.files)
+    for (const Token& token : tokens_of(source, rules, ignored))
+      if (token.kind == Token::Kind::word) spellings[lower_case(token.text)].emplace(token.text);
+  for (Token& token : tokens) {
+    if (token.kind != Token::Kind::word) continue;
+    const std::string name = lower_case(token.text);
+    const auto& all = spellings[name];
+    const auto place = std::distance(all.begin(), all.find(std::string(token.text)));
+    if (place == 0 || words.contains(name)) continue;
+    names.push_back(fmt::format("{}#{}", name, place + 1));
+    token.text = names.back();
+  }
+}
+
+}  // namespace
+
+void add_urscript_types(Code& code) {
+  const auto record = [&](const char* name, std::vector<std::string> fields, bool indexed) {
+    const std::size_t count = fields.size();
+    code.records.push_back(
+        {.name = name, .fields = std::move(fields), .types = std::vector<const RecordType*>(count, nullptr)});
+    code.records.back().indexed = indexed;
+  };
+  record("pose", {"x", "y", "z", "rx", "ry", "rz"}, true);
+  record("inverse", {"pose", "near"}, false);
+  record("forward", {"joints"}, false);
+}
+
+void parse_urscript(Code& code, int file, Problems& problems) {
+  std::vector<Token> tokens = without_inner_line_ends(tokens_of(code.files[file], rules, problems));
+  std::deque<std::string> names;
+  number_spellings(code, tokens, names);
+  ScriptParser(code, file, tokens, problems).run();
+}
+
+}  // namespace dresslife::sim

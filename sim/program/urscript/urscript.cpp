@@ -1,0 +1,551 @@
+#include "sim/program/urscript/urscript.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "sim/program/interpreter/arc.h"
+#include "sim/program/interpreter/request.h"
+#include "sim/program/interpreter/tokens.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// What a move of the language takes, in order, and what holds where it is left out (script manual).
+struct Signature {
+  const char* name;
+  Instruction::Kind kind;
+  std::vector<const char*> arguments;
+  double acceleration, speed;  ///< [rad/s2, rad/s] of joint moves, else [m/s2, m/s]
+};
+
+const Signature* move_of(const std::string& name) {
+  using Kind = Instruction::Kind;
+  static const std::vector<Signature> moves{
+      {"movej", Kind::joint, {"q", "a", "v", "t", "r"}, 1.4, 1.05},
+      {"movel", Kind::linear, {"pose", "a", "v", "t", "r"}, 1.2, 0.25},
+      {"movep", Kind::linear, {"pose", "a", "v", "r"}, 1.2, 0.25},
+      {"movec", Kind::circular, {"pose_via", "pose_to", "a", "v", "r", "mode"}, 1.2, 0.25},
+      {"servoj", Kind::joint, {"q", "a", "v", "t", "lookahead_time", "gain"}, 0, 0},
+      {"servoc", Kind::linear, {"pose", "a", "v", "r"}, 1.2, 0.25}};
+  const auto found =
+      std::find_if(moves.begin(), moves.end(), [&](const Signature& m) { return name == m.name; });
+  return found == moves.end() ? nullptr : &*found;
+}
+
+bool begins_with_any(const std::string& name, std::initializer_list<std::string_view> list) {
+  return std::any_of(list.begin(), list.end(),
+                     [&](std::string_view begin) { return name.starts_with(begin); });
+}
+
+class Script final : public Dialect {
+ public:
+  Script(const Code& code, const std::vector<NamedFrame>& tools) : code_(code) {
+    for (const NamedFrame& tool : tools)
+      if (same_word(tool.name, "tcp")) tcp_ = tool;
+  }
+
+  void attach(Interpreter& run) { run_ = &run; }
+
+  std::optional<Value> constant(const std::string& name) override {
+    if (name == "pi" || name == "math.pi") return number_value(std::numbers::pi);
+    if (std::optional<Value> value = run_->given(name)) return value;
+    return {};
+  }
+
+  std::optional<Value> function(const Expression& call, Interpreter& run) override {
+    std::vector<Value> values;
+    for (const Expression& argument : call.items)
+      if (argument.option.empty()) values.push_back(run.evaluate(argument));
+    if (call.text == "p")
+      return values.size() == 6 ? std::optional(list_value(values, record("pose"))) : Value{};
+    if (call.text == "get_inverse_kin") return inverse_kinematics(call, values, run);
+    if (call.text == "get_forward_kin") return forward_kinematics(values);
+    if (std::optional<Value> known = arithmetic(call.text, values)) return known;
+    if (begins_with_any(call.text, {"get_actual_tcp_pose", "get_target_tcp_pose"}) && standing_)
+      return *standing_;
+    if (begins_with_any(call.text, {"get_actual_joint_positions", "get_target_joint_positions"}) && axes_)
+      return *axes_;
+    if (begins_with_any(call.text, {"get_actual_", "get_target_"}))
+      return given_or_unknown(call, run, "asks where the robot stands");
+    return given_or_unknown(call, run, "is known only while the robot runs");
+  }
+
+  bool instruction(const Statement& statement, Interpreter& run) override {
+    const std::string& name = statement.name;
+    if (const Signature* signature = move_of(name)) return move(*signature, statement, run), true;
+    if (name == "sleep") return sleep(statement, run), true;
+    if (name == "set_tcp") return set_tcp(statement, run), true;
+    if (name == "run") {
+      const Routine* thread = code_.find(statement.text.substr(std::string_view("run ").size()), -1);
+      return run_thread(thread, statement, run), true;
+    }
+    if (begins_with_any(name, {"speedj", "speedl", "force_mode", "freedrive_mode", "teach_mode",
+                               "path_offset", "conveyor_", "track_conveyor"}) &&
+        !name.ends_with("_stop") && !name.starts_with("end_")) {
+      standing_.reset(), axes_.reset();
+      return run.note(statement.place, statement.text + ": leads the robot in a way that is not followed",
+                      true),
+             true;
+    }
+    return false;
+  }
+
+  bool matters(const std::string& name) const override {
+    return move_of(name) || name == "set_tcp" || name == "speedj" || name == "speedl" ||
+           name.starts_with("force_mode") || name.starts_with("optimove");
+  }
+  bool only_waits(const std::string& name) const override { return name == "sleep"; }
+  bool harmless(const std::string& name) const override {
+    static const std::set<std::string> words{"textmsg",
+                                             "popup",
+                                             "sync",
+                                             "stopj",
+                                             "stopl",
+                                             "kill",
+                                             "join",
+                                             "halt",
+                                             "end_force_mode",
+                                             "zero_ftsensor",
+                                             "enter_critical",
+                                             "exit_critical",
+                                             "powerdown",
+                                             "servo_stop",
+                                             "end_freedrive_mode",
+                                             "end_teach_mode",
+                                             "write_output",
+                                             "protective_stop",
+                                             "varmsg",
+                                             "request_boolean_from_primary_client",
+                                             "tool_contact"};
+    return words.contains(name) || begins_with_any(name, {"set_", "get_", "socket_", "modbus_", "write_",
+                                                          "read_", "rtde_", "reset_", "blocking_"});
+  }
+  bool writes(const std::string&, int, const Expression&) const override {
+    return false;
+  }  // arguments are copies
+  const RecordType* type_of(const std::string&) const override { return nullptr; }
+  std::string form_of(const std::string&) const override { return ""; }  // variables have no declared types
+  Value initial(const std::string&) const override { return {}; }
+  int first_index() const override { return 0; }
+
+ private:
+  const RecordType* record(const char* name) const { return code_.record(name); }
+  bool is(const Value& value, const char* type) const {
+    return value.kind == Value::Kind::list && value.type == record(type) && value.known();
+  }
+
+  std::optional<Frame> pose_in(const Value& value) const {
+    if (!is(value, "pose")) return {};
+    const auto& n = value.items;
+    for (const Value& item : n)
+      if (!item.is_number()) return {};
+    return Frame{{n[0].number, n[1].number, n[2].number}, rotation({n[3].number, n[4].number, n[5].number})};
+  }
+  Value pose_value(const Frame& frame) const {
+    const Vector3 turn = rotation_vector(frame.orientation);
+    std::vector<Value> items;
+    for (const Vector3& part : {frame.position, turn})
+      for (int i = 0; i < 3; ++i) items.push_back(number_value(part[i]));
+    return list_value(std::move(items), record("pose"));
+  }
+  static std::optional<std::vector<double>> joints_in(const Value& value) {
+    if (value.kind != Value::Kind::list || value.type || value.items.size() < 4 || !value.known()) return {};
+    std::vector<double> joints;
+    for (const Value& item : value.items)
+      if (item.is_number()) joints.push_back(item.number);
+    return joints.size() == value.items.size() ? std::optional(joints) : std::nullopt;
+  }
+
+  // ---- functions --------------------------------------------------------------------------------------------------
+
+  /// "get_digital_in(3)": as the user may give it.
+  Value given_or_unknown(const Expression& call, Interpreter& run, const char* why) {
+    std::string name = run.written(call);
+    std::erase(name, ' ');
+    if (std::optional<Value> value = run.given(value_key(name))) return *value;
+    for (const Expression& argument : call.items)
+      if (const Value value = run.evaluate(argument); !value.known() && value.first_cause())
+        return unknown_value(value);
+    return unknown_value(name, why);
+  }
+
+  /// The joint angles at a pose: a record of both, which a move takes, since the robot is not known here.
+  Value inverse_kinematics(const Expression& call, const std::vector<Value>& values, Interpreter& run) {
+    Value near = values.size() > 1 ? values[1] : list_value({});
+    for (const Expression& argument : call.items) {
+      if (argument.option == "qnear") near = run.evaluate(argument);
+      if (argument.option == "tcp") return unknown_value("", "is the inverse kinematics of another tool");
+    }
+    if (values.empty() || !values[0].known()) return values.empty() ? Value{} : unknown_value(values[0]);
+    return near.known() ? list_value({values[0], near}, record("inverse")) : unknown_value(near);
+  }
+
+  Value forward_kinematics(const std::vector<Value>& values) {
+    if (values.empty() && axes_) return list_value({*axes_}, record("forward"));
+    if (values.empty() && standing_) return *standing_;
+    if (values.size() == 1 && values[0].known()) return list_value({values[0]}, record("forward"));
+    return values.size() == 1 && !values[0].known() ? unknown_value(values[0])
+                                                    : unknown_value("", "asks for the robot's kinematics");
+  }
+
+  std::optional<Value> arithmetic(const std::string& name, const std::vector<Value>& values) {
+    static const std::map<std::string, double (*)(double)> plain{
+        {"sin", [](double x) { return std::sin(x); }},   {"cos", [](double x) { return std::cos(x); }},
+        {"tan", [](double x) { return std::tan(x); }},   {"asin", [](double x) { return std::asin(x); }},
+        {"acos", [](double x) { return std::acos(x); }}, {"atan", [](double x) { return std::atan(x); }},
+        {"sqrt", [](double x) { return std::sqrt(x); }}, {"floor", [](double x) { return std::floor(x); }},
+        {"ceil", [](double x) { return std::ceil(x); }}, {"d2r", [](double x) { return x * degree; }},
+        {"r2d", [](double x) { return x / degree; }},    {"log10", [](double x) { return std::log10(x); }}};
+    const auto unknown =
+        std::find_if(values.begin(), values.end(), [](const Value& v) { return !v.known(); });
+    const bool pose_function = begins_with_any(name, {"pose_", "interpolate_pose"});
+    const auto function = plain.find(name);
+    const bool two = name == "atan2" || name == "pow";
+    const bool list = name == "norm" || name == "length" || name == "get_list_length" || name == "point_dist";
+    const bool turn = name == "rpy2rotvec" || name == "rotvec2rpy";
+    if (function == plain.end() && !pose_function && !two && !list && !turn) return {};
+    if (unknown != values.end()) return unknown_value(*unknown);
+    const auto number = [](double value) { return std::isfinite(value) ? number_value(value) : Value{}; };
+    if (function != plain.end() && values.size() == 1 && values[0].is_number())
+      return number(function->second(values[0].number));
+    if (two && values.size() == 2 && values[0].is_number() && values[1].is_number())
+      return number(name == "pow" ? std::pow(values[0].number, values[1].number)
+                                  : std::atan2(values[0].number, values[1].number));
+    if (list && values.size() == 1 && values[0].kind == Value::Kind::list) {
+      double squares = 0;
+      for (const Value& item : values[0].items) squares += item.number * item.number;
+      return number(name == "norm" ? std::sqrt(squares) : static_cast<double>(values[0].items.size()));
+    }
+    if (turn) return values.size() == 1 ? turn_arithmetic(name, values[0]) : Value{};
+    return pose_arithmetic(name, values);
+  }
+
+  /// Roll, pitch, yaw about the axes of the base, and a rotation vector.
+  static Value turn_arithmetic(const std::string& name, const Value& value) {
+    const auto n = [&](std::size_t i) { return value.items[i].number; };
+    if (value.kind != Value::Kind::list || value.items.size() != 3)
+      return unknown_value("", "is no list of three angles");
+    Vector3 result =
+        rotation_vector(rotation({0, 0, n(2)}) * rotation({0, n(1), 0}) * rotation({n(0), 0, 0}));
+    if (name == "rotvec2rpy") {
+      const Eigen::Matrix3d r = rotation({n(0), n(1), n(2)}).toRotationMatrix();
+      result = {std::atan2(r(2, 1), r(2, 2)), std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0))),
+                std::atan2(r(1, 0), r(0, 0))};
+    }
+    return list_value({number_value(result[0]), number_value(result[1]), number_value(result[2])});
+  }
+
+  Value pose_arithmetic(const std::string& name, const std::vector<Value>& values) const {
+    const auto a = values.empty() ? std::nullopt : pose_in(values[0]);
+    const auto b = values.size() < 2 ? std::nullopt : pose_in(values[1]);
+    if (a && name == "pose_inv") return pose_value(inverse(*a));
+    if (!a || !b) return unknown_value("", fmt::format("is {} of what is no pose", name));
+    if (name == "pose_trans") return pose_value(*a * *b);
+    if (name == "pose_add") return pose_value({a->position + b->position, a->orientation * b->orientation});
+    if (name == "pose_sub")
+      return pose_value({a->position - b->position, a->orientation * b->orientation.conjugate()});
+    if (name == "point_dist") return number_value((a->position - b->position).norm());
+    if (name == "interpolate_pose" && values.size() == 3 && values[2].is_number()) {
+      const double u = values[2].number;
+      return pose_value({(1 - u) * a->position + u * b->position, a->orientation.slerp(u, b->orientation)});
+    }
+    return unknown_value("", fmt::format("is {}, which is not read", name));
+  }
+
+  // ---- moves ------------------------------------------------------------------------------------------------------
+
+  const Expression* argument(const Signature& signature, const Statement& statement,
+                             std::string_view name) const {
+    std::size_t position = 0;
+    for (const Expression& given : statement.arguments) {
+      if (given.option == name) return &given;
+      if (given.option.empty() && position < signature.arguments.size() &&
+          signature.arguments[position++] == name)
+        return &given;
+    }
+    return nullptr;
+  }
+
+  /// A number of a move; absent: it is asked for. `otherwise`: where it is left out.
+  std::optional<double> number(const Signature& signature, const Statement& statement, const char* name,
+                               double otherwise) {
+    const Expression* written = argument(signature, statement, name);
+    if (!written) return otherwise;
+    const Value value = run_->answered(*written);
+    if (value.is_number() && value.number >= 0) return value.number;
+    if (value.known())
+      run_->complain(written->place, fmt::format("has no number from 0 on as {}", name), "mend it");
+    else
+      run_->ask_for(value, written->place,
+                    fmt::format("has a value of {} that is known only while the robot runs", name), "",
+                    "a number");
+    return {};
+  }
+
+  /// A target: joint angles, a pose, or what the kinematics make of one.
+  bool read_target(const Expression& written, Instruction& move, Value& value) {
+    value = run_->answered(written);
+    move.origins.push_back({"target", run_->written(written), {}});
+    if (const Place from = run_->origin(written); from.line > 0)
+      move.origins.back().where = run_->where(from);
+    const Value& pose = is(value, "inverse") ? value.items[0] : value;
+    const Value& joints = is(value, "forward") ? value.items[0] : value;
+    if (const auto angles = joints_in(joints)) {
+      move.target.joints = *angles;
+    } else if (const auto frame = pose_in(pose)) {
+      move.target.pose = *frame;
+      if (is(value, "inverse"))
+        if (const auto near = joints_in(value.items[1]); near && near->size() == 6) {
+          move.target.configuration.kind = ArmConfiguration::Kind::near;
+          for (const double angle : *near)
+            move.target.configuration.numbers.push_back(
+                static_cast<int>(std::lround(std::clamp(angle, -100.0, 100.0) / degree)));
+        }
+    } else {
+      if (value.known())
+        run_->complain(written.place, "moves to what is neither a pose nor a list of joint angles",
+                       "mend the target");
+      else
+        run_->ask_for(value, written.place, "moves to a place that is known only while the robot runs", "",
+                      "p[x, y, z, rx, ry, rz] in m and rad, or joint angles [a, b, c, d, e, f] in rad");
+      return false;
+    }
+    return true;
+  }
+
+  bool read_speed(const Signature& signature, const Statement& statement, Instruction& move) {
+    const auto a = number(signature, statement, "a", signature.acceleration),
+               v = number(signature, statement, "v", signature.speed),
+               t = number(signature, statement, "t", 0), r = number(signature, statement, "r", 0);
+    if (!a || !v || !t || !r) return false;
+    const bool joints = signature.kind == Instruction::Kind::joint;
+    if (*t > 0) {
+      move.speed.duration = *t;
+    } else if (*v > 0) {
+      (joints ? move.speed.axis : move.speed.tool) = *v;
+    } else if (std::string_view(signature.name) != "servoj") {
+      run_->complain(statement.place, "has a speed of 0", "write a speed above 0");
+      return false;
+    }
+    if (*t == 0 && *a > 0) (joints ? move.speed.axis_acceleration : move.speed.tool_acceleration) = *a;
+    move.zone.distance = *r;
+    if (std::string_view(signature.name).starts_with("servo")) move.zone = {0, 100};  // a stream of targets
+    return true;
+  }
+
+  bool read_tool(const Statement& statement, Instruction& move) {
+    const bool free =
+        move.kind == Instruction::Kind::joint && !move.target.joints.empty() && move.zone.distance == 0;
+    if (!tcp_ && free) return true;  // axes alone
+    if (!tcp_) {
+      run_->miss(
+          "tcp", statement.place, "moves the tool, and no set_tcp before it says where that is",
+          "write set_tcp(p[...]) before it, or give --frames FILE.yaml (motion.tools in a job) with the name 'tcp'",
+          {{Question::Kind::tool, "tcp", ""}});
+      return false;
+    }
+    const Frame& f = tcp_->frame;
+    if (f.position != Vector3::Zero() || !f.orientation.vec().isZero(0))
+      move.tool = run_->frame_index(run_->program().tools, *tcp_);
+    return true;
+  }
+
+  void move(const Signature& signature, const Statement& statement, Interpreter& run) {
+    Instruction move;
+    move.kind = signature.kind;
+    const Expression* target = argument(signature, statement,
+                                        signature.kind == Instruction::Kind::circular ? "pose_to"
+                                        : signature.kind == Instruction::Kind::joint  ? "q"
+                                                                                      : "pose");
+    if (!target)
+      return run.complain(statement.place, fmt::format("gives {} no target", statement.text), "write it");
+    Value value;
+    bool whole = read_target(*target, move, value);
+    if (signature.kind == Instruction::Kind::circular) whole &= read_via(signature, statement, move);
+    whole &= read_speed(signature, statement, move);
+    if (whole || move.kind != Instruction::Kind::joint) whole &= read_tool(statement, move);
+    if (!whole) {  // later moves may ask where the robot stands
+      standing_.reset(), axes_.reset();
+      return;
+    }
+    standing_.reset(), axes_.reset();
+    if (move.target.joints.empty())
+      standing_ = pose_value(move.target.pose);
+    else
+      axes_ = is(value, "forward") ? value.items[0] : value;
+    run.emit(move, statement);
+  }
+
+  bool read_via(const Signature& signature, const Statement& statement, Instruction& move) {
+    const Expression* written = argument(signature, statement, "pose_via");
+    const Value value = written ? run_->answered(*written) : Value{};
+    const auto via = pose_in(value);
+    if (written && !value.known()) {
+      run_->ask_for(value, written->place,
+                    "has a circle through a place that is known only while the robot runs", "",
+                    "p[x, y, z, rx, ry, rz] in m and rad");
+      return false;
+    }
+    if (!via || !move.target.joints.empty()) {
+      run_->complain(written ? written->place : statement.place,
+                     "has a circle that is not given by two poses", "write p[...] for both");
+      return false;
+    }
+    move.via = *via;
+    const auto mode = number(signature, statement, "mode", 0);
+    if (mode && *mode == 1)
+      run_->note(statement.place, "movec with mode=1: the tool turns with the circle; it is turned evenly",
+                 true);
+    return mode.has_value();
+  }
+
+  void sleep(const Statement& statement, Interpreter& run) {
+    const Value time = statement.arguments.empty() ? Value{} : run.answered(statement.arguments[0]);
+    if (!time.known())
+      return run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
+                         "", "a number, in s");
+    if (!time.is_number() || !(time.number >= 0))
+      return run.complain(statement.place, "waits for what is no time", "write seconds from 0 on");
+    Instruction wait;
+    wait.kind = Instruction::Kind::dwell;
+    wait.dwell = time.number;
+    if (wait.dwell > 0) run.emit(wait, statement);
+  }
+
+  void set_tcp(const Statement& statement, Interpreter& run) {
+    const Value value = statement.arguments.empty() ? Value{} : run.answered(statement.arguments[0]);
+    const auto frame = pose_in(value);
+    if (!frame && value.known())
+      return run.complain(statement.place, "sets a tool by what is no pose", "write p[x, y, z, rx, ry, rz]");
+    if (!frame)
+      return run.ask_for(value, statement.place, "sets a tool that is known only while the robot runs", "",
+                         "p[x, y, z, rx, ry, rz] in m and rad");
+    tcp_ = NamedFrame{"tcp", *frame};
+    standing_.reset();  // the pose was another tool's
+  }
+
+  void run_thread(const Routine* thread, const Statement& statement, Interpreter& run) {
+    const std::string name = thread ? thread->written : statement.text;
+    run.note(statement.place,
+             fmt::format("thread {}: runs beside the program, and is left out; --routine {} reads it alone",
+                         name, name),
+             !thread || steers(thread->body, 0));
+  }
+
+  /// Whether a thread, or a function that it calls, moves the robot.
+  bool steers(const std::vector<Statement>& body, int depth) const {
+    constexpr int deepest = 8;  // calls in threads
+    return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& s) {
+             if (s.kind == Statement::Kind::instruction && matters(s.name)) return true;
+             const Routine* called =
+                 s.kind == Statement::Kind::instruction ? code_.find(s.name, -1) : nullptr;
+             if (called && steers(called->body, depth + 1)) return true;
+             return std::any_of(s.branches.begin(), s.branches.end(),
+                                [&](const Branch& branch) { return steers(branch.body, depth); });
+           });
+  }
+
+  const Code& code_;
+  Interpreter* run_ = nullptr;
+  std::optional<NamedFrame> tcp_;
+  std::optional<Value> standing_, axes_;  // where the last move led: a pose, or joint angles
+};
+
+/// What could not be read; null: nothing.
+const Problem* first_problem(const Code& code) {
+  if (!code.problems.empty()) return &code.problems[0];
+  for (const Routine& routine : code.routines)
+    if (!routine.problems.empty()) return &routine.problems[0];
+  return nullptr;
+}
+
+/// PolyScope writes one function around all others.
+bool is_within_another(const Routine& routine, const Code& code) {
+  return std::any_of(code.routines.begin(), code.routines.end(), [&](const Routine& other) {
+    return other.place.file == routine.place.file && !other.name.starts_with("script:") &&
+           other.place.line < routine.place.line && other.last_line >= routine.last_line;
+  });
+}
+
+/// The statements outside of functions, and behind them the one function that they do not call.
+struct Start {
+  const Routine* script = nullptr;
+  const Routine* function = nullptr;
+};
+
+void take_calls(const std::vector<Statement>& body, std::set<std::string>& names) {
+  const std::function<void(const Expression&)> in = [&](const Expression& e) {
+    if (e.kind == Expression::Kind::call) names.insert(e.text);
+    for (const Expression& item : e.items) in(item);
+  };
+  for (const Statement& s : body) {
+    if (s.kind == Statement::Kind::instruction) names.insert(s.name);
+    for (const Expression& e : s.arguments) in(e);
+    for (const Branch& branch : s.branches) {
+      for (const Expression& e : branch.conditions) in(e);
+      take_calls(branch.body, names);
+    }
+  }
+}
+
+}  // namespace
+
+void run_urscript(const Code& code, const ImportOptions& options, const std::vector<NamedFrame>& tools,
+                  Program& program, Problems& problems) {
+  std::set<std::string> called;
+  for (const Routine& routine : code.routines) take_calls(routine.body, called);
+  Start start;
+  std::string names;
+  int uncalled = 0;
+  for (const Routine& routine : code.routines) {
+    const bool script = routine.name.starts_with("script:");
+    if (script && routine.place.file == 0) start.script = &routine;
+    if (script) continue;
+    if (names.size() < 1000) names += (names.empty() ? "" : ", ") + routine.written;
+    if (code.start.empty() ? routine.robot != "thread" && routine.place.file == 0 &&
+                                 !called.contains(routine.name) && !is_within_another(routine, code)
+                           : routine.name == code.start) {
+      start.function = &routine;
+      ++uncalled;
+    }
+  }
+  std::set<std::string> script_calls;
+  if (start.script) take_calls(start.script->body, script_calls);
+  const bool runs_itself = !script_calls.empty() && code.start.empty();
+  if (runs_itself) start.function = nullptr;
+  if (!runs_itself && uncalled == 0 && code.start.empty())
+    if (const Problem* why = first_problem(code)) return problems.add(why->where, why->what, why->remedy);
+  if (!runs_itself && (uncalled == 0 || (uncalled > 1 && code.start.empty()))) {
+    const char* what =
+        uncalled > 1 ? "holds several functions, and none that calls them" : "holds no program";
+    problems.add(
+        {code.files[0].name(), 1, 1},
+        options.routine.empty() ? std::string(what) : fmt::format("has no function '{}'", options.routine),
+        names.empty() ? "give a script with moves" : fmt::format("name one with --routine: {}", names));
+    return;
+  }
+  const Routine* routine = start.function ? start.function : start.script;
+  Routine both;  // what stands outside of functions comes first
+  if (start.function && start.script) {
+    both = *start.function;
+    both.body.insert(both.body.begin(), start.script->body.begin(), start.script->body.end());
+    both.problems.insert(both.problems.begin(), start.script->problems.begin(), start.script->problems.end());
+    routine = &both;
+  }
+  explore(
+      [&](Exploration& exploration, Program& made, Problems& found) {
+        Script script(code, tools);
+        Interpreter interpreter(code, script, options, made, found, exploration);
+        script.attach(interpreter);
+        interpreter.run(*routine);
+      },
+      program, problems);
+}
+
+}  // namespace dresslife::sim
