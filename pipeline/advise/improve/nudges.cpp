@@ -32,14 +32,14 @@ class Nudges {
   void add_length(const std::string& key, const std::string& name, double own) {
     for (const double off : {-by_.off, by_.off})
       if (off != 0)
-        add(fmt::format("{}, {} {:.3g} mm", name, sign_of(off), 1e3 * by_.off),
+        add(fmt::format("{}, {} {:g} mm", name, sign_of(off), 1e3 * by_.off),
             fmt::format("{}={:.6g}", key, own + off));
   }
 
   void add_turn(const std::string& key, const std::string& name, double own) {
     for (const double turn : {-by_.turn, by_.turn})
       if (turn != 0)
-        add(fmt::format("{}, {} {:.3g} deg", name, sign_of(turn), by_.turn / degree),
+        add(fmt::format("{}, {} {:g} deg", name, sign_of(turn), by_.turn / degree),
             fmt::format("{}={:.6g}", key, (own + turn) / degree));
   }
 
@@ -52,7 +52,7 @@ class Nudges {
       for (const double off : {-by_.off, by_.off}) {
         Vector3d moved = position;
         moved[axis] += off;
-        add(fmt::format("{}, {} {} {:.3g} mm", name, axes[axis], sign_of(off), 1e3 * by_.off),
+        add(fmt::format("{}, {} {} {:g} mm", name, axes[axis], sign_of(off), 1e3 * by_.off),
             fmt::format("{}.position_m={}", path, vector_text(moved)));
       }
     const Vector3d along = direction.normalized(), first = along.unitOrthogonal();
@@ -130,10 +130,10 @@ bool has_mounting_tolerance(const std::string& key) {
 std::string tolerance_text(const MountingTolerance& by) {
   std::string text;
   if (by.off > 0)
-    text = fmt::format("a clamp or length off by {:.3g} mm, a clamp tilted by {:.2g} deg", 1e3 * by.off,
+    text = fmt::format("a clamp or length off by {:g} mm, a clamp tilted by {:.2g} deg", 1e3 * by.off,
                        by.tilt() / degree);
   if (by.turn > 0)
-    text += fmt::format("{}an end turned by {:.3g} deg", text.empty() ? "" : " or ", by.turn / degree);
+    text += fmt::format("{}an end turned by {:g} deg", text.empty() ? "" : " or ", by.turn / degree);
   return text;
 }
 
