@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 struct Options : RunOptions {
   ImproveRequest request;
   double off_mm = 10;
-  std::optional<double> bracket_mm;
+  std::optional<double> off_deg, bracket_mm;
 };
 
 /// Short runs come before the first trial. The remaining time is that of the short runs, then that of the trials.
@@ -66,8 +66,7 @@ void write_short_job(const ImproveRequest& request, const Improvement& found, co
                      const fs::path& job) {
   const Final* const best = finals.best();
   const Node document = read_document(request.file);
-  if (!best || best->hours <= finals.of.front().hours || !document.find("robot") || !document.find("routing"))
-    return;
+  if (!best || !finals.is_gain(*best) || !document.find("robot") || !document.find("routing")) return;
   RouteRequest route{.of = request.file.string()};
   route.sets = request.sets;
   const std::vector<std::string>& sets = found.trials[best->trial].sets;
@@ -85,16 +84,16 @@ int judge_the_best(const Options& options, const StudyPlaces& places, const Impr
                    const MakeRows& make_rows, const fs::path& job) {
   Finals finals = finals_of(found, options.request, make_rows);
   const bool all_written = write_results(finals.study, places, finals.rows).empty();
-  const double off = options.off_mm / 1000;
-  if (off > 0 && !options.quiet)
+  const MountingTolerance tolerance = tolerance_of(options.off_mm, options.off_deg);
+  if (!tolerance.none() && !options.quiet)
     tell(shown(fmt::format(
-        "The trials are done; the jobs of the best are in {}. Next the best three are tried with each clamp and the "
-        "length off by {:g} mm. --off 0 leaves that out.\n",
-        places.folder.string(), options.off_mm)));
-  if (off > 0) judge(finals, found, options.request, off, places, make_rows);
+        "The trials are done; the jobs of the best are in {}. Next the best three are tried with {}. --off 0 "
+        "leaves that out.\n",
+        places.folder.string(), tolerance_text(tolerance))));
+  if (!tolerance.none()) judge(finals, found, options.request, tolerance, places, make_rows);
   const ImprovementStory story = story_of(found, finals, options.request.second, places);
   write_text_if_changed(places.folder / "improve.html", with_mark(improvement_page(story), Mark::page));
-  print(shown(improvement_words(found, finals, story, options.request.second, off, places)));
+  print(shown(improvement_words(found, finals, story, options.request.second, tolerance, places)));
   write_short_job(options.request, found, finals, job);
   print(shown(fmt::format("Trials: {}\nReport: {}\n", (places.folder / "improve.csv").string(),
                           (places.folder / "improve.html").string())));
@@ -160,7 +159,11 @@ Command improve_command() {
              "trials proposed together; the search depends on it",
              &request.at_a_time,
              {.range = {{1, 1024}}}},
-            {"--seed", "NUMBER", "start of the random numbers", &request.seed, {.range = {{0, 1'000'000'000}}}},
+            {"--seed",
+             "NUMBER",
+             "start of the random numbers",
+             &request.seed,
+             {.range = {{0, 1'000'000'000}}}},
             {"--rehearsals",
              "COUNT",
              "short runs before the first trial, at most; each trial adds a few; 0: none; -1: 40 for each "
@@ -173,9 +176,14 @@ Command improve_command() {
                           request.second, {SecondAim::none, SecondAim::hose_length, SecondAim::cycle_time}),
             {"--off",
              "MM",
-             "mounting tolerance of clamps and length; the job with the longest life within it wins; 0: none",
+             "mounting tolerance of clamps and lengths; also tilts clamps by MM over 100 mm; the best job within it wins; 0: none",
              &options->off_mm,
              {.range = {{0, 1000}}}},
+            {"--off-deg",
+             "DEG",
+             "mounting tolerance of the turn of the hose's end about its axis; 0: none; else 10, or none with --off 0",
+             &options->off_deg,
+             {.range = {{0, 180}}}},
             {"--bracket",
              "MM",
              "instead of routing.longest_bracket_mm; a bracket that the job has already may be longer",

@@ -54,7 +54,7 @@ struct Options : RunOptions {
   bool keep = false;
   int tried = 400, rehearsals = 160, seed = 1;
   double off_mm = 10;
-  std::optional<double> bracket_mm;
+  std::optional<double> off_deg, bracket_mm;
 };
 
 /// One search and what became of its routings.
@@ -64,18 +64,25 @@ struct Trial {
   std::vector<Outcome> outcomes;  // (proposal) empty limits: it was not run
   std::vector<RankingRow> rows;   // (proposal) likewise
   std::optional<std::size_t>
-      best;  // that ran: feasible and of the longest life within the tolerance, else least beyond its limits
+      best;  // that ran: feasible and the best by merit within the tolerance, else least beyond its limits
   std::vector<ImprovementStory::Nudge> nudges{};  // of the best
   std::optional<std::size_t> start{};             // the job's own routing, if it has one
   std::string ended{};  // message: a file changed, which ended the search; empty: none did
 
   bool feasible() const { return best && outcomes[*best].feasible(); }
+  /// What the merit of a routing compares with: the job's own routing, if it ran.
+  Outcome as_it_is() const {
+    if (start && !rows[*start].job.empty()) return outcomes[*start];
+    Outcome none;
+    none.failure = "the job has no routing";
+    return none;
+  }
 };
 
 /// Whether a job that ran is to be preferred.
-bool better(const Outcome& a, const Outcome& b) {
+bool better(const Outcome& a, const Outcome& b, const Outcome& as_it_is) {
   if (a.violation() != b.violation()) return a.violation() < b.violation();
-  return a.hours > b.hours;
+  return merit_of(a, as_it_is) > merit_of(b, as_it_is);
 }
 
 ScreenedList proposed(const Draft& draft, const Options& options, double factor, const fs::path& folder) {
@@ -117,26 +124,27 @@ void run(Trial& trial, std::size_t k, const std::string& which, const Draft& dra
   const RankingRow& row = trial.rows[k] = made_rows(study, places, options, files).front();
   trial.outcomes[k] = outcome_of(row, places.job(row.job));
   if (!trial.outcomes[k].failure.empty()) return;
-  if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best])) trial.best = k;
+  if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best], trial.as_it_is())) trial.best = k;
 }
 
-/// The feasible ones judged by their life with a clamp or the length off.
+/// The feasible ones judged within the mounting tolerance.
 void judge(Trial& trial, const Draft& draft, const Options& options, const StudyPlaces& places,
            const FilesAtStart& files) {
-  std::vector<std::size_t> by_life;
+  const Outcome as_it_is = trial.as_it_is();
+  std::vector<std::size_t> best_first;
   for (std::size_t k = 0; k < trial.outcomes.size(); ++k)
-    if (!trial.rows[k].job.empty() && trial.outcomes[k].feasible()) by_life.push_back(k);
-  std::stable_sort(by_life.begin(), by_life.end(), [&](std::size_t a, std::size_t b) {
-    return trial.outcomes[a].hours > trial.outcomes[b].hours;
+    if (!trial.rows[k].job.empty() && trial.outcomes[k].feasible()) best_first.push_back(k);
+  std::stable_sort(best_first.begin(), best_first.end(), [&](std::size_t a, std::size_t b) {
+    return merit_of(trial.outcomes[a], as_it_is) > merit_of(trial.outcomes[b], as_it_is);
   });
   std::vector<Finalist> finalists;
-  for (const std::size_t k : by_life) {
+  for (const std::size_t k : best_first) {
     const Node document =
         routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
-    Finalist finalist{
-        trial.outcomes[k].hours,
-        nudges_of({{"place", std::make_shared<const Job>(job_from(document)), ""}}, options.off_mm / 1000),
-        {}};
+    Finalist finalist{trial.outcomes[k],
+                      nudges_of({{"place", std::make_shared<const Job>(job_from(document)), ""}},
+                                tolerance_of(options.off_mm, options.off_deg)),
+                      {}};
     finalist.run = [&, k, document, nudges = finalist.nudges](std::size_t first, std::size_t count) {
       Study study{draft.name, {}, Keep::lives};
       for (std::size_t j = first; j < first + count; ++j) {
@@ -154,9 +162,9 @@ void judge(Trial& trial, const Draft& draft, const Options& options, const Study
     };
     finalists.push_back(std::move(finalist));
   }
-  const std::vector<WithinTolerance> judged = within_tolerance(finalists);
+  const std::vector<WithinTolerance> judged = within_tolerance(finalists, as_it_is);
   const std::size_t best = best_within(judged);
-  trial.best = by_life[best];
+  trial.best = best_first[best];
   trial.nudges = judged[best].nudges;
 }
 
@@ -185,7 +193,7 @@ Trial tried(const Draft& draft, const Options& options, double factor, const Stu
   }
   trial.outcomes.resize(trial.proposals.candidates.size());
   trial.rows.resize(trial.proposals.candidates.size());
-  const bool tolerance = options.off_mm > 0;
+  const bool tolerance = !tolerance_of(options.off_mm, options.off_deg).none();
   const std::size_t found = trial.start.value_or(trial.outcomes.size());
   std::vector<std::size_t> to_run;
   for (std::size_t k = 0; k < found; ++k)
@@ -300,7 +308,7 @@ std::string comparison_words(const Trial& trial) {
                      limits);
 }
 
-std::string words_of(const Trial& trial, const Draft& draft, double off) {
+std::string words_of(const Trial& trial, const Draft& draft, const MountingTolerance& tolerance) {
   const Outcome& best = trial.outcomes[*trial.best];
   const Dresspack& dresspack = draft.job.dresspacks.front().dresspack;
   std::string text = trial.proposals.candidates[*trial.best].changes;
@@ -317,7 +325,7 @@ std::string words_of(const Trial& trial, const Draft& draft, double off) {
     text += fmt::format("It runs, but no routing was found that keeps all limits ({}): {}. Remedy: {}\n",
                         best.words(), by.by, by.remedy);
   }
-  text += comparison_words(trial) + tolerance_words(trial.nudges, off);
+  text += comparison_words(trial) + tolerance_words(trial.nudges, tolerance);
   const RankingRow& row = trial.rows[*trial.best];
   for (const std::string& words :
        {action_words(row), uncertainty_words(row), failure_words(row), unvalidated_words(row)})
@@ -356,7 +364,8 @@ int route(const Options& options) {
     else if (!feasible)
       tell(fmt::format("note: at {:.0f} % of the dresspack's size: {}\n", 100 * factor, obstacle(trial)));
     const bool nearer = !nearest || violation(trial) < violation(*nearest);
-    if (trial.best && (!chosen || better(trial.outcomes[*trial.best], chosen->outcomes[*chosen->best])))
+    if (trial.best &&
+        (!chosen || better(trial.outcomes[*trial.best], chosen->outcomes[*chosen->best], chosen->as_it_is())))
       chosen = std::move(trial);
     else if (nearer)
       nearest = std::move(trial);
@@ -385,8 +394,8 @@ int route(const Options& options) {
   write_text_if_changed(job, with_mark(text, Mark::yaml));
   write_page(job, page);
   if (of.best && !options.keep) remove_others(places.folder, of.rows[*of.best].job);
-  print(
-      shown(of.best ? words_of(of, draft, options.off_mm / 1000) : routing + "Only short runs tried it.\n"));
+  print(shown(of.best ? words_of(of, draft, tolerance_of(options.off_mm, options.off_deg))
+                      : routing + "Only short runs tried it.\n"));
   print(shown(fmt::format("Job: {}\nPreview: {}\n", job.string(), page.string())));
   return of.feasible() && ended.empty() ? 0 : 1;
 }
@@ -433,9 +442,14 @@ Command route_command() {
              {.range = {{0, 10'000}}}},
             {"--off",
              "MM",
-             "mounting tolerance of clamps and length; the routing with the longest life within it wins; 0: none",
+             "mounting tolerance of clamps and lengths; also tilts clamps by MM over 100 mm; the best routing within it wins; 0: none",
              &options->off_mm,
              {.range = {{0, 1000}}}},
+            {"--off-deg",
+             "DEG",
+             "mounting tolerance of the turn of the hose's end about its axis; 0: none; else 10, or none with --off 0",
+             &options->off_deg,
+             {.range = {{0, 180}}}},
             {"--keep", "", "keep the runs of all routings, not only of the best", &options->keep},
             {"--job", "FILE.yaml", "job to write; else NAME_routed.yaml here", &options->job},
             {"-o,--output", "DIR", "folder of the runs that try it", &options->out}},

@@ -9,7 +9,8 @@ namespace dresslife::pipeline {
 void describe(Fields& f, Clamp& clamp) {
   f.place(clamp.where);
   f.text("mounting_point", clamp.mounting_point, Need::optional,
-         "The name of a mounting point of the robot, instead of link, position_m and direction.");
+         "The name of a mounting point of the robot, instead of link, position_m and direction. A position_m or direction beside it "
+         "replaces the point's.");
   const Need need = clamp.mounting_point.empty() ? Need::required : Need::optional;
   f.text("link", clamp.link, need, "The link of the robot with the clamp.");
   f.vector("position_m", clamp.position, need, "The position of the clamp in the link's frame.");
@@ -99,8 +100,9 @@ void place_clamp(Clamp& clamp, const Robot& robot) {
     names.push_back(point.name);
     if (point.name != clamp.mounting_point) continue;
     clamp.link = point.link;
-    clamp.position = point.position;
-    clamp.direction = point.direction;
+    // What improve, route and a mounting tolerance set beside the point counts; else a search would change nothing, silently.
+    if (clamp.position == Clamp{}.position) clamp.position = point.position;
+    if (clamp.direction == Clamp{}.direction) clamp.direction = point.direction;
     clamp.mounting_point.clear();
     return;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/readable.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/plot.h"
 
@@ -37,20 +38,17 @@ std::string lives_section(const ImprovementStory& story) {
   const auto row = [](const char* name, const ImprovementStory::Lives& of) {
     return fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
-        "<td>{}</td></tr>\n",
-        name, printed_life(of.p10), printed_life(of.p50), printed_life(of.p90), escaped(of.words));
+        "<td>{}</td><td>{}</td></tr>\n",
+        name, printed_life(of.p10), printed_life(of.p50), printed_life(of.p90), escaped(of.words),
+        escaped(of.modes));
   };
   std::string text =
       "<h2>Lives</h2>\n" +
       table(
-          "<th></th><th class=\"number\">p10 [h]</th><th class=\"number\">p50 [h]</th><th class=\"number\">p90 [h]</th><th>limits</th>",
+          "<th></th><th class=\"number\">p10 [h]</th><th class=\"number\">p50 [h]</th><th class=\"number\">p90 [h]</th><th>limits</th><th>modes that are not validated</th>",
           (story.before ? row("before", *story.before) : "") +
               (story.after ? row("after", *story.after) : ""));
-  if (story.longer_in)
-    text += fmt::format(
-        "<p>Over all that is not known of the dresspack, in what both have in common alike, it lives longer in "
-        "{:.0f} % of the samples.</p>\n",
-        100 * *story.longer_in);
+  if (!story.gain.empty()) text += fmt::format("<p>{}</p>\n", escaped(story.gain));
   return text;
 }
 
@@ -78,12 +76,17 @@ std::string nudges_section(const ImprovementStory& story) {
   std::string rows;
   for (const ImprovementStory::Nudge& nudge : story.nudges)
     rows += fmt::format(
-        "<tr><td>{}</td><td class=\"number\">{}</td><td{}>{}</td></tr>\n", escaped(nudge.what),
+        "<tr><td>{}</td><td class=\"number\">{}</td><td{}>{}</td><td>{}</td></tr>\n", escaped(nudge.what),
         nudge.ran && std::isfinite(nudge.share) ? fmt::format("× {:.2f}", nudge.share) : "–",
-        nudge.words.empty() ? "" : " class=\"failed\"", nudge.words.empty() ? "kept" : escaped(nudge.words));
-  return "<h2>What it forgives</h2>\n<p>No clamp is set to the millimetre: the same jobs with one thing off, without what is not "
-         "known.</p>\n" +
-         table("<th>off by</th><th class=\"number\">life</th><th>limits</th>", rows);
+        nudge.words.empty() ? "" : " class=\"failed\"", nudge.words.empty() ? "kept" : escaped(nudge.words),
+        nudge.first_mode.empty()
+            ? "–"
+            : fmt::format("{}: {}", escaped(nudge.first_mode), escaped(hours_text(nudge.first_hours))));
+  return "<h2>Mounting tolerance</h2>\n<p>The same job with one clamp, ring, length or the turn of its end off. The life is the p10 of the "
+         "wires over that of the job as drawn.</p>\n" +
+         table(
+             "<th>off by</th><th class=\"number\">life</th><th>limits</th><th>first of the modes that are not validated</th>",
+             rows);
 }
 
 /// Room for the chart of a page, and for that of a phone's.
@@ -172,7 +175,7 @@ std::string history_section(const ImprovementStory& story) {
                                       [](const ImprovementStory::TrialPoint& look) { return look.feasible; });
   return fmt::format(
              "<h2>The search</h2>\n<p>{} trials, of which {} keep all limits (blue), {} break some (orange) and {} do not "
-             "run; the line is the best so far. Lives are over the scatter of wires alone.</p>\n",
+             "run; the line is the longest life so far. A longer life that makes another mode worse, or that exceeds the robot's, is not better.</p>\n",
              story.looks.size(), feasible,
              static_cast<std::ptrdiff_t>(story.looks.size()) - feasible - failed, failed) +
          history_charts(story.looks);

@@ -15,6 +15,7 @@ struct ImprovementStory {
   struct Lives {
     std::string page;                  ///< of the job, relative to this page; empty: there is none
     std::string words;                 ///< of its limits: "all kept"
+    std::string modes;                 ///< without a validated law, with their hours
     double p10 = 0, p50 = 0, p90 = 0;  ///< [h] of the worst job
   };
   struct TrialPoint {
@@ -28,12 +29,15 @@ struct ImprovementStory {
     bool ran = false;
     double share = 0;   ///< its life over that without the change
     std::string words;  ///< violated limits; empty: none
+    std::string first_mode{};  ///< without a validated law, the first in the robot's life; empty: none
+    double first_hours = 0;    ///< until 1 of 10 has failed by it
   };
 
   std::string name;
   std::vector<Change> changes;
   std::optional<Lives> before, after;
-  std::optional<double> longer_in;  ///< share of samples in which the job lives longer than before
+  std::string gain;                 ///< sentences; empty: the jobs before do not run
+  std::optional<double> longer_in;  ///< share of samples in which the wires live longer than before
   std::vector<Nudge> nudges;
   std::vector<TrialPoint> looks;
   std::vector<std::pair<double, double>> front;  ///< second objective, life [h]; with two objectives

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "pipeline/base/readable.h"
 #include "pipeline/job/uncertainty.h"
@@ -75,8 +76,25 @@ std::string too_short_wall(const UnvalidatedMode& mode) {
                      readable(mode.bends_at_limit), readable(published_bends));
 }
 
-/// What an unvalidated mode may do before the row's headline, and what to do. Empty: none may.
-std::string inspection_words(const RankingRow& row) {
+/// ", abrasion: from 25,000 h": the modes after earlier_unvalidated() that also come before the headline and the robot's life, the
+/// earliest first. Empty: none do.
+std::string further_unvalidated(const RankingRow& row) {
+  const double end = std::min(row.headline_hours(), row.robot_life_hours);
+  std::map<std::string, double> hours;  // of several parts the earliest
+  for (const UnvalidatedMode& mode : row.unvalidated)
+    if (mode.early_hours() < end && is_credible(mode))
+      hours[mode.mode] = hours.contains(mode.mode) ? std::min(hours[mode.mode], mode.early_hours()) : mode.early_hours();
+  if (const UnvalidatedMode* const first = earlier_unvalidated(row)) hours.erase(first->mode);
+  std::vector<std::pair<double, std::string>> by_time;
+  for (const auto& [mode, from] : hours) by_time.emplace_back(from, mode);
+  std::sort(by_time.begin(), by_time.end());
+  std::string text;
+  for (const auto& [from, mode] : by_time) text += fmt::format(", {}: from {}", mode, hours_text(from));
+  return text;
+}
+
+/// What the first unvalidated mode may do before the row's headline, and what to do. Empty: none may.
+std::string first_inspection_words(const RankingRow& row) {
   const UnvalidatedMode* const mode = earlier_unvalidated(row);
   if (!mode) return "";
   const std::string of = mode->dresspack.empty() ? "The hose" : "The hose of " + mode->dresspack;
@@ -100,6 +118,12 @@ std::string inspection_words(const RankingRow& row) {
                        mode->note);
   return fmt::format("{} may come before, {}, after {} (not validated): inspect it there.", mode->mode, place,
                      hours_text(mode->early_hours()));
+}
+
+std::string inspection_words(const RankingRow& row) {
+  const std::string further = further_unvalidated(row);
+  return joined_words({first_inspection_words(row),
+                       further.empty() ? "" : fmt::format("Inspect also for: {}.", further.substr(2))});
 }
 
 std::string rating_words(const UnvalidatedMode& mode, const std::string& of) {
@@ -146,7 +170,8 @@ std::string unvalidated_note(const std::vector<RankingRow>& rows) {
   std::vector<std::string> jobs;
   for (const RankingRow& row : rows)
     if (const UnvalidatedMode* const mode = row.has_result() ? earlier_unvalidated(row) : nullptr)
-      jobs.push_back(fmt::format("{}{}: from {}", rows.size() > 1 ? row.job + ", " : "", mode->mode, hours_text(mode->early_hours())));
+      jobs.push_back(fmt::format("{}{}: from {}{}", rows.size() > 1 ? row.job + ", " : "", mode->mode, hours_text(mode->early_hours()),
+                                 further_unvalidated(row)));
   return jobs.empty() ? "" : fmt::format("* Plan with this number, and inspect for modes that are not validated. {}.", fmt::join(jobs, "; "));
 }
 

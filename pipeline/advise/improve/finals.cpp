@@ -22,9 +22,8 @@ std::vector<std::size_t> finalists_of(const Improvement& found) {
   }
   for (std::size_t k = 1; k < found.trials.size(); ++k)
     if (found.trials[k].worst.feasible()) best.push_back(k);
-  std::stable_sort(best.begin(), best.end(), [&](std::size_t a, std::size_t b) {
-    return found.trials[a].worst.hours > found.trials[b].worst.hours;
-  });
+  std::stable_sort(best.begin(), best.end(),
+                   [&](std::size_t a, std::size_t b) { return found.merit(a) > found.merit(b); });
   if (best.size() > most_finalists) best.resize(most_finalists);
   return best;
 }
@@ -37,17 +36,24 @@ bool is_of(const RankingRow& row, const std::vector<std::string>& jobs) {
 
 const Final* Finals::best() const {
   const Final* found = nullptr;
-  for (const Final& one : of)
-    if (one.tolerance && one.tolerance->whole &&
-        (!found || one.tolerance->least_hours > found->tolerance->least_hours))
-      found = &one;
-  return found ? found : longest();
+  for (std::size_t k = 1; k < of.size(); ++k)
+    if (of[k].tolerance && of[k].tolerance->whole &&
+        (!found || of[k].tolerance->worst > found->tolerance->worst))
+      found = &of[k];
+  return found ? found : best_drawn();
 }
 
-const Final* Finals::longest() const {
+const Final* Finals::best_drawn() const {
   if (of.size() < 2) return nullptr;
   return &*std::max_element(of.begin() + 1, of.end(),
-                            [](const Final& a, const Final& b) { return a.hours < b.hours; });
+                            [](const Final& a, const Final& b) { return a.merit < b.merit; });
+}
+
+bool Finals::is_gain(const Final& candidate) const {
+  const Final& original = of.front();
+  if (!candidate.tolerance || !candidate.tolerance->whole || !original.tolerance)
+    return clearly_better(candidate.merit, original.merit);
+  return clearly_better(candidate.tolerance->worst, original.tolerance->worst);
 }
 
 const RankingRow* Finals::worst_row(const Final& one) const {
@@ -64,7 +70,7 @@ Finals finals_of(const Improvement& found, const ImproveRequest& request, const 
   trials.insert(trials.begin(), 0);
   for (const std::size_t trial : trials) {
     const std::string prefix = trial == 0 ? "before" : fmt::format("final_{:04}", trial);
-    Final of{{}, HUGE_VAL, trial};
+    Final of{{}, HUGE_VAL, trial, found.merit(trial)};
     for (StudyJob& job : changed_jobs(request, found.trials[trial].sets, prefix)) {
       of.jobs.push_back(job.name);
       finals.study.jobs.push_back(std::move(job));
@@ -78,17 +84,20 @@ Finals finals_of(const Improvement& found, const ImproveRequest& request, const 
   return finals;
 }
 
-void judge(Finals& finals, const Improvement& found, const ImproveRequest& request, double off,
-           const StudyPlaces& places, const MakeRows& make_rows) {
-  std::vector<Final*> by_life;
-  for (std::size_t k = 1; k < finals.of.size(); ++k) by_life.push_back(&finals.of[k]);
-  std::stable_sort(by_life.begin(), by_life.end(),
-                   [](const Final* a, const Final* b) { return a->hours > b->hours; });
-  if (found.front.size() > 1 && by_life.size() > 1) by_life.erase(by_life.begin() + 1, by_life.end());
+void judge(Finals& finals, const Improvement& found, const ImproveRequest& request,
+           const MountingTolerance& tolerance, const StudyPlaces& places, const MakeRows& make_rows) {
+  std::vector<Final*> best_first;
+  for (std::size_t k = 1; k < finals.of.size(); ++k) best_first.push_back(&finals.of[k]);
+  std::stable_sort(best_first.begin(), best_first.end(),
+                   [](const Final* a, const Final* b) { return a->merit > b->merit; });
+  if (found.front.size() > 1 && best_first.size() > 1)
+    best_first.erase(best_first.begin() + 1, best_first.end());
+  const Outcome& as_it_is = found.trials.front().worst;
   std::vector<Finalist> finalists;
-  for (const Final* of : by_life) {
+  const auto finalist_of = [&](const Final* of) {
     const std::vector<std::string>& sets = found.trials[of->trial].sets;
-    Finalist finalist{of->hours, nudges_of(changed_jobs(request, sets, "place"), off), {}};
+    Finalist finalist{
+        found.trials[of->trial].worst, nudges_of(changed_jobs(request, sets, "place"), tolerance), {}};
     finalist.run = [&, of, sets, nudges = finalist.nudges](std::size_t first, std::size_t count) {
       Study study{found.name, {}, found.keep_trials};
       std::vector<std::vector<std::string>> jobs(count);
@@ -111,10 +120,19 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
       }
       return worst;
     };
-    finalists.push_back(std::move(finalist));
-  }
-  const std::vector<WithinTolerance> judged = within_tolerance(finalists);
-  for (std::size_t k = 0; k < judged.size(); ++k) by_life[k]->tolerance = judged[k];
+    return finalist;
+  };
+  for (const Final* of : best_first) finalists.push_back(finalist_of(of));
+  const std::vector<WithinTolerance> judged = within_tolerance(finalists, as_it_is);
+  for (std::size_t k = 0; k < judged.size(); ++k) best_first[k]->tolerance = judged[k];
+  // The original jobs are compared within the tolerance, too, unless the best is better than they are as drawn.
+  const Final* const best = finals.best();
+  Final& original = finals.of.front();
+  if (best && best->tolerance && best->tolerance->whole && as_it_is.feasible() &&
+      original.merit > best->tolerance->worst)
+    original.tolerance = within_tolerance(finalist_of(&original), as_it_is, [&](const Merit& worst) {
+      return clearly_better(best->tolerance->worst, worst);
+    });
 }
 
 std::optional<double> share_longer(const Finals& finals, const Final& best, const StudyPlaces& places) {

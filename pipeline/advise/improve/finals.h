@@ -20,6 +20,7 @@ struct Final {
   std::vector<std::string> jobs;  ///< names
   double hours = 0;               ///< of the worst, p10
   std::size_t trial = 0;
+  Merit merit{};  ///< as drawn
   std::optional<WithinTolerance> tolerance{};  ///< absent: not evaluated
 };
 
@@ -28,8 +29,11 @@ struct Finals {
   std::vector<Final> of;  ///< the original jobs first
   std::vector<RankingRow> rows;
 
-  const Final* longest() const;  ///< longest life of the candidates; null: there is none
-  const Final* best() const;     ///< longest life within the tolerance, if evaluated
+  const Final* best_drawn() const;  ///< of the candidates, by merit; null: there is none
+  /// Of the candidates by merit within the tolerance, if evaluated.
+  const Final* best() const;
+  /// Whether the candidate is clearly better than the original jobs, within the tolerance if both were evaluated.
+  bool is_gain(const Final& candidate) const;
   /// Of the worst of its jobs; null: none is done.
   const RankingRow* worst_row(const Final& of) const;
 };
@@ -37,12 +41,12 @@ struct Finals {
 /// With two objectives the whole Pareto front, with one the best few.
 Finals finals_of(const Improvement& found, const ImproveRequest& request, const MakeRows& make_rows);
 
-/// Evaluates the finalists with a clamp, a ring or the length off by `off` [m] (T1); with two objectives the longest
-/// life only.
-void judge(Finals& finals, const Improvement& found, const ImproveRequest& request, double off,
-           const StudyPlaces& places, const MakeRows& make_rows);
+/// Evaluates the finalists within the mounting tolerance (T1), and the original jobs if they may be better there; with two objectives
+/// the best by merit only.
+void judge(Finals& finals, const Improvement& found, const ImproveRequest& request,
+           const MountingTolerance& tolerance, const StudyPlaces& places, const MakeRows& make_rows);
 
-/// Share of samples in which the worst job of `best` lives longer than the worst original job; absent
+/// Share of samples in which the wires of the worst job of `best` live longer than those of the worst original job; absent
 /// where nothing is uncertain.
 std::optional<double> share_longer(const Finals& finals, const Final& best, const StudyPlaces& places);
 

@@ -26,8 +26,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double endless_hours = 1e9;  // beyond this life all routings are equally good
-
 Node with_frees(Node free, const std::vector<std::string>& written) {
   for (const std::string& one : written) {
     const Where where{"--free " + one};
@@ -279,7 +277,8 @@ class Improver {
     std::vector<std::vector<std::string>> sets;
     for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
     const std::vector<ScreeningResult> results = screened(sets);
-    for (std::size_t k = 0; k < places.size(); ++k) beyond[k] = results[k].rejected ? results[k].violation : 0;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      beyond[k] = results[k].rejected ? results[k].violation : 0;
     return beyond;
   }
 
@@ -331,7 +330,8 @@ class Improver {
   Candidate look_of(const Trial& trial, const VectorXd& place) const {
     Candidate look{place, trial.worst.failure.empty(), {}, trial.worst.beyond};
     if (look.ran)
-      look.aims.push_back(-std::log(std::clamp(trial.worst.hours, 1 / endless_hours, endless_hours)));
+      look.aims.push_back(
+          -search_value(trial.worst, done_.trials.empty() ? trial.worst : done_.trials.front().worst));
     if (look.ran && aims() == 2)
       look.aims.push_back(request_.second == SecondAim::hose_length ? trial.hose_length
                                                                     : trial.cycle_seconds);
@@ -339,11 +339,16 @@ class Improver {
   }
 
   std::vector<std::size_t> best_trials() const {
+    const std::optional<std::size_t> best = done_.best();
+    if (!best) return {};
+    if (aims() == 1) return {*best};  // of equals the first
+    // Where some trial makes no mode worse, the others are no answer.
     std::vector<Candidate> looks;
-    for (const Trial& trial : done_.trials) looks.push_back(look_of(trial, {}));
-    const std::vector<std::size_t> best = front(looks);
-    if (aims() == 1 && !best.empty()) return {best.front()};  // of equal lives the first
-    return best;
+    for (std::size_t k = 0; k < done_.trials.size(); ++k) {
+      looks.push_back(look_of(done_.trials[k], {}));
+      if (done_.merit(k).kept < done_.merit(*best).kept) looks.back().ran = false;
+    }
+    return front(looks);
   }
 
   const ImproveRequest& request_;
@@ -363,8 +368,7 @@ class Improver {
 std::optional<std::size_t> Improvement::best() const {
   std::optional<std::size_t> found;
   for (std::size_t k = 0; k < trials.size(); ++k)
-    if (trials[k].worst.feasible() && (!found || trials[k].worst.hours > trials[*found].worst.hours))
-      found = k;
+    if (trials[k].worst.feasible() && (!found || merit(k) > merit(*found))) found = k;
   return found;
 }
 
@@ -395,7 +399,7 @@ std::string unfinished_words(const Improvement& improvement) {
 }
 
 std::string improvement_csv(const Improvement& improvement) {
-  std::string text = "trial,feasible,life_hours_p10,beyond,free_length_m,cycle_s";
+  std::string text = "trial,feasible,life_hours_p10,beyond,free_length_m,cycle_s,first_mode,first_mode_hours";
   for (const std::string& freed : improvement.freed) text += "," + csv_cell(freed);
   text += "\n";
   for (std::size_t k = 0; k < improvement.trials.size(); ++k) {
@@ -405,6 +409,9 @@ std::string improvement_csv(const Improvement& improvement) {
     text += fmt::format("{},{},{},{},{},{}", k, trial.worst.feasible() ? 1 : 0,
                         ran ? shortest_text(trial.worst.hours) : "", csv_cell(words),
                         shortest_text(trial.hose_length), ran ? shortest_text(trial.cycle_seconds) : "");
+    const ModeLife first = first_mode(trial.worst);
+    text += fmt::format(",{},{}", csv_cell(first.mode),
+                        ran && !first.mode.empty() ? shortest_text(first.hours) : "");
     for (std::size_t j = 0; j < improvement.freed.size(); ++j)
       text += "," + (trial.sets.empty() ? "" : csv_cell(trial.sets[j].substr(trial.sets[j].find('=') + 1)));
     text += "\n";

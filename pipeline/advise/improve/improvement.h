@@ -1,4 +1,4 @@
-// A search for jobs that live longer. Its variables are the free keys, its objective is the life of the worst job, its
+// A search for better jobs. Its variables are the free keys, its objective is the order of merit.h for the worst job, its
 // constraints are the checks.
 //
 // Every trial is a set of ordinary jobs of a study: they run in parallel and are cached. A trial is a function of the
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipeline/advise/improve/freedom.h"
+#include "pipeline/advise/improve/merit.h"
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/screened.h"
 #include "pipeline/advise/search/search.h"
@@ -67,12 +68,14 @@ struct Improvement {
   /// Default: only the receipts of the trials, all files of the best few.
   Keep keep_trials = Keep::lives, keep_finals = Keep::all;
   std::vector<Trial> trials;          ///< in their order, the original jobs first
-  std::vector<std::size_t> front;     ///< Pareto-optimal and feasible, longest life first
+  std::vector<std::size_t> front;     ///< Pareto-optimal and feasible, the best by merit first
   int rehearsals = 0;                 ///< short runs
   int most_rehearsals = 0;            ///< before the first trial
   std::vector<std::string> obstacle;  ///< lines: why no trial is feasible; empty: some are
-  std::string ended;                  ///< message: a file changed, which ended the search early; empty: none did
-  std::optional<std::size_t> best() const;  ///< longest life of the feasible; absent: none is
+  std::string ended;  ///< message: a file changed, which ended the search early; empty: none did
+  std::optional<std::size_t> best() const;  ///< of the feasible, by merit; absent: none is
+  /// Of a trial, beside the job as it is.
+  Merit merit(std::size_t trial) const { return merit_of(trials[trial].worst, trials.front().worst); }
 };
 
 struct TrialMakers {
@@ -91,8 +94,8 @@ std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vec
 /// The best trial of a search that ended early, and its keys.
 std::string unfinished_words(const Improvement& improvement);
 
-/// improve.csv: a row per trial: number, feasible, life of the worst job, violated limits, and the value of
-/// each free key.
+/// improve.csv: a row per trial: number, feasible, life of the worst job, violated limits, the first mode without a validated law in the
+/// robot's life, and the value of each free key.
 std::string improvement_csv(const Improvement& improvement);
 
 }  // namespace dresslife::pipeline

@@ -26,11 +26,16 @@ std::vector<std::string> binding(const std::vector<Trial>& trials, const Trial& 
   std::string together;
   for (std::size_t k = 0; k < nearest.worst.beyond.size(); ++k) {
     double least = std::numeric_limits<double>::infinity();
-    for (const Trial& trial : trials)
-      if (trial.worst.failure.empty()) least = std::min(least, trial.worst.beyond[k]);
+    std::size_t best = 0;
+    for (std::size_t t = 0; t < trials.size(); ++t)
+      if (trials[t].worst.failure.empty() && trials[t].worst.beyond[k] < least)
+        least = trials[t].worst.beyond[k], best = t;
     const std::string& name = outcome_limit_names()[k];
+    const std::vector<std::string>& reached = trials[best].worst.reached;
     if (least > 0)
-      lines.push_back(fmt::format("No trial keeps {}: the best passes it by {:.2g}", name, least));
+      lines.push_back(fmt::format("No trial keeps {}: the best passes it by {:.2g} ({}{})", name, least,
+                                  k < reached.size() && !reached[k].empty() ? reached[k] + "; " : "",
+                                  best == 0 ? "the jobs as they are" : fmt::format("trial {}", best)));
     if (nearest.worst.beyond[k] > 0) together += (together.empty() ? "" : ", ") + name;
   }
   if (lines.empty())

@@ -7,25 +7,55 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <stdexcept>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/files/checks.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/settings/fields.h"
+#include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 constexpr double unasked = -1e3;  // of a limit that is not set: far from it, and finite for the models
 
-enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable, abrasion, wall, rating, jacket, corkscrew, kink, bracket };
+enum Limit {
+  bend,
+  twist,
+  too_short,
+  too_long,
+  pull,
+  contact,
+  stroke,
+  believable,
+  abrasion,
+  wall,
+  rating,
+  jacket,
+  corkscrew,
+  kink,
+  bracket
+};
 static_assert(bracket == bracket_limit);
 
-void see(Outcome& outcome, Limit limit, double g) {
-  outcome.beyond[limit] = std::max(outcome.beyond[limit], g);
+/// reached: value and limit in words.
+void see(Outcome& outcome, Limit limit, double g, const std::string& reached = "") {
+  if (!(g > outcome.beyond[limit])) return;  // not a number: not known
+  outcome.beyond[limit] = g;
+  outcome.reached[limit] = reached;
+}
+
+/// "353 mm, at least 600 mm", with a unit that is `scale` of the values' unit.
+std::string at_least(double value, double limit, const char* unit, double scale = 1) {
+  return fmt::format("{}{}, at least {}{}", readable(scale * value), unit, readable(scale * limit), unit);
+}
+std::string at_most(double value, double limit, const char* unit, double scale = 1) {
+  return fmt::format("{}{}, at most {}{}", readable(scale * value), unit, readable(scale * limit), unit);
 }
 
 double log_ratio(double value, double limit) {
@@ -51,15 +81,30 @@ constexpr std::array<ModeLimit, 6> mode_limits{
 void see_modes(Outcome& outcome, const RankingRow& row, const AskedLimits& asked) {
   for (const ModeLimit& of : mode_limits)
     for (const UnvalidatedMode& mode : row.unvalidated)
-      if (asked.*of.least && mode.mode == of.mode) see(outcome, of.limit, log_ratio(*(asked.*of.least), of.value(mode)));
+      if (asked.*of.least && mode.mode == of.mode)
+        see(outcome, of.limit, log_ratio(*(asked.*of.least), of.value(mode)),
+            at_least(of.value(mode), *(asked.*of.least), of.limit == kink ? " times" : " h"));
+}
+
+/// The shortest life by each mode of each dresspack.
+void see_lives(std::vector<ModeLife>& lives, const ModeLife& of) {
+  const auto same =
+      std::find_if(lives.begin(), lives.end(), [&](const ModeLife& one) { return one.mode == of.mode; });
+  if (same == lives.end())
+    lives.push_back(of);
+  else
+    same->hours = std::min(same->hours, of.hours);
 }
 
 /// Less slack than asked for, as a share of the length. Its limit is a share of the length, too: so the
 /// length is known.
 void see_slack(Outcome& outcome, const std::string& name, double slack, double limit) {
   constexpr double least_share = 0.02, most_share = 1.0 / 3;  // of a length, as the checks ask for slack
-  if (name == check_name::too_short) see(outcome, too_short, least_share * (limit - slack) / limit);
-  if (name == check_name::too_long) see(outcome, too_long, most_share * (slack - limit) / limit);
+  if (name == check_name::too_short)
+    see(outcome, too_short, least_share * (limit - slack) / limit,
+        at_least(slack, limit, " mm of slack", 1e3));
+  if (name == check_name::too_long)
+    see(outcome, too_long, most_share * (slack - limit) / limit, at_most(slack, limit, " mm of slack", 1e3));
 }
 
 void see_check(Outcome& outcome, const CheckedValue& check, const AskedLimits& asked) {
@@ -67,24 +112,39 @@ void see_check(Outcome& outcome, const CheckedValue& check, const AskedLimits& a
   if (std::find(check_name::all.begin(), check_name::all.end(), name) == check_name::all.end())
     throw std::logic_error(fmt::format("'{}' is a check that no search knows (check_names.h)", name));
   see_slack(outcome, name, value, limit);
-  if (name == check_name::bend_radius) see(outcome, bend, log_ratio(limit, value));
-  if (name == check_name::twist) see(outcome, twist, std::abs(value) / limit - 1);
-  if (name == check_name::tension) see(outcome, pull, log_ratio(value, limit));
-  if (name == check_name::tension && asked.tension) see(outcome, pull, log_ratio(value, *asked.tension));
+  if (name == check_name::bend_radius)
+    see(outcome, bend, log_ratio(limit, value), at_least(value, limit, " mm", 1e3));
+  constexpr double degrees = 180 / std::numbers::pi;
+  if (name == check_name::twist)
+    see(outcome, twist, std::abs(value) / limit - 1, at_most(std::abs(value), limit, " deg", degrees));
+  if (name == check_name::tension) see(outcome, pull, log_ratio(value, limit), at_most(value, limit, " N"));
+  if (name == check_name::tension && asked.tension)
+    see(outcome, pull, log_ratio(value, *asked.tension), at_most(value, *asked.tension, " N"));
   if (name == check_name::contact_force && asked.contact_force)
-    see(outcome, contact, log_ratio(value, *asked.contact_force));
+    see(outcome, contact, log_ratio(value, *asked.contact_force), at_most(value, *asked.contact_force, " N"));
   constexpr double at_its_end = 1e-9;  // a unit that is pulled out wholly holds no more
-  if (name == check_name::travel) see(outcome, stroke, value / limit - 1 + at_its_end);
+  if (name == check_name::travel)
+    see(outcome, stroke, value / limit - 1 + at_its_end, at_most(value, limit, " mm", 1e3));
 }
 
 }  // namespace
 
 const std::vector<std::string>& outcome_limit_names() {
-  static const std::vector<std::string> names{
-      "bend radius", "twist",         "too short",           "too long",
-      "tension",     "contact force", "retraction's stroke", "forces in cables",
-      "abrasion",    "hose's wall",   "maker's rating",      "jacket wear",
-      "corkscrew",   "kink",          "bracket"};
+  static const std::vector<std::string> names{"bend radius",
+                                              "twist",
+                                              "too short",
+                                              "too long",
+                                              "tension",
+                                              "contact force",
+                                              "retraction's stroke",
+                                              "forces in cables",
+                                              "abrasion",
+                                              "hose's wall",
+                                              "maker's rating",
+                                              "jacket wear",
+                                              "corkscrew",
+                                              "kink",
+                                              "bracket"};
   return names;
 }
 
@@ -119,18 +179,25 @@ std::string Outcome::words() const {
   for (std::size_t k = 0; k < beyond.size(); ++k)
     if (beyond[k] > 0)
       text +=
-          fmt::format("{}{} passed by {:.2g}", text.empty() ? "" : ", ", outcome_limit_names()[k], beyond[k]);
+          fmt::format("{}{} passed by {:.2g}{}", text.empty() ? "" : ", ", outcome_limit_names()[k],
+                      beyond[k], k < reached.size() && !reached[k].empty() ? " (" + reached[k] + ")" : "");
   return text;
 }
 
 Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, const AskedLimits& asked) {
   Outcome outcome;
   outcome.beyond.assign(outcome_limits, unasked);
+  outcome.reached.resize(outcome_limits);
   outcome.failure = row.failure;
   if (!row.done() && !is_refusal(row.failure))
     throw MachineFault({folder.string()}, "has no result (" + row.failure + ")", "mend that");
   if (!row.done()) return outcome;
   outcome.hours = row.headline_hours();
+  outcome.robot_life = row.robot_life_hours;
+  for (const UnvalidatedMode& mode : row.unvalidated)
+    if (is_credible(mode) && !std::isnan(mode.early_hours()))
+      see_lives(outcome.modes, {mode.dresspack.empty() ? mode.mode : mode.mode + " of " + mode.dresspack,
+                                mode.early_hours()});
   const double share = std::max(row.largest_force_share.value_or(0), row.clamp_moment_share.value_or(0));
   see(outcome, believable, log_ratio(share, believable_share));
   see_modes(outcome, row, asked);
@@ -146,9 +213,11 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
 void check_evaluated(const AskedLimits& asked, const RankingRow& row) {
   for (const ModeLimit& of : mode_limits)
     if (asked.*of.least && row.done() && !row.unvalidated_mode(of.mode))
-      throw InputError(asked.where, fmt::format("{} is a limit of '{}', which is not evaluated", of.key, of.mode),
-                       fmt::format("leave it out, or give the dresspack what it needs{}",
-                                   row.not_evaluated.empty() ? "" : " (all that is not evaluated: " + row.not_evaluated + ")"));
+      throw InputError(
+          asked.where, fmt::format("{} is a limit of '{}', which is not evaluated", of.key, of.mode),
+          fmt::format(
+              "leave it out, or give the dresspack what it needs{}",
+              row.not_evaluated.empty() ? "" : " (all that is not evaluated: " + row.not_evaluated + ")"));
 }
 
 void describe(Fields& f, AskedLimits& limits) {
@@ -158,22 +227,28 @@ void describe(Fields& f, AskedLimits& limits) {
   f.maybe_number("tension_N", limits.tension, above(0), "largest of the hose, besides its maker's");
   const char* const least = "least hours of motion until 1 of 10 has failed by it";
   f.maybe_number("abrasion_life_h", limits.abrasion, above(0), least);
-  f.maybe_number("wall_life_h", limits.wall, above(0), "least hours of motion until half of the hoses have cracked");
-  f.maybe_number("rating_life_h", limits.rating, above(0), "least hours of motion that makers' ratings cover in 9 of 10 samples");
+  f.maybe_number("wall_life_h", limits.wall, above(0),
+                 "least hours of motion until half of the hoses have cracked");
+  f.maybe_number("rating_life_h", limits.rating, above(0),
+                 "least hours of motion that makers' ratings cover in 9 of 10 samples");
   f.maybe_number("jacket_life_h", limits.jacket, above(0), least);
   f.maybe_number("corkscrew_life_h", limits.corkscrew, above(0), least);
-  f.maybe_number("kink_margin", limits.kink, above(0), "least radius of a bend, over that at which a tube in the dresspack kinks");
+  f.maybe_number("kink_margin", limits.kink, above(0),
+                 "least radius of a bend, over that at which a tube in the dresspack kinks");
 }
 
 Outcome worst_of(const std::vector<Outcome>& jobs) {
   Outcome worst;
   worst.hours = std::numeric_limits<double>::infinity();
   worst.beyond.assign(outcome_limits, unasked);
+  worst.reached.resize(outcome_limits);
   for (const Outcome& job : jobs) {
     if (worst.failure.empty()) worst.failure = job.failure;
     worst.hours = std::min(worst.hours, job.hours);
+    worst.robot_life = std::min(worst.robot_life, job.robot_life);
+    for (const ModeLife& mode : job.modes) see_lives(worst.modes, mode);
     for (std::size_t k = 0; k < worst.beyond.size(); ++k)
-      worst.beyond[k] = std::max(worst.beyond[k], job.beyond[k]);
+      see(worst, static_cast<Limit>(k), job.beyond[k], k < job.reached.size() ? job.reached[k] : "");
   }
   return worst;
 }

@@ -2,6 +2,7 @@
 // its violation of the geometric limits.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,14 +41,24 @@ std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
 /// Adds to the pieces of limits (Candidate::pieces) a short run's bends.
 void add_bends(std::vector<std::vector<double>>& pieces, const std::vector<double>& bends);
 
-struct Outcome {
-  std::string failure;         ///< why there is no life; empty: there is one
-  double hours = 0;            ///< p10 life; infinite without damage
-  std::vector<double> beyond;  ///< (limit) <= 0: satisfied; units as ScreenedCandidate::beyond
-  bool feasible() const;       ///< done, and every limit is satisfied
-  double violation() const;    ///< sum of the violations
+/// A mode that the planner's hours leave out.
+struct ModeLife {
+  std::string mode;  ///< "abrasion", or "abrasion of DRESSPACK"
+  double hours = 0;  ///< UnvalidatedMode::early_hours(); infinite: never
+};
 
-  /// "bend radius by 0.12, ...": violated limits, or the failure; empty: feasible.
+struct Outcome {
+  std::string failure;                 ///< why there is no life; empty: there is one
+  double hours = 0;                    ///< p10 life; infinite without damage
+  std::vector<double> beyond;          ///< (limit) <= 0: satisfied; units as ScreenedCandidate::beyond
+  std::vector<std::string> reached{};  ///< (limit) "353 mm, at least 600 mm"; empty: not known
+  std::vector<ModeLife>
+      modes{};  ///< that do not contradict a published test (is_credible()), one entry for each name
+  double robot_life = std::numeric_limits<double>::infinity();  ///< RankingRow::robot_life_hours
+  bool feasible() const;                                        ///< done, and every limit is satisfied
+  double violation() const;                                     ///< sum of the violations
+
+  /// "bend radius passed by 0.12 (532 mm, at least 600 mm), ...": violated limits, or the failure; empty: feasible.
   std::string words() const;
 };
 
@@ -56,7 +67,7 @@ struct Outcome {
 /// std::logic_error for an unknown check.
 Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, const AskedLimits& asked = {});
 
-/// The worst of several jobs: shortest life, largest value of each limit, the first failure.
+/// The worst of several jobs: shortest lives, largest value of each limit, the first failure.
 Outcome worst_of(const std::vector<Outcome>& jobs);
 
 }  // namespace dresslife::pipeline

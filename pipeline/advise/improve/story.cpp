@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "pipeline/base/readable.h"
 #include "pipeline/study/row_words.h"
@@ -15,10 +16,11 @@ namespace {
 
 ImprovementStory::Lives lives_of(const Finals& finals, const Final& of, const Outcome& outcome,
                                  const StudyPlaces& places) {
-  ImprovementStory::Lives lives{"", outcome.feasible() ? "all kept" : outcome.words()};
+  const std::string modes = mode_words(outcome);
+  ImprovementStory::Lives lives{"", outcome.feasible() ? "all kept" : outcome.words(),
+                                modes.empty() ? "none in the robot's life" : modes};
   if (const RankingRow* row = finals.worst_row(of)) {
-    if (kind_of(places.job(row->job) / "page.html") != FileKind::absent)
-      lives.page = row->job + "/page.html";
+    if (kind_of(places.job(row->job) / "page.html") != FileKind::absent) lives.page = row->job + "/page.html";
     const std::array<double, 3> hours =
         row->planned() ? row->planned_hours : std::array{row->life_hours, row->life_hours, row->life_hours};
     lives.p10 = hours[0], lives.p50 = hours[1], lives.p90 = hours[2];
@@ -26,12 +28,44 @@ ImprovementStory::Lives lives_of(const Finals& finals, const Final& of, const Ou
   return lives;
 }
 
-/// That another trial lives longer, but not as people mount it; empty: none does.
-std::string other_words(const Finals& finals) {
-  const Final &best = *finals.best(), &longest = *finals.longest();
-  if (best.trial == longest.trial || !longest.tolerance) return "";
-  return fmt::format("Trial {} lives longer without mounting errors ({}), but at most {} within that tolerance\n", longest.trial,
-                     hours_text(longest.hours), hours_text(longest.tolerance->least_hours));
+/// "449,000 h, all limits kept; not validated: jacket wear from 5,890 h"
+std::string outcome_words(const Outcome& outcome, double hours) {
+  if (!outcome.failure.empty()) return "it does not run: " + outcome.failure;
+  const std::string modes = mode_words(outcome);
+  return fmt::format("{}, {}{}", hours_text(hours), outcome.feasible() ? "all limits kept" : outcome.words(),
+                     modes.empty() ? "" : "; not validated: " + modes);
+}
+
+/// That another trial is better as drawn, but not as people mount it; empty: none is.
+std::string other_words(const Improvement& found, const Finals& finals) {
+  const Final &best = *finals.best(), &drawn = *finals.best_drawn();
+  if (best.trial == drawn.trial || !drawn.tolerance) return "";
+  const Outcome& worst = drawn.tolerance->worst_outcome;
+  return fmt::format("Trial {} is better as drawn ({}), but worse within that tolerance ({})\n", drawn.trial,
+                     outcome_words(found.trials[drawn.trial].worst, drawn.hours),
+                     outcome_words(worst, worst.hours));
+}
+
+/// That the wires of another trial live longer, but a mode without a validated law gets worse; empty: none do.
+std::string refused_words(const Improvement& found, const Outcome& best) {
+  const Outcome& as_it_is = found.trials.front().worst;
+  std::optional<std::size_t> longest;
+  for (std::size_t k = 1; k < found.trials.size(); ++k)
+    if (found.merit(k).kept == Kept::limits &&
+        found.trials[k].worst.hours > (longest ? found.trials[*longest].worst.hours : best.hours))
+      longest = k;
+  if (!longest || !worse_modes(best, as_it_is).empty()) return "";
+  const Outcome& of = found.trials[*longest].worst;
+  std::string modes;
+  for (const ModeLife& mode : worse_modes(of, as_it_is)) {
+    const auto own = std::find_if(as_it_is.modes.begin(), as_it_is.modes.end(),
+                                  [&](const ModeLife& one) { return one.mode == mode.mode; });
+    const bool never = own == as_it_is.modes.end() || std::isinf(own->hours);
+    modes += fmt::format("{}{} comes after {} (as it is: {})", modes.empty() ? "" : ", ", mode.mode,
+                         hours_text(mode.hours), never ? "never" : "after " + hours_text(own->hours));
+  }
+  return fmt::format("Trial {} was not chosen: its wires live longer ({}), but {}.\n", *longest,
+                     hours_text(of.hours), modes);
 }
 
 std::string change_lines(const Trial& trial) {
@@ -40,9 +74,36 @@ std::string change_lines(const Trial& trial) {
   return text;
 }
 
+std::string front_words(const Improvement& found, const Finals& finals, const ImprovementStory& story,
+                        SecondAim second, const MountingTolerance& tolerance) {
+  std::string text = fmt::format("Longest lives for their {}:\n", word(second));
+  for (const std::size_t k : found.front) {
+    const Trial& trial = found.trials[k];
+    const auto of =
+        std::find_if(finals.of.begin(), finals.of.end(), [&](const Final& one) { return one.trial == k; });
+    const std::string modes = mode_words(trial.worst);
+    text +=
+        fmt::format("  {:>10}  {:>12}  {:.3f} m  {:.1f} s{}\n",
+                    k == 0 ? "as it is" : fmt::format("trial {:4}", k), hours_text(of->hours),
+                    trial.hose_length, trial.cycle_seconds, modes.empty() ? "" : "  not validated: " + modes);
+  }
+  const Final* const best = finals.best();
+  if (!best || !best->tolerance) return text;
+  return text + fmt::format("Trial {}: {}", best->trial, tolerance_words(story.nudges, tolerance));
+}
+
+/// The freed keys whose errors nothing judged, as a line; empty: none.
+std::string unjudged_words(const Improvement& found) {
+  std::string keys;
+  for (const std::string& key : found.freed)
+    if (!has_mounting_tolerance(key)) keys += (keys.empty() ? "" : ", ") + key;
+  return keys.empty() ? "" : fmt::format("Without a mounting tolerance: {}\n", keys);
+}
+
 }  // namespace
 
-ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second, const StudyPlaces& places) {
+ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second,
+                          const StudyPlaces& places) {
   ImprovementStory story;
   story.name = found.name;
   for (std::size_t k = 0; k < found.trials.size(); ++k) {
@@ -67,49 +128,77 @@ ImprovementStory story_of(const Improvement& found, const Finals& finals, Second
     story.changes.push_back(
         {found.freed[k], found.own[k], trial.sets[k].substr(trial.sets[k].find('=') + 1)});
   if (best->tolerance) story.nudges = best->tolerance->nudges;
+  story.gain = gain_words(best->merit, trial.worst, finals.of.front().merit, found.trials.front().worst,
+                          story.longer_in);
   return story;
 }
 
-std::string improvement_words(const Improvement& found, const Finals& finals, const ImprovementStory& story,
-                              SecondAim second, double off, const StudyPlaces& places) {
-  const Outcome& was = found.trials.front().worst;
+std::string gain_words(const Merit& best, const Outcome& after, const Merit& original, const Outcome& before,
+                       const std::optional<double>& longer_in) {
+  if (!before.failure.empty()) return "";
+  const double robot = std::min(before.robot_life, after.robot_life);
+  const auto first = [](const Outcome& of) {
+    const ModeLife mode = first_mode(of);
+    return mode.mode.empty() ? std::string("none in the robot's life")
+                             : fmt::format("{} after {}", mode.mode, hours_text(mode.hours));
+  };
+  const std::string modes = fmt::format("First of the modes that are not validated: {} (as it is: {}).",
+                                        first(after), first(before));
+  if (before.hours >= robot && after.hours >= robot)
+    return fmt::format("In both the wires outlive the robot ({}). A longer life of the wires is no gain. {}",
+                       hours_text(robot), modes);
+  const double ratio = std::min(after.hours, robot) / std::min(before.hours, robot);
+  const bool longer = best.counted_hours > original.counted_hours && ratio > 1;
   std::string text = fmt::format(
-      "As it is: {}{}\n", was.failure.empty() ? hours_text(finals.of.front().hours) : "it does not run",
-      was.feasible()        ? ", all limits kept"
-      : was.failure.empty() ? ", " + was.words()
-                            : ": " + was.failure);
+      "The wires live {:.2g} times as long{}.", ratio,
+      longer && after.hours > robot ? fmt::format(", up to the robot's life ({})", hours_text(robot)) : "");
+  if (longer && longer_in)
+    text += fmt::format(" They live longer in {:.0f} of 100 samples{}.", 100 * *longer_in,
+                        *longer_in >= separated_share ? "" : ": no clear difference");
+  return text + " " + modes;
+}
+
+std::string improvement_words(const Improvement& found, const Finals& finals, const ImprovementStory& story,
+                              SecondAim second, const MountingTolerance& tolerance,
+                              const StudyPlaces& places) {
+  const Outcome& was = found.trials.front().worst;
+  std::string text = fmt::format("As it is: {}\n", outcome_words(was, finals.of.front().hours));
   if (finals.of.size() == 1) {
     text += fmt::format("No feasible job was found in {} trial{} and {} short runs.\n", found.trials.size(),
-                        found.trials.size() == 1 ? "" : "s",
-                        found.rehearsals);
+                        found.trials.size() == 1 ? "" : "s", found.rehearsals);
     for (const std::string& line : found.obstacle) text += line + "\n";
     return text;
   }
-  if (found.front.size() > 1) {
-    text += fmt::format("Longest lives for their {}:\n", word(second));
-    for (const std::size_t k : found.front) {
-      const Trial& trial = found.trials[k];
-      const auto of =
-          std::find_if(finals.of.begin(), finals.of.end(), [&](const Final& one) { return one.trial == k; });
-      text += fmt::format("  {:>10}  {:>12}  {:.3f} m  {:.1f} s\n",
-                          k == 0 ? "as it is" : fmt::format("trial {:4}", k), hours_text(of->hours),
-                          trial.hose_length, trial.cycle_seconds);
-    }
-    return text;
-  }
+  if (found.front.size() > 1) return text + front_words(found, finals, story, second, tolerance);
   const Final& best = *finals.best();
-  if (was.feasible() && best.hours <= finals.of.front().hours)
-    return text + fmt::format("Nothing that was tried lives longer. Keep the job as it is. The best of {} trials, trial {}: {}{}.\n",
-                              found.trials.size(), best.trial, hours_text(best.hours),
-                              story.longer_in ? fmt::format("; it lives longer in {:.0f} of 100 samples", 100 * *story.longer_in) : "");
-  text += fmt::format("Trial {} of {}: {}, all limits kept", best.trial, found.trials.size(),
-                      hours_text(best.hours));
-  if (story.longer_in) text += fmt::format("; it lives longer in {:.0f} of 100 samples", 100 * *story.longer_in);
-  text += "\n";
+  const Trial& trial = found.trials[best.trial];
+  const std::string judged = best.tolerance ? tolerance_words(story.nudges, tolerance) +
+                                                  other_words(found, finals) + unjudged_words(found)
+                                            : "";
+  const std::string of_best = fmt::format("rial {} of {}: {}\n", best.trial, found.trials.size(),
+                                          outcome_words(trial.worst, best.hours));
+  if (!finals.is_gain(best)) {
+    const Final& original = finals.of.front();
+    const bool as_drawn = clearly_better(best.merit, original.merit);
+    std::string worst;
+    if (original.tolerance)
+      worst = fmt::format(
+          "As it is, within the same tolerance: {} in the worst case found\n",
+          outcome_words(original.tolerance->worst_outcome, original.tolerance->worst_outcome.hours));
+    return text + "Keep the job as it is. " +
+           (as_drawn
+                ? "Nothing that was tried is clearly better within the mounting tolerance. As drawn the best of it is t"
+                : "Nothing that was tried is clearly better. The nearest is t") +
+           of_best + story.gain + (story.gain.empty() ? "" : "\n") + judged + worst +
+           refused_words(found, was);
+  }
+  text += "T" + of_best + story.gain + (story.gain.empty() ? "" : "\n") + judged +
+          refused_words(found, trial.worst);
   if (const RankingRow* const row = finals.worst_row(best))
-    for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row), unvalidated_words(*row)})
+    for (const std::string& words :
+         {action_words(*row), uncertainty_words(*row), failure_words(*row), unvalidated_words(*row)})
       text += words + (words.empty() ? "" : "\n");
-  text += change_lines(found.trials[best.trial]) + tolerance_words(story.nudges, off) + other_words(finals);
+  text += change_lines(trial);
   for (const std::string& job : best.jobs)
     text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());
   return text;

@@ -1,6 +1,7 @@
 // The results of a search for its page and for the terminal.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "pipeline/advise/improve/finals.h"
@@ -12,9 +13,13 @@ namespace dresslife::pipeline {
 ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second,
                           const StudyPlaces& places);
 
-/// Lines: the original jobs, the best candidate and its changes, or why none is feasible. off: mounting tolerance
-/// [m].
+/// What a candidate gains over the original jobs, in sentences; empty: they do not run. longer_in: ImprovementStory.
+std::string gain_words(const Merit& best, const Outcome& after, const Merit& original, const Outcome& before,
+                       const std::optional<double>& longer_in);
+
+/// Lines: the original jobs, the best candidate, its gain and its changes, or why none is feasible.
 std::string improvement_words(const Improvement& found, const Finals& finals, const ImprovementStory& story,
-                              SecondAim second, double off, const StudyPlaces& places);
+                              SecondAim second, const MountingTolerance& tolerance,
+                              const StudyPlaces& places);
 
 }  // namespace dresslife::pipeline

@@ -266,6 +266,13 @@ TEST_CASE("job: a clamp may stand at one of the robot's mounting points") {
   CHECK(job.dresspacks[0].routing.base_clamp->direction == Vector3d(0, 1, 0));
   CHECK(*job.dresspacks[0].routing.base_clamp->roll == Approx(10 * degree));
   CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
+  const Job moved = job_of_text(with_clamp("mounting_point: elbow, position_m: [1.01, 2, 3]"));
+  CHECK(moved.dresspacks[0].routing.base_clamp->link == "turret");
+  CHECK(moved.dresspacks[0].routing.base_clamp->position == Vector3d(1.01, 2, 3));
+  CHECK(moved.dresspacks[0].routing.base_clamp->direction == Vector3d(0, 1, 0));
+  const Job tilted = job_of_text(with_clamp("mounting_point: elbow, direction: [0.1, 1, 0]"));
+  CHECK(tilted.dresspacks[0].routing.base_clamp->position == Vector3d(1, 2, 3));
+  CHECK(tilted.dresspacks[0].routing.base_clamp->direction == Vector3d(0.1, 1, 0));
   CHECK_THAT(message_of([&] { job_of_text(with_clamp("mounting_point: knee")); }),
              Catch::Contains("the robot has no mounting point 'knee'; one of: elbow"));
   CHECK_THAT(message_of([&] { job_of_text(with_clamp("mounting_point: elbow, link: arm")); }),

@@ -394,6 +394,17 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   CHECK(action_words(rows[0]) ==
         "The wires last longer than the robot (40,000 h). The jacket of signal cable 3 may wear through in the hose, 0.13 m from the "
         "tool, after 300 .. 51,000 h (10 .. 90 %, not validated): inspect it there. Not evaluated: water hose, kinks.");
+  UnvalidatedMode abraded = worn;
+  abraded.mode = UnvalidatedMode::abrasion, abraded.place = "link_4", abraded.hours = {25000, 90000, 1e6};
+  UnvalidatedMode late = worn;
+  late.mode = UnvalidatedMode::corkscrew, late.hours = {40001, 90000, 1e6};  // after the robot's life
+  SampleLife both = rubs;
+  both.unvalidated = unvalidated_text({abraded, worn, late});
+  const auto listed = read_ranking({job_with(scratch, "both", both)});
+  CHECK_THAT(action_words(listed[0]), Catch::Contains("51,000 h (10 .. 90 %, not validated): inspect it there. Inspect also for: abrasion: from "
+                                                      "25,000 h. Not evaluated"));
+  CHECK(unvalidated_note(listed) ==
+        "* Plan with this number, and inspect for modes that are not validated. jacket wear: from 300 h, abrasion: from 25,000 h.");
   CHECK(unvalidated_words(rows[0]) ==
         "Jacket wear is not validated and not in the hours above. By the model the jacket of signal cable 3 wears through in the "
         "hose after 300 .. 51,000 h (10 .. 90 %), 0.13 m from the tool, most at 2.5 s, during 'weld'. It comes before the wires in "

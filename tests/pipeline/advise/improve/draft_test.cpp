@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "pipeline/advise/improve/draft.h"
+#include "pipeline/advise/improve/merit.h"
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/scaled.h"
 #include "pipeline/advise/improve/screened.h"
@@ -120,14 +121,20 @@ TEST_CASE("the worst of several jobs has the least life and the most of each lim
   Outcome good, tight;
   good.hours = std::numeric_limits<double>::infinity();
   good.beyond.assign(outcome_limits, -0.5);
+  good.modes = {{"jacket wear", 500}}, good.robot_life = 40000;
   tight = good;
   tight.hours = 100;
   tight.beyond[0] = 0.25;
+  tight.reached.resize(outcome_limits);
+  tight.reached[0] = "467 mm, at least 600 mm";
+  tight.modes = {{"jacket wear", 900}, {"abrasion", 70}};
   const Outcome worst = worst_of({good, tight});
   CHECK(worst.hours == 100);
   CHECK(worst.violation() == 0.25);
   CHECK_FALSE(worst.feasible());
-  CHECK(worst.words() == "bend radius passed by 0.25");
+  CHECK(worst.words() == "bend radius passed by 0.25 (467 mm, at least 600 mm)");
+  CHECK(worst.robot_life == 40000);
+  CHECK(mode_words(worst) == "abrasion from 70.0 h, jacket wear from 500 h");
   CHECK(good.feasible());
   RankingRow failed;
   failed.failure = "job.yaml: error: routing.free_length_m is too short; make it longer";
@@ -222,17 +229,25 @@ TEST_CASE(
   asked.rating = 500, asked.wall = 700;  // just kept
   CHECK(outcome_of(row, folder, asked).violation() == 0);
   row.unvalidated.push_back(mode(UnvalidatedMode::jacket, 400, 4000));
+  row.unvalidated.push_back(mode(UnvalidatedMode::jacket, 7000, 8000));
+  row.unvalidated.back().dresspack = "inner";
+  row.robot_life_hours = 30000;
+  const Outcome outcome = outcome_of(row, folder, asked);
+  CHECK(outcome.robot_life == 30000);
+  CHECK(mode_words(outcome) ==
+        "jacket wear from 400 h, maker's rating from 500 h, hose's wall from 700 h, jacket wear of inner from 7,000 h");
+  row.unvalidated.pop_back();
   asked.jacket = 1200;
   CHECK(outcome_of(row, folder, asked).violation() == Approx(std::log(3.0)));
-  CHECK(outcome_of(row, folder, asked).words() == "jacket wear passed by 1.1");
+  CHECK(outcome_of(row, folder, asked).words() == "jacket wear passed by 1.1 (400 h, at least 1,200 h)");
   row.unvalidated.pop_back(), asked.jacket.reset();
   row.unvalidated.push_back(mode(UnvalidatedMode::corkscrew, 100, 200));
   asked.corkscrew = 200;
-  CHECK(outcome_of(row, folder, asked).words() == "corkscrew passed by 0.69");
+  CHECK(outcome_of(row, folder, asked).words() == "corkscrew passed by 0.69 (100 h, at least 200 h)");
   row.unvalidated.pop_back(), asked.corkscrew.reset();
   row.unvalidated.push_back(mode(UnvalidatedMode::kink, endless, endless));
   row.unvalidated.back().margin = 1.5, asked.kink = 3;
-  CHECK(outcome_of(row, folder, asked).words() == "kink passed by 0.69");
+  CHECK(outcome_of(row, folder, asked).words() == "kink passed by 0.69 (1.50 times, at least 3.00 times)");
   row.unvalidated.back().margin = endless;  // nothing bends
   CHECK(outcome_of(row, folder, asked).violation() == 0);
   row.unvalidated.pop_back(), asked.kink.reset();

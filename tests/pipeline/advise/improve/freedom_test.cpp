@@ -83,12 +83,15 @@ TEST_CASE(
   using Lines = std::vector<std::string>;
   Trial failed = trial(0, 0, 0, 0);
   failed.worst.failure = "too short by 3 mm";
+  Trial nearest = trial(0.999, 0.125, 0.125, 0.25);
+  nearest.worst.reached.resize(outcome_limits);
+  nearest.worst.reached[0] = "529 mm, at least 600 mm";
   CHECK(
-      obstacle_words({trial(0.5, 0.5, 0.5, -0.1), failed, trial(0.999, 0.125, 0.125, 0.25)}, freedom) ==
+      obstacle_words({trial(0.5, 0.5, 0.5, -0.1), failed, nearest}, freedom) ==
       Lines{
-          "Nearest is trial 2: bend radius passed by 0.12, twist passed by 0.25; it lives 0.75 times as long as "
+          "Nearest is trial 2: bend radius passed by 0.12 (529 mm, at least 600 mm), twist passed by 0.25; it lives 0.75 times as long as "
           "the jobs as they are",
-          "No trial keeps bend radius: the best passes it by 0.12",
+          "No trial keeps bend radius: the best passes it by 0.12 (529 mm, at least 600 mm; trial 2)",
           "It stands at the end of what may be changed: routing.free_length_m, at most 2.6; widen it"});
   CHECK(obstacle_words({trial(0.5, 0.5, 0.5, -0.1), trial(0.5, 0.5, -0.1, 0.75)}, freedom) ==
         Lines{"Nearest are the jobs as they are: bend radius passed by 0.5",

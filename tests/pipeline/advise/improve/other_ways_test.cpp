@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <set>
 
+#include "pipeline/advise/improve/freedom.h"
 #include "pipeline/advise/improve/nudges.h"
 #include "pipeline/advise/improve/other_ways.h"
 #include "pipeline/base/errors.h"
@@ -105,16 +106,61 @@ TEST_CASE("programs without joint targets are refused") {
                     Catch::Contains("has no steps with joint targets; read the program"));
 }
 
-TEST_CASE("each clamp and the length are off to both sides") {
+TEST_CASE("each clamp, the length and the turn of the end are off to both sides") {
   const auto job = std::make_shared<const Job>(shipped("abb_irb6640_185_280", "easy"));
-  const std::vector<Nudge> nudges = nudges_of({{"one", job, ""}, {"two", job, ""}}, 0.01);
-  REQUIRE(nudges.size() == 14);
-  CHECK(nudges.front().sets == std::vector<std::string>{"routing.base_clamp.position_m=[-0.11, 0, 0.45]"});
-  CHECK(nudges.back().what == "length, + 10 mm");
-  CHECK(nudges.back().sets == std::vector<std::string>{"routing.free_length_m=2.045"});
+  const std::vector<Nudge> nudges = nudges_of({{"one", job, ""}, {"two", job, ""}}, tolerance_of(10, 10));
+  REQUIRE(nudges.size() == 24);
+  CHECK(nudges[1].what == "length, + 10 mm");
+  CHECK(nudges[1].sets == std::vector<std::string>{"routing.free_length_m=2.045"});
+  CHECK(nudges[2].sets == std::vector<std::string>{"routing.pre_twist_deg=-10"});
+  CHECK(nudges[4].sets == std::vector<std::string>{"routing.base_clamp.position_m=[-0.11, 0, 0.45]"});
+  // Four directions about that of the base clamp, all tilted by atan(10 / 100), to opposite sides in pairs.
+  const Eigen::Vector3d own = job->dresspacks.front().routing.base_clamp->direction.normalized();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 10; k < 14; ++k) {
+    INFO(nudges[k].what);
+    const std::string& set = nudges[k].sets.front();
+    const Node value = parse_yaml(set.substr(set.find('=') + 1), "set");
+    REQUIRE(set.starts_with("routing.base_clamp.direction=["));
+    const Eigen::Vector3d tilted(std::stod(value.items[0].text), std::stod(value.items[1].text),
+                                 std::stod(value.items[2].text));
+    CHECK(std::acos(tilted.dot(own)) == Approx(std::atan(0.1)).epsilon(1e-4));  // six figures are written
+    sum += tilted;
+  }
+  CHECK((sum / 4 - own * std::cos(std::atan(0.1))).norm() < 1e-5);
+  // Without one of the tolerances the others stay, without all nothing does.
+  CHECK(nudges_of({{"one", job, ""}}, tolerance_of(10, 0)).size() == 22);
+  CHECK(nudges_of({{"one", job, ""}}, tolerance_of(0, 10)).size() == 2);
+  CHECK(nudges_of({{"one", job, ""}}, tolerance_of(0, 0)).empty());
+  CHECK(tolerance_of(0, 0).none());
+  CHECK(tolerance_of(0).none());
+  CHECK(tolerance_of(10).turn == Approx(10 * std::numbers::pi / 180));
+  CHECK(tolerance_text(tolerance_of(10, 10)) ==
+        "a clamp or length off by 10 mm, a clamp tilted by 5.7 deg or an end turned by 10 deg");
+  CHECK(tolerance_text(tolerance_of(0, 5)) == "an end turned by 5 deg");
   const auto other =
       std::make_shared<const Job>(read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_guided.yaml"));
-  CHECK(nudges_of({{"one", job, ""}, {"two", other, ""}}, 0.01).empty());
+  CHECK(nudges_of({{"one", job, ""}, {"two", other, ""}}, tolerance_of(10, 10)).empty());
+  // Length and turn, three clamps and a ring, of which the last two have a place on the hose.
+  CHECK(nudges_of({{"guided", other, ""}}, tolerance_of(10, 10)).size() == 4 + 4 * 10 + 2 * 2);
+}
+
+TEST_CASE("every key of a routing that is freed by default has a mounting tolerance, others have none") {
+  for (const char* name : {"irb6640_guided", "irb6640_two_dresspacks", "side_panel"}) {
+    const Job job = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/" + std::string(name) + ".yaml");
+    for (const Entry& entry : Freedom::usual(job).entries) {
+      INFO(entry.key);
+      CHECK(has_mounting_tolerance(entry.key));
+      // And is off in some nudge.
+      const std::vector<Nudge> nudges =
+          nudges_of({{"one", std::make_shared<const Job>(job), ""}}, tolerance_of(10, 10));
+      CHECK(std::any_of(nudges.begin(), nudges.end(),
+                        [&](const Nudge& nudge) { return nudge.sets.front().starts_with(entry.key + "="); }));
+    }
+  }
+  for (const char* key :
+       {"dresspack", "dresspack.diameter_mm", "motion.speed_percent", "routing.base_clamp.link"})
+    CHECK_FALSE(has_mounting_tolerance(key));
 }
 
 }  // namespace dresslife::pipeline

@@ -6,37 +6,128 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A search of two trials beside the job as it is, which lives 1,000 h.
+using Modes = std::vector<ModeLife>;
+
+struct Life {
+  double hours;
+  Modes modes{};
+};
+
+/// A search of trials beside the job as it is, which is the first.
 struct Searched {
   Improvement found;
   Finals finals;
-  explicit Searched(double best_hours) {
-    const auto trial = [](double hours, const std::string& set) {
-      Trial one;
-      if (!set.empty()) one.sets = {set};
-      one.worst.hours = hours;
-      one.worst.beyond.assign(outcome_limits, -1.0);
-      return one;
-    };
+  explicit Searched(const std::vector<Life>& lives, std::optional<double> longer_in = {})
+      : longer_in_(longer_in) {
     found.name = "job";
     found.freed = {"routing.free_length_m"}, found.own = {"0.9"};
-    found.trials = {trial(1000, ""), trial(best_hours, "routing.free_length_m=0.95")};
     found.front = {0};
-    finals.of = {Final{{"before"}, 1000}, Final{{"final_0001"}, best_hours, 1}};
+    for (std::size_t k = 0; k < lives.size(); ++k) {
+      Trial& one = found.trials.emplace_back();
+      if (k > 0) one.sets = {"routing.free_length_m=0.95"};
+      one.worst.hours = lives[k].hours, one.worst.modes = lives[k].modes, one.worst.robot_life = 40000;
+      one.worst.beyond.assign(outcome_limits, -1.0);
+    }
+    for (std::size_t k = 0; k < lives.size(); ++k)
+      finals.of.push_back(Final{{k == 0 ? "before" : "final"}, lives[k].hours, k, found.merit(k)});
   }
-  std::string words() const { return improvement_words(found, finals, {}, SecondAim::none, 0, {}); }
+  ImprovementStory story() const {
+    ImprovementStory of = story_of(found, finals, SecondAim::none, {});
+    if (!longer_in_) return of;
+    of.longer_in = longer_in_;
+    of.gain = gain_words(finals.best()->merit, found.trials[finals.best()->trial].worst,
+                         finals.of.front().merit, found.trials.front().worst, longer_in_);
+    return of;
+  }
+  std::string words(const MountingTolerance& tolerance = tolerance_of(0, 0)) const {
+    return improvement_words(found, finals, story(), SecondAim::none, tolerance, {});
+  }
+
+ private:
+  std::optional<double> longer_in_;
 };
 
-}  // namespace
-
-TEST_CASE("improve: the changes of a trial are listed only if it lives longer") {
-  const std::string shorter = Searched(800).words();
-  CHECK(shorter ==
-        "As it is: 1,000 h, all limits kept\nNothing that was tried lives longer. Keep the job as it is. The best of 2 trials, trial 1: "
-        "800 h.\n");
-  const std::string longer = Searched(1500).words();
-  CHECK_THAT(longer, Catch::Contains("Trial 1 of 2: 1,500 h") && Catch::Contains("--set 'routing.free_length_m=0.95'") &&
-                         !Catch::Contains("Nothing that was tried"));
+Searched searched_of(const std::vector<Life>& lives, std::optional<double> longer_in = {}) {
+  return Searched(lives, longer_in);
 }
 
+TEST_CASE("improve: the changes of a trial are listed only if it is clearly better") {
+  CHECK(
+      searched_of({{1000}, {800}}).words() ==
+      "As it is: 1,000 h, all limits kept\nKeep the job as it is. Nothing that was tried is clearly better. The nearest is trial 1 of 2: "
+      "800 h, all limits kept\nThe wires live 0.8 times as long. First of the modes that are not validated: none in the robot's life "
+      "(as it is: none in the robot's life).\n");
+  CHECK_THAT(searched_of({{1000}, {1050}}).words(),
+             Catch::Contains("Keep the job as it is") && !Catch::Contains("--set"));
+  CHECK_THAT(searched_of({{1000}, {1500}}).words(),
+             Catch::Contains("\nTrial 1 of 2: 1,500 h") &&
+                 Catch::Contains("--set 'routing.free_length_m=0.95'") &&
+                 Catch::Contains("The wires live 1.5 times as long") && !Catch::Contains("Keep the job"));
+}
+
+TEST_CASE("improve: a life beyond the robot's is no gain, and what a gain costs stands beside it") {
+  const Modes own{{"abrasion", HUGE_VAL}, {"jacket wear", 5890}};
+  // Trial 1 wears the hose through, trial 2 spares the jacket.
+  const std::string words = searched_of({{449000, own},
+                                         {1940000, {{"abrasion", 25000}, {"jacket wear", 8750}}},
+                                         {654000, {{"abrasion", HUGE_VAL}, {"jacket wear", 9110}}}})
+                                .words();
+  CHECK_THAT(
+      words,
+      Catch::Contains("As it is: 449,000 h, all limits kept; not validated: jacket wear from 5,890 h\n") &&
+          Catch::Contains(
+              "\nTrial 2 of 3: 654,000 h, all limits kept; not validated: jacket wear from 9,110 h\n") &&
+          Catch::Contains(
+              "In both the wires outlive the robot (40,000 h). A longer life of the wires is no gain. First of the "
+              "modes that are not validated: jacket wear after 9,110 h (as it is: jacket wear after 5,890 h).\n") &&
+          Catch::Contains(
+              "\nTrial 1 was not chosen: its wires live longer (1,940,000 h), but abrasion comes after 25,000 h "
+              "(as it is: never).\n"));
+  // With trial 1 alone the job stays as it is.
+  CHECK_THAT(searched_of({{449000, own}, {1940000, {{"abrasion", 25000}, {"jacket wear", 8750}}}}).words(),
+             Catch::Contains("Keep the job as it is") && Catch::Contains("Trial 1 was not chosen") &&
+                 !Catch::Contains("--set"));
+}
+
+TEST_CASE("improve: a difference that few samples show is no clear one") {
+  CHECK_THAT(
+      searched_of({{1000}, {1500}}, 0.71).words(),
+      Catch::Contains(
+          "The wires live 1.5 times as long. They live longer in 71 of 100 samples: no clear difference."));
+  CHECK_THAT(searched_of({{1000}, {1500}}, 0.95).words(),
+             Catch::Contains("They live longer in 95 of 100 samples. First"));
+  CHECK_THAT(searched_of({{1000}, {90000}}, 0.95).words(),
+             Catch::Contains("The wires live 40 times as long, up to the robot's life (40,000 h)."));
+}
+
+TEST_CASE(
+    "improve: a trial that is better as drawn and worse within the tolerance loses, and both lives are named") {
+  Searched searched = searched_of({{1000}, {3000}, {2000}});
+  const auto judge = [&](std::size_t k, double worst) {
+    Outcome outcome = searched.found.trials[k].worst;
+    outcome.hours = worst;
+    searched.finals.of[k].tolerance =
+        WithinTolerance{{{"length, + 10 mm", true, worst / searched.found.trials[k].worst.hours, "", "", 0}},
+                        merit_of(outcome, searched.found.trials.front().worst),
+                        outcome,
+                        true};
+  };
+  judge(1, 50), judge(2, 1800);
+  CHECK_THAT(
+      searched.words(tolerance_of(10, 10)),
+      Catch::Contains("\nTrial 2 of 3: 2,000 h") &&
+          Catch::Contains("the wires live at least 0.9 times as long (length, + 10 mm)") &&
+          Catch::Contains(
+              "\nTrial 1 is better as drawn (3,000 h, all limits kept), but worse within that tolerance (50.0 h, all "
+              "limits kept)\n"));
+  // The job as it is wins where it is better within the tolerance.
+  judge(2, 700), judge(0, 900);
+  CHECK_THAT(searched.words(tolerance_of(10, 10)),
+             Catch::Contains("Keep the job as it is") && !Catch::Contains("--set"));
+  judge(0, 300);
+  CHECK_THAT(searched.words(tolerance_of(10, 10)),
+             Catch::Contains("\nTrial 2 of 3") && Catch::Contains("--set"));
+}
+
+}  // namespace
 }  // namespace dresslife::pipeline

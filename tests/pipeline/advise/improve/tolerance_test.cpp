@@ -1,21 +1,27 @@
-// The best routings judged by how long they live within the mounting tolerance (T1).
+// The best routings judged within the mounting tolerance (T1).
 #include "pipeline/advise/improve/tolerance.h"
+
+#include <cmath>
 
 #include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {
 
-/// A finalist with one clamp, whose lives with it off are these; counts its runs.
+Outcome outcome(double hours) {
+  Outcome of;
+  of.hours = hours;
+  of.beyond.assign(outcome_limits, -1.0);
+  if (hours == 0) of.failure = "too short";
+  return of;
+}
+
+/// A finalist whose lives with one thing off are these; counts its runs.
 Finalist finalist(double hours, std::vector<double> lives, int& runs) {
-  Finalist of{hours, std::vector<Nudge>(lives.size()), {}};
+  Finalist of{outcome(hours), std::vector<Nudge>(lives.size()), {}};
   of.run = [lives, &runs](std::size_t first, std::size_t count) {
-    std::vector<Outcome> outcomes(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      outcomes[k].hours = lives[first + k];
-      if (lives[first + k] == 0) outcomes[k].failure = "too short";
-      ++runs;
-    }
+    std::vector<Outcome> outcomes;
+    for (std::size_t k = 0; k < count; ++k) outcomes.push_back(outcome(lives[first + k])), ++runs;
     return outcomes;
   };
   return of;
@@ -26,29 +32,92 @@ TEST_CASE("tolerance: the longest life in the worst place wins, not the longest 
   const std::vector<Finalist> finalists{finalist(1000, {900, 60, 800, 700, 600, 500}, sharp),
                                         finalist(700, {650, 600, 690, 500, 640, 720}, blunt),
                                         finalist(450, {450, 450, 450, 450, 450, 450}, last)};
-  const std::vector<WithinTolerance> judged = within_tolerance(finalists);
+  const std::vector<WithinTolerance> judged = within_tolerance(finalists, outcome(100));
   REQUIRE(judged.size() == 2);  // the last lives at most 450 h, less than the second within its tolerance
   CHECK(last == 0);
   CHECK(best_within(judged) == 1);
-  CHECK(judged[0].least_hours == 60);
-  CHECK(judged[1].least_hours == 500);
+  CHECK(judged[0].worst.hours == 60);
+  CHECK(judged[1].worst.hours == 500);
   CHECK(judged[1].nudges[0].share == Approx(650.0 / 700));
 }
 
-TEST_CASE("tolerance: one that falls behind is given up, and one that does not run lives 0 h") {
+TEST_CASE("tolerance: one that falls behind is given up, and one that does not run is last") {
   int first = 0, second = 0;
   const std::vector<double> fails{900, 0, 900, 900, 900, 900, 900, 900, 900, 900, 900, 900};
-  const std::vector<WithinTolerance> judged =
-      within_tolerance({finalist(1000, std::vector<double>(12, 800), first), finalist(950, fails, second)});
+  const std::vector<WithinTolerance> judged = within_tolerance(
+      {finalist(1000, std::vector<double>(12, 800), first), finalist(950, fails, second)}, outcome(100));
   REQUIRE(judged.size() == 2);
-  CHECK(second == 6);
+  CHECK(second == 4);
   CHECK_FALSE(judged[1].whole);
-  CHECK(judged[1].least_hours == 0);
+  CHECK(judged[1].worst.kept == Kept::nothing);
   CHECK(judged[1].nudges[1].words == "too short");
   CHECK(best_within(judged) == 0);
+}
+
+/// A search over one angle: p10 rises towards a cliff, beyond which no job runs, and has a lower plateau on the other side.
+Outcome at_angle(double degrees) {
+  if (degrees > 80) return outcome(0);
+  return outcome(degrees > 40 ? 10 * degrees : 500);
+}
+
+TEST_CASE(
+    "tolerance: an optimum beside a cliff loses against a robust one, also where the first three stand at the cliff") {
+  const auto at = [](double degrees) {
+    std::vector<Nudge> nudges(2);
+    Finalist of{at_angle(degrees), nudges, {}};
+    of.run = [degrees](std::size_t first, std::size_t count) {
+      std::vector<Outcome> outcomes;
+      for (std::size_t k = first; k < first + count; ++k)
+        outcomes.push_back(at_angle(degrees + (k == 0 ? -10 : 10)));
+      return outcomes;
+    };
+    return of;
+  };
+  const std::vector<WithinTolerance> judged =
+      within_tolerance({at(80), at(79), at(78), at(75), at(60), at(0)}, outcome(100));
+  REQUIRE(judged.size() == 5);
+  CHECK(best_within(judged) == 4);  // 600 h as drawn, 500 h within the tolerance
+  CHECK(judged[4].worst.hours == 500);
+  // Brute force: no other of them has a better worst.
+  for (const double degrees : {80.0, 79.0, 78.0, 75.0, 60.0, 0.0})
+    CHECK(std::min({at_angle(degrees).hours, at_angle(degrees - 10).hours, at_angle(degrees + 10).hours}) <=
+          500);
+}
+
+TEST_CASE("tolerance: keeping all limits comes before a longer life") {
+  const auto at = [](double hours, double beyond) {
+    Finalist of{outcome(hours), std::vector<Nudge>(1), {}};
+    of.run = [=](std::size_t, std::size_t) {
+      Outcome off = outcome(hours);
+      off.beyond[0] = beyond;
+      return std::vector<Outcome>{off};
+    };
+    return of;
+  };
+  CHECK(best_within(within_tolerance({at(2000, 0.01), at(1000, -0.01)}, outcome(100))) == 1);
+}
+
+TEST_CASE("tolerance: the words name the tolerance, the loss and where it occurs") {
+  using Nudge = ImprovementStory::Nudge;
+  const Nudge good{"length, - 10 mm", true, 0.9, "", "jacket wear", 5000},
+      bad{"tool clamp, x + 10 mm", true, 0.8, "", "", 0};
+  const MountingTolerance tolerance = tolerance_of(10, 10);
+  const std::string with =
+      "With a clamp or length off by 10 mm, a clamp tilted by 5.7 deg or an end turned by 10 deg ";
   CHECK(
-      tolerance_words(judged[0].nudges, 0.01) ==
-      "With a clamp or the length off by 10 mm it lives at least 0.8 times as long, and all limits are kept\n");
+      tolerance_words({good, bad}, tolerance) ==
+      with +
+          "the wires live at least 0.8 times as long (tool clamp, x + 10 mm), jacket wear comes after 5,000 h at the earliest "
+          "(length, - 10 mm), and all limits are kept.\n");
+  const Nudge refused{"end at the tool turned, - 10 deg", false, 0, "too short", "", 0};
+  CHECK(
+      tolerance_words({bad, refused}, tolerance) ==
+      with +
+          "the wires live at least 0.8 times as long (tool clamp, x + 10 mm), and 1 of 2 such jobs pass a limit or do not run "
+          "(end at the tool turned, - 10 deg: too short).\n");
+  CHECK(tolerance_words({}, tolerance).empty());
+  const Nudge endless{"length, - 10 mm", true, std::nan(""), "", "", 0};  // no damage, off or not
+  CHECK(tolerance_words({endless}, tolerance) == with + "all limits are kept.\n");
 }
 
 }  // namespace

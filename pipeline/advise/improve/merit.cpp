@@ -1,0 +1,98 @@
+#include "pipeline/advise/improve/merit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/base/readable.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr double alike = 1.1;  // of two lives; the reason is at (M1)
+
+double own_life(const Outcome& as_it_is, const std::string& mode) {
+  if (!as_it_is.failure.empty()) return endless;
+  for (const ModeLife& of : as_it_is.modes)
+    if (of.mode == mode) return of.hours;
+  return endless;
+}
+
+/// (M1) A mode that comes earlier is worse.
+double least_life(const ModeLife& mode, const Outcome& outcome, const Outcome& as_it_is) {
+  return std::min({outcome.robot_life, outcome.hours, own_life(as_it_is, mode.mode) / alike});
+}
+
+std::vector<ModeLife> earliest_first(std::vector<ModeLife> modes) {
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const ModeLife& a, const ModeLife& b) { return a.hours < b.hours; });
+  return modes;
+}
+
+double smallest_margin(const Outcome& outcome) {
+  double margin = endless;
+  for (const double g : outcome.beyond) margin = std::min(margin, -g);
+  return margin;
+}
+
+}  // namespace
+
+std::vector<ModeLife> worse_modes(const Outcome& outcome, const Outcome& as_it_is) {
+  std::vector<ModeLife> worse;
+  for (const ModeLife& mode : outcome.modes)
+    if (mode.hours < least_life(mode, outcome, as_it_is)) worse.push_back(mode);
+  return earliest_first(std::move(worse));
+}
+
+ModeLife first_mode(const Outcome& outcome) {
+  ModeLife first{"", endless};
+  for (const ModeLife& mode : outcome.modes)
+    if (mode.hours < std::min(first.hours, outcome.robot_life)) first = mode;
+  return first;
+}
+
+Merit merit_of(const Outcome& outcome, const Outcome& as_it_is) {
+  if (!outcome.failure.empty()) return {};
+  const std::vector<ModeLife> worse = worse_modes(outcome, as_it_is);
+  Merit merit;
+  merit.kept = !outcome.feasible() ? Kept::run : !worse.empty() ? Kept::limits : Kept::modes;
+  merit.counted_hours = std::min(outcome.hours, outcome.robot_life);
+  if (!worse.empty()) merit.counted_hours = std::min(merit.counted_hours, worse.front().hours);
+  merit.first_hours = std::min(outcome.robot_life, first_mode(outcome).hours);
+  merit.margin = smallest_margin(outcome);
+  merit.hours = outcome.hours;
+  return merit;
+}
+
+double search_value(const Outcome& outcome, const Outcome& as_it_is) {
+  static constexpr double shortest = 1e-9, longest = 1e9;  // [h] finite for the models
+  const auto log_life = [](double hours) { return std::log(std::clamp(hours, shortest, longest)); };
+  double value = log_life(std::min(outcome.hours, outcome.robot_life));
+  if (std::isfinite(outcome.robot_life) && outcome.hours >= outcome.robot_life) {
+    // 0 .. 1 for a first mode after 1 h .. the robot's life: orders wires that count alike, and is a small step beside other gains.
+    const double first = std::max(1.0, std::min(outcome.robot_life, first_mode(outcome).hours));
+    value += std::log(first) / std::max(1.0, std::log(outcome.robot_life));
+  }
+  for (const ModeLife& mode : worse_modes(outcome, as_it_is))
+    value -= log_life(least_life(mode, outcome, as_it_is)) - log_life(std::max(1.0, mode.hours));
+  return value;
+}
+
+bool clearly_better(const Merit& one, const Merit& other) {
+  if (one.kept != other.kept) return one.kept > other.kept;
+  if (one.counted_hours > other.counted_hours * alike) return true;
+  return one.counted_hours * alike >= other.counted_hours && one.first_hours > other.first_hours * alike;
+}
+
+std::string mode_words(const Outcome& outcome) {
+  std::string text;
+  for (const ModeLife& mode : earliest_first(outcome.modes))
+    if (mode.hours < outcome.robot_life)
+      text += fmt::format("{}{} from {}", text.empty() ? "" : ", ", mode.mode, hours_text(mode.hours));
+  return text;
+}
+
+}  // namespace dresslife::pipeline

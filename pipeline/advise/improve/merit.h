@@ -1,0 +1,57 @@
+// The order of candidates of `improve` and `route`. The first difference in this list decides:
+//
+// (M1) it runs; it keeps all limits; no mode without a validated law gets worse.
+//      t_m: p10 life by mode m (abrasion, jacket wear, ...). h: p10 life of the wires. L: fatigue.robot_life_hours.
+//      Mode m gets worse if t_m < min(L, h, t_m0 / 1.1), t_m0 being the life by that mode in the job as it is.
+//      A mode after L or h replaces no dresspack. 1.1: twice the segments change a wear depth by up to 10 %.
+// (M2) longer min(h, L, t_m of the modes that get worse): wires that outlive the robot gain nothing by a longer life
+// (M3) longer min(L, all t_m): the mode that comes first
+// (M4) larger distance to the nearest limit
+// (M5) longer h
+#pragma once
+
+#include <compare>
+#include <string>
+#include <vector>
+
+#include "pipeline/advise/improve/outcome.h"
+
+namespace dresslife::pipeline {
+
+enum class Kept {
+  nothing,
+  run,
+  limits,
+  modes
+};  ///< (M1) rising: it does not run; it passes a limit; a mode gets worse; all is kept
+
+struct Merit {
+  Kept kept = Kept::nothing;
+  double counted_hours = 0;  ///< (M2)
+  double first_hours = 0;    ///< (M3)
+  double margin = 0;         ///< (M4), unit of Outcome::beyond
+  double hours = 0;          ///< (M5)
+  /// Greater: better.
+  std::partial_ordering operator<=>(const Merit&) const = default;
+};
+
+/// as_it_is: the job before any change. If it does not run, or lacks a mode, t_m0 is infinite.
+Merit merit_of(const Outcome& outcome, const Outcome& as_it_is);
+
+/// The modes that get worse (M1), the earliest first.
+std::vector<ModeLife> worse_modes(const Outcome& outcome, const Outcome& as_it_is);
+
+/// The mode that comes first; its hours are infinite if none comes before the end of the robot's life.
+ModeLife first_mode(const Outcome& outcome);
+
+/// One number for the models of a search: the larger, the better. It follows (M2) and (M3), and a mode that gets worse
+/// reduces it by the logarithm of t_m over its limit in (M1). Precondition: the outcome ran.
+double search_value(const Outcome& outcome, const Outcome& as_it_is);
+
+/// Whether the first is better by more than the 10 % of (M1) in (M2), or with equal (M2) in (M3), or in (M1).
+bool clearly_better(const Merit& one, const Merit& other);
+
+/// "jacket wear from 5,890 h": what comes before the end of the robot's life, the earliest first, joined by commas. Empty: none.
+std::string mode_words(const Outcome& outcome);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,114 @@
+// The order of candidates (M1) to (M5).
+#include "pipeline/advise/improve/merit.h"
+
+#include <limits>
+#include <random>
+
+#include "tests/catch.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double robot = 40000;
+
+Outcome outcome(double hours, std::vector<ModeLife> modes = {}, double beyond = -0.5) {
+  Outcome of;
+  of.hours = hours, of.modes = std::move(modes), of.robot_life = robot;
+  of.beyond.assign(outcome_limits, -1.0);
+  of.beyond[0] = beyond;
+  return of;
+}
+
+TEST_CASE("merit: wires that live longer than the robot gain nothing by wearing the hose through") {
+  // The lives of a search on a handling robot: as it is the hose rubs nowhere.
+  const Outcome as_it_is = outcome(449000, {{"abrasion", never}, {"jacket wear", 5890}});
+  const Outcome rubs = outcome(1940000, {{"abrasion", 25000}, {"jacket wear", 8750}});
+  const Outcome gentler = outcome(654000, {{"abrasion", never}, {"jacket wear", 9110}});
+  const Merit own = merit_of(as_it_is, as_it_is);
+  CHECK(own.kept == Kept::modes);
+  CHECK(merit_of(rubs, as_it_is).kept == Kept::limits);
+  CHECK(merit_of(rubs, as_it_is) < own);
+  CHECK(merit_of(gentler, as_it_is) > own);
+  CHECK(clearly_better(merit_of(gentler, as_it_is), own));
+  CHECK(search_value(gentler, as_it_is) > search_value(as_it_is, as_it_is));
+  CHECK(search_value(as_it_is, as_it_is) > search_value(rubs, as_it_is));
+  REQUIRE(worse_modes(rubs, as_it_is).size() == 1);
+  CHECK(worse_modes(rubs, as_it_is).front().mode == "abrasion");
+  CHECK(mode_words(rubs) == "jacket wear from 8,750 h, abrasion from 25,000 h");
+  CHECK(mode_words(outcome(1, {{"abrasion", 50000}})).empty());
+  // A longer life of the wires alone is no clear gain, neither beyond the robot's life nor up to it.
+  CHECK_FALSE(clearly_better(merit_of(outcome(900000), as_it_is), merit_of(outcome(50000), as_it_is)));
+  CHECK(clearly_better(merit_of(outcome(30000), as_it_is), merit_of(outcome(20000), as_it_is)));
+  CHECK_FALSE(clearly_better(merit_of(outcome(21000), as_it_is), merit_of(outcome(20000), as_it_is)));
+}
+
+TEST_CASE(
+    "merit: a mode gets worse only before the wires and the end of the robot's life, and by more than a tenth") {
+  const Outcome as_it_is = outcome(1000, {{"jacket wear", 2000}, {"abrasion", 60000}});
+  const auto worse = [&](double hours, double jacket, double abrasion) {
+    return worse_modes(outcome(hours, {{"jacket wear", jacket}, {"abrasion", abrasion}}), as_it_is).size();
+  };
+  CHECK(worse(1900, 1900, 60000) == 0);   // after the wires
+  CHECK(worse(5000, 1900, 60000) == 0);   // by less than a tenth
+  CHECK(worse(5000, 1800, 60000) == 1);   // by more
+  CHECK(worse(1500, 1600, 60000) == 0);   // worse, but the wires come before
+  CHECK(worse(90000, 2000, 41000) == 0);  // after the robot
+  CHECK(worse(90000, 2000, 39000) == 1);
+  CHECK(worse(90000, 1000, 39000) == 2);
+  // Of a job that does not run nothing is known: each mode that comes first counts.
+  Outcome fails = as_it_is;
+  fails.failure = "too short";
+  CHECK(worse_modes(outcome(5000, {{"jacket wear", 4000}}), fails).size() == 1);
+  // A mode that the job as it is does not have.
+  CHECK(worse_modes(outcome(5000, {{"corkscrew", 0}}), as_it_is).size() == 1);
+  CHECK(merit_of(outcome(5000, {{"corkscrew", 0}}), as_it_is).counted_hours == 0);
+}
+
+TEST_CASE("merit: limits, then modes, then wires, then the first mode, then the margin") {
+  const Outcome as_it_is = outcome(1000, {{"jacket wear", 2000}});
+  Outcome fails = outcome(9e5);
+  fails.failure = "too short";
+  const std::vector<Outcome> rising{
+      fails,
+      outcome(90000, {}, 0.01),                  // passes a limit
+      outcome(80000, {{"jacket wear", 1000}}),   // a mode gets worse
+      outcome(900, {{"jacket wear", 30000}}),    // keeps all
+      outcome(1000, {{"jacket wear", 1900}}),    // longer
+      outcome(50000, {{"jacket wear", 3000}}),   // outlives the robot
+      outcome(45000, {{"jacket wear", 20000}}),  // so does this one, and its jackets last longer
+      outcome(60000, {{"jacket wear", 70000}}, -0.1),
+      outcome(50000, {{"jacket wear", 50000}}, -0.2),  // larger distance to the limit
+      outcome(60000, {{"jacket wear", 50000}}, -0.2)};
+  for (std::size_t a = 0; a < rising.size(); ++a)
+    for (std::size_t b = 0; b < rising.size(); ++b) {
+      INFO(a << " " << b);
+      CHECK((merit_of(rising[a], as_it_is) < merit_of(rising[b], as_it_is)) == (a < b));
+    }
+}
+
+TEST_CASE("merit: the value of a search follows the order where all limits are kept and no mode gets worse") {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> decades(1, 7);
+  const Outcome as_it_is = outcome(100, {{"abrasion", 1}});
+  int compared = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Outcome a = outcome(std::pow(10, decades(random)), {{"abrasion", std::pow(10, decades(random))}});
+    const Outcome b = outcome(std::pow(10, decades(random)), {{"abrasion", std::pow(10, decades(random))}});
+    const Merit one = merit_of(a, as_it_is), other = merit_of(b, as_it_is);
+    if (one.counted_hours == other.counted_hours && one.first_hours == other.first_hours) continue;
+    ++compared;
+    CHECK((search_value(a, as_it_is) < search_value(b, as_it_is)) == (one < other));
+  }
+  CHECK(compared > 1000);
+  // Finite where nothing fails, no robot moves, or everything fails at once.
+  Outcome endless = outcome(never);
+  CHECK(std::isfinite(search_value(endless, endless)));
+  endless.robot_life = never;
+  CHECK(std::isfinite(search_value(endless, endless)));
+  CHECK(merit_of(endless, endless).first_hours == never);
+  CHECK(std::isfinite(search_value(outcome(0, {{"kink", 0}}), as_it_is)));
+}
+
+}  // namespace
+}  // namespace dresslife::pipeline
