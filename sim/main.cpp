@@ -6,10 +6,12 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/stage/stage.h"
+#include "sim/route/bracket.h"
 #include "sim/route/exercise.h"
 #include "sim/route/preview.h"
 #include "sim/route/proposal.h"
 #include "sim/route/screening_file.h"
+#include "sim/run/clamp_path.h"
 #include "sim/run/cures.h"
 #include "sim/run/memory.h"
 #include "sim/run/motion_file.h"
@@ -51,6 +53,10 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
     sim::ProposalSettings settings = request.proposals;
     settings.count = *request.propose;
     settings.progress = [&](double share, const std::string& words) { progress.show(share, words); };
+    if (const auto path = sim::path_of(job);
+        const auto* const robot = dynamic_cast<const sim::RobotPath*>(path.get()))
+      if (const std::string note = sim::gripper_note(job, robot->tools()); !note.empty())
+        progress.note("note: " + note);
     sim::write_proposals(job, settings, file);
   }
   pipeline::stamp(file, call, job, "");

@@ -1,6 +1,7 @@
 #include "pipeline/cable/plausible.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/job/parts_room.h"
+#include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -27,14 +29,23 @@ constexpr double thinnest = 0.01e-3;              // radius of a wire [m]: the f
 constexpr double least_lay =
     0.6 * degree;  // a turn in 100 helix diameters and more; lays of cables are 3 to 40 deg, 0.05 to 0.7 rad
 
-constexpr double widest_hose = 0.2, thinnest_cable = 1e-3;  // [m]: hoses on robots are 15 to 110 mm wide, sensor cables 2
-constexpr double thickest_wall = 0.25;     // of the diameter: a corrugated hose has 0.05 to 0.1, a rubber hose 0.2
-constexpr double thinnest_wall = 0.1e-3;   // [m]: corrugated hoses have 0.3 mm and more, and their folds
+constexpr double widest_hose = 0.2,
+                 thinnest_cable = 1e-3;  // [m]: hoses on robots are 15 to 110 mm wide, sensor cables 2
+constexpr double thin_hose =
+    5e-3;  // [m]: the thinnest hose or cable on a robot that a slip of the unit may stand for
+constexpr double thickest_wall =
+    0.25;  // of the diameter: a corrugated hose has 0.05 to 0.1, a rubber hose 0.2
+constexpr double thinnest_wall = 0.1e-3;  // [m]: corrugated hoses have 0.3 mm and more, and their folds
+constexpr double same_height =
+    0.2;  // of a corrugation: catalogues round diameters to 0.5 mm, heights are 1.5 to 6 mm
 constexpr double largest_bend_radius = 40;  // diameters: makers' limits are 3 to 15
-constexpr double least_torsion = 0.01, most_torsion = 100;  // G J over E I: a solid bar has 0.77, corrugated hoses to 10
-constexpr double largest_friction = 1.5;   // rubber on steel has 1
+constexpr double tight_bend = 1.3;          // diameters: the least of corrugated hoses that do not move
+constexpr double least_torsion = 0.01,
+                 most_torsion = 100;      // G J over E I: a solid bar has 0.77, corrugated hoses to 10
+constexpr double largest_friction = 1.5;  // rubber on steel has 1
 constexpr double least_most_twist = 5, largest_most_twist = 3600;     // [deg/m]: makers allow 50 to 360
 constexpr double least_most_tension = 5, largest_most_tension = 1e5;  // [N]
+constexpr double least_slack = 5e-4;  // half a millimetre in a metre: nobody lays a cable so exactly
 constexpr double least_grip = 1;                       // [N]: a cable's weight in half a metre of hose
 constexpr double largest_construction_curvature = 50;  // [1/m]: a radius of 20 mm
 constexpr double thinnest_sleeve = 0.05e-3, thickest_sleeve = 0.25;  // [m], and of the diameter
@@ -48,9 +59,11 @@ constexpr double steepest_strength = -0.3, steepest_ductility = -1.2,
                  flattest_ductility = -0.3;  // b -0.05 to -0.15, c -0.5 to -0.8
 constexpr double heaviest_filling =
     2500;  // [kg/m3]: hydraulic hoses with four layers of steel wire have 1500 to 2000
-constexpr double least_grams = 50;         // [kg/m]: more is g/m; less may be the mass of a whole dresspack
-constexpr double lightest_part = 50;       // [kg/m3] over the section of a part without wires: foam; an air hose of 8/5.5 mm has 630
-constexpr double narrowest_bore = 0.1;     // of the outer diameter: hoses for air and water have 0.5 to 0.8
+constexpr double least_grams = 50;  // [kg/m]: more is g/m; less may be the mass of a whole dresspack
+constexpr double lightest_part =
+    50;  // [kg/m3] over the section of a part without wires: foam; an air hose of 8/5.5 mm has 630
+// Bore over outer diameter: tubes for air and water have 0.5 (4 x 2 mm) to 0.8 (16 x 13 mm), hydraulic hoses with steel braid 0.4.
+constexpr double narrowest_bore = 0.38, widest_bore = 0.92, usual_bore = 0.45;
 constexpr double shortest_pitch = 0.3e-3;  // [m]: the finest corrugated hoses have 1 mm
 constexpr double largest_grip = 1e5;       // [N]: ten times what tears a power cable
 
@@ -117,11 +130,7 @@ class Judge {
             fmt::format("mass_kg_per_m of '{}' is {:.3g} (limit {:.3g}: foam)", of.name, *of.laying.mass, least),
             "tonnes instead of kilograms, or kg/mm",
             fmt::format("mass_kg_per_m: {:.4g} if that was kg/mm, or no key", 1e3 * *of.laying.mass));
-      if (of.plain && of.plain->bore && *of.plain->bore < narrowest_bore * 2 * of.radius)
-        add(of.plain->where,
-            fmt::format("bore_mm of '{}' is {:.3g} (limit {:.3g}: a tenth of its outer diameter)", of.name, 1e3 * *of.plain->bore,
-                        2e3 * narrowest_bore * of.radius),
-            "metres instead of millimetres", fmt::format("bore_mm: {:.3g} if that was metres", 1e6 * *of.plain->bore));
+      if (of.plain && of.plain->bore) tube(of, 1e3 * *of.plain->bore, 2e3 * of.radius);
       if (const double least = least_wire_mass(of.components); of.laying.mass && *of.laying.mass < least)
         add(of.where,
             fmt::format(
@@ -145,6 +154,35 @@ class Judge {
   }
 
  private:
+  /// A hose in the hose, its bore and outer diameter [mm].
+  void tube(const Component& of, double bore, double outer) {
+    if (bore >= narrowest_bore * outer && bore <= widest_bore * outer) return;
+    const auto fits = [&](double inner, double around) {
+      return inner >= usual_bore * around && inner <= widest_bore * around;
+    };
+    std::vector<std::string> remedies;
+    if (fits(2 * bore, outer))
+      remedies.push_back(fmt::format("bore_mm: {:.4g} if {:.4g} is half the bore", 2 * bore, bore));
+    if (fits(bore, outer / 2))
+      remedies.push_back(
+          fmt::format("radius_mm: {:.4g} if {:.4g} is the outer diameter", outer / 4, outer / 2));
+    if (const Meant meant = meant_length("bore_mm", bore, usual_bore * outer, widest_bore * outer);
+        !meant.remedy.empty())
+      remedies.push_back(meant.remedy);
+    if (bore > widest_bore * outer)
+      remedies.push_back(fmt::format("bore_mm: {:.3g} (ESTIMATE)", outer * 2 / 3));
+    if (remedies.empty())
+      remedies.push_back("radius_mm, half the outer diameter, and bore_mm, the inner diameter");
+    add(of.plain->where,
+        fmt::format(
+            "bore_mm of '{}' is {:.3g}, and it is {:.4g} mm wide outside by radius_mm {:.4g} (limits {:.3g} .. {:.3g}: {:g} to {:g} times "
+            "as much)",
+            of.name, bore, outer, outer / 2, narrowest_bore * outer, widest_bore * outer, narrowest_bore,
+            widest_bore),
+        "a radius instead of a diameter or a diameter instead of a radius, or another unit",
+        fmt::format("{}", fmt::join(remedies, "; or ")));
+  }
+
   std::vector<Warning>& warnings_;
 };
 
@@ -245,16 +283,33 @@ void plausible_limits(const Dresspack& dresspack, Judge& judge) {
 /// Diameters, bend radius and torsion beside each other, and what parts have.
 void plausible_size(const Dresspack& dresspack, Judge& judge) {
   const double diameter = dresspack.diameter;
-  if (diameter > widest_hose || diameter < thinnest_cable)
+  if (diameter > widest_hose || diameter < thinnest_cable) {
+    const Meant meant = meant_length("diameter_mm", 1e3 * diameter, 1e3 * thin_hose, 1e3 * widest_hose);
     judge.add(dresspack.where,
-              fmt::format("diameter_mm is {:.4g} (limits {:g} .. {:g})", 1e3 * diameter, 1e3 * thinnest_cable, 1e3 * widest_hose),
-              diameter > widest_hose ? "tenths of a millimetre, or an extra zero" : "centimetres or metres",
-              diameter > widest_hose ? fmt::format("diameter_mm: {:.4g} if there is an extra zero", 1e2 * diameter)
-                                     : fmt::format("diameter_mm: {:.4g} if that was metres", 1e6 * diameter));
+              fmt::format("diameter_mm is {:.4g} (limits {:g} .. {:g})", 1e3 * diameter, 1e3 * thinnest_cable,
+                          1e3 * widest_hose),
+              meant.cause.empty() ? "another unit" : meant.cause,
+              meant.remedy.empty() ? "diameter_mm as a caliper finds it" : meant.remedy);
+  }
   if (dresspack.hose_corrugation && dresspack.hose_corrugation->pitch < shortest_pitch)
     judge.add(dresspack.hose_corrugation->where,
-              fmt::format("pitch_mm is {:.3g} (limit {:g} or more)", 1e3 * dresspack.hose_corrugation->pitch, 1e3 * shortest_pitch),
-              "metres instead of millimetres", fmt::format("pitch_mm: {:.3g} if that was metres", 1e6 * dresspack.hose_corrugation->pitch));
+              fmt::format("pitch_mm is {:.3g} (limit {:g} or more)", 1e3 * dresspack.hose_corrugation->pitch,
+                          1e3 * shortest_pitch),
+              "metres instead of millimetres",
+              fmt::format("pitch_mm: {:.3g} if that was metres", 1e6 * dresspack.hose_corrugation->pitch));
+  if (const auto& profile = dresspack.hose_corrugation; profile && dresspack.inner_diameter) {
+    const double height = (diameter - *dresspack.inner_diameter) / 2;
+    if (std::abs(profile->height - height) > same_height * height)
+      judge.add(
+          profile->where,
+          fmt::format(
+              "height_mm of hose_corrugation is {:.3g}, and half the difference of diameter_mm {:.4g} and inner_diameter_mm "
+              "{:.4g} is {:.3g} (limit {:g} % apart)",
+              1e3 * profile->height, 1e3 * diameter, 1e3 * *dresspack.inner_diameter, 1e3 * height,
+              100 * same_height),
+          "the corrugation of another hose, or the difference of the diameters instead of half of it",
+          fmt::format("height_mm: {:.3g}, or the diameters of this corrugation", 1e3 * height));
+  }
   if (dresspack.inner_diameter) {
     const double wall = (diameter - *dresspack.inner_diameter) / 2;
     if (wall > thickest_wall * diameter || wall < thinnest_wall)
@@ -264,11 +319,17 @@ void plausible_size(const Dresspack& dresspack, Judge& judge) {
                 "one of the two diameters in another unit or of another hose",
                 fmt::format("inner_diameter_mm: {:.3g} (ESTIMATE), or diameter_mm as measured", 1e3 * usual_bore_share * diameter));
   }
-  if (dresspack.least_bend_radius && *dresspack.least_bend_radius > largest_bend_radius * diameter)
-    judge.add(dresspack.where,
-              fmt::format("least_bend_radius_mm is {:.4g} (limit {:.4g}: {:g} diameters)", 1e3 * *dresspack.least_bend_radius,
-                          1e3 * largest_bend_radius * diameter, largest_bend_radius),
-              "an extra zero", fmt::format("least_bend_radius_mm: {:.4g} if there is an extra zero", 1e2 * *dresspack.least_bend_radius));
+  if (const double radius = dresspack.least_bend_radius.value_or(diameter);
+      radius < diameter || radius > largest_bend_radius * diameter) {
+    const Meant meant = meant_length("least_bend_radius_mm", 1e3 * radius, 1e3 * tight_bend * diameter,
+                                     1e3 * largest_bend_radius * diameter);
+    judge.add(
+        dresspack.where,
+        fmt::format("least_bend_radius_mm is {:.4g} (limits {:.4g} .. {:.4g}: 1 to {:g} diameters)",
+                    1e3 * radius, 1e3 * diameter, 1e3 * largest_bend_radius * diameter, largest_bend_radius),
+        meant.cause.empty() ? "the bend radius or diameter_mm of another hose" : meant.cause,
+        meant.remedy.empty() ? "least_bend_radius_mm as the maker states" : meant.remedy);
+  }
   if (const double share = dresspack.torsional_stiffness / dresspack.bending_stiffness;
       dresspack.bending_stiffness > 0 && dresspack.torsional_stiffness > 0 && !(share > least_torsion && share < most_torsion))
     judge.add(dresspack.where,
@@ -276,6 +337,9 @@ void plausible_size(const Dresspack& dresspack, Judge& judge) {
                           most_torsion),
               "one of the two in another unit", "torsional_stiffness_Nm2: from_construction, or both as measured");
   for (const Component& of : dresspack.components) {
+    if (of.laying.slack > 0 && of.laying.slack < 100 * least_slack)
+      judge.add(of.where, fmt::format("slack_percent of '{}' is {:.3g} (limit 0, or {:g} or more)", of.name, of.laying.slack, 100 * least_slack),
+                "a share instead of per cent", fmt::format("slack_percent: {:.3g} if that was a share", 100 * of.laying.slack));
     if (of.laying.slack > 100 * largest_slack)
       judge.add(of.where, fmt::format("slack_percent of '{}' is {:.3g} (limit {:g})", of.name, of.laying.slack, 100 * largest_slack),
                 "millimetres in a metre instead of per cent", fmt::format("slack_percent: {:.3g} if that was mm in a metre", of.laying.slack / 10));
@@ -301,15 +365,18 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
   const double built = dresspack.components.empty() ? 0 : mass_of_construction(dresspack);
   const double most = built > 0 ? built + heaviest_filling * section : copper * section;
   if (mass > most)
-    judge.add(dresspack.where,
-              fmt::format("mass_kg_per_m is {:.4g} (limit {:.3g}: {})", mass, most,
-                          built > 0 ? "its parts, and diameter_mm filled with rubber and steel braid"
-                                    : "solid copper of diameter_mm"),
-              mass < least_grams ? "the mass of the whole dresspack, or diameter_mm in another unit"
-                                 : "grams instead of kilograms, or diameter_mm in another unit",
-              fmt::format("mass_kg_per_m: {:.4g} if that was g/m{}; or check diameter_mm: {:.4g}",
-                          mass / 1000, built > 0 ? fmt::format(", {:.3g} by its parts and wall", built) : "",
-                          1e3 * dresspack.diameter));
+    judge.add(
+        dresspack.where,
+        fmt::format("mass_kg_per_m is {:.4g} (limit {:.3g}: {})", mass, most,
+                    built > 0 ? "its parts, and diameter_mm filled with rubber and steel braid"
+                              : "solid copper of diameter_mm"),
+        mass < least_grams ? "the mass of the whole dresspack, or diameter_mm in another unit"
+                           : "grams instead of kilograms, or diameter_mm in another unit",
+        fmt::format("{}{}; or check diameter_mm: {:.4g}",
+                    mass / 1000 > least ? fmt::format("mass_kg_per_m: {:.4g} if that was g/m", mass / 1000)
+                                        : "mass_kg_per_m of a metre",
+                    built > 0 ? fmt::format(", {:.3g} by its parts and wall", built) : "",
+                    1e3 * dresspack.diameter));
   if (mass > 0 && mass < least)
     judge.add(dresspack.where,
               fmt::format("mass_kg_per_m is {:.3g} (limit {:.3g}: its wires, if they were of aluminium)",
@@ -341,22 +408,22 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
   constexpr double gravity = 9.81;
   const double weight =
       std::min(mass, most) * gravity;  // a mass that is doubtful does not make the stiffness doubtful
-  if (dresspack.axial_stiffness > 0 && weight > most_stretch * dresspack.axial_stiffness)
+  if (const bool computed = dresspack.axial_from_construction;
+      dresspack.axial_stiffness > 0 && weight > most_stretch * dresspack.axial_stiffness)
     judge.add(
         dresspack.where,
         fmt::format(
-            "axial_stiffness_N is {:.3g} (limit {:.3g} or more: {:g} % of stretch by the weight of a metre)",
-            dresspack.axial_stiffness, weight / most_stretch, 100 * most_stretch),
-        "kilonewtons instead of newtons",
-        fmt::format("axial_stiffness_N: {:.3g} if that was kN, or from_construction",
-                    1000 * dresspack.axial_stiffness));
-  if (dresspack.least_bend_radius && *dresspack.least_bend_radius < dresspack.diameter / 2)
-    judge.add(
-        dresspack.where,
-        fmt::format("least_bend_radius_mm is {:.3g} (limit {:.3g}: half of diameter_mm)",
-                    1e3 * *dresspack.least_bend_radius, 1e3 * dresspack.diameter / 2),
-        "metres instead of millimetres",
-        fmt::format("least_bend_radius_mm: {:.3g} if that was metres", 1e6 * *dresspack.least_bend_radius));
+            "axial_stiffness_N is {:.3g}{} (limit {:.3g} or more: {:g} % of stretch by the weight of a metre)",
+            dresspack.axial_stiffness, computed ? " from the construction" : "", weight / most_stretch,
+            100 * most_stretch),
+        !computed                    ? "kilonewtons instead of newtons"
+        : dresspack.hose_corrugation ? "a corrugation that is too high or too thin"
+                                     : "a wall or parts that are too soft or missing",
+        !computed ? fmt::format("axial_stiffness_N: {:.3g} if that was kN, or from_construction",
+                                1000 * dresspack.axial_stiffness)
+        : dresspack.hose_corrugation
+            ? "height_mm, wall_mm and pitch_mm of hose_corrugation as a caliper finds them, or axial_stiffness_N as measured"
+            : "hose_material and inner_diameter_mm of the hose, or axial_stiffness_N as measured");
   plausible_size(dresspack, judge);
   plausible_limits(dresspack, judge);
   for (const Material& of : dresspack.materials)

@@ -98,6 +98,8 @@ struct OtherKind {
   std::string_view kind, use;
 };
 constexpr OtherKind program_kind{"robot program", "name it in a job: dresslife new --program FILE JOB.yaml"},
+    robot_kind{"robot description (URDF)",
+               "name it in a job: dresslife new --robot FILE JOB.yaml; or give it to dresslife route"},
     result_kind{"result", "see it by dresslife show FILE or plot FILE"};
 
 /// By the end of the name; null: perhaps a YAML file, whose keys tell its kind (pipeline/resolve/document_kind.h).
@@ -106,6 +108,7 @@ const OtherKind* kind_by_name(const fs::path& file) {
   std::transform(end.begin(), end.end(), end.begin(), [](unsigned char letter) { return std::tolower(letter); });
   static const std::set<std::string> programs{".mod", ".modx", ".prg", ".sys", ".pgf", ".src", ".dat", ".ls", ".jbi", ".script"};
   if (programs.contains(end)) return &program_kind;
+  if (end == ".urdf" || end == ".xacro") return &robot_kind;
   if (end == ".h5" || end == ".hdf5") return &result_kind;
   return nullptr;
 }

@@ -32,6 +32,7 @@ void describe(Fields& f, Joint& joint) {
   f.number("speed_deg_per_s", joint.speed, Need::required, above(0), "The highest speed.");
   f.number("acceleration_deg_per_s2", joint.acceleration, Need::required, above(0),
            "The highest acceleration.");
+  f.place_of("acceleration_deg_per_s2", joint.acceleration_where);
 }
 
 void describe(Fields& f, ExternalAxis& axis) {

@@ -27,6 +27,7 @@ struct Joint {
   std::string follows;                      ///< name of the joint whose angle moves it; empty: a driven axis
   double ratio = 1, offset = 0;             ///< of a joint that follows [1, rad]
   Where where;
+  Where acceleration_where;  ///< of a robot from a URDF in the job
 };
 
 /// A drive besides the robot's axes: a track that carries the robot, or one that only takes its time.

@@ -79,7 +79,7 @@ void merge_by_name(Node& base, const Node& over) {
 }
 
 /// Accelerations are in no URDF: without this check the URDF's lines would be reported as incomplete.
-void check_accelerations(const Node& robot, const fs::path& urdf, const Where& asked) {
+void check_accelerations(const Node& robot, const UrdfRequest& request, const Where& asked) {
   std::vector<std::string> without;
   std::size_t driven = 0;
   const Node* joints = robot.find("joints");
@@ -89,10 +89,15 @@ void check_accelerations(const Node& robot, const fs::path& urdf, const Where& a
     const Node* name = joint.find("name");
     if (!joint.find("acceleration_deg_per_s2")) without.push_back(name ? name->text : "?");
   }
+  if (request.accelerations.size() > driven)
+    throw InputError(request.accelerations_where,
+                     fmt::format("accelerations_deg_per_s2 has {} numbers (the robot of {} has {} axes)",
+                                 request.accelerations.size(), request.urdf.string(), driven),
+                     fmt::format("give {} numbers in the order of the axes", driven));
   if (without.empty()) return;
   throw InputError(
       asked,
-      fmt::format("{} has no accelerations of {} (a URDF cannot hold any)", urdf.string(),
+      fmt::format("{} has no accelerations of {} (a URDF cannot hold any)", request.urdf.string(),
                   fmt::join(without, ", ")),
       fmt::format(
           "give accelerations_deg_per_s2 beside 'urdf', {} numbers in the order of the axes (those of config/robots have {})",
@@ -120,7 +125,7 @@ void read_urdf(Node& entry) {
     else
       known = e.value;
   }
-  check_accelerations(robot, request.urdf, entry.where);
+  check_accelerations(robot, request, entry.where);
   entry = std::move(robot);
 }
 
@@ -309,6 +314,12 @@ std::string nearest_entry(const std::string& name, const std::vector<std::string
 
 Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
                      const Where& job) {
+  if (name.ends_with(".urdf") && folder != "robots")
+    throw InputError(named_at, fmt::format("'{}' is a robot description (URDF)", name),
+                     "write it after 'robot:', robot: {urdf: FILE}");
+  if (folder != "programs" && is_program_file(folder_of(named_at) / name))
+    throw InputError(named_at, fmt::format("'{}' is a robot program or a table", name),
+                     "write a program after 'motion:'");
   if (name.ends_with(".urdf")) {  // alone: its entry is the file itself
     Node entry;
     entry["urdf"] = scalar(name);
@@ -329,12 +340,16 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
     throw InputError(named_at, fmt::format("there is no file '{}'", beside.string()),
                      "check the path; it counts from the folder of the file that names it");
   std::vector<std::string> names;
+  std::string program;  // of this name, in the language of a robot
   const auto found_in = [&](const fs::path& place) {
     const fs::path file = place / (name + ".yaml");
     if (is_file(file))
       return file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file);
-    for (const fs::path& entry : entries_of(place))
+    for (const fs::path& entry : entries_of(place)) {
       if (entry.extension() == ".yaml") names.push_back(entry.stem().string());
+      if (folder == "programs" && program.empty() && entry.stem() == name && is_program_file(entry))
+        program = fs::proximate(entry, fs::absolute(folder_of(named_at) / ".")).string();
+    }
     return fs::path();
   };
   for (const fs::path& place : folders_beside(folder, named_at, job))
@@ -355,6 +370,9 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
             ".script, joint angles .csv. For KRL: mv {} {}",
             beside.string(), fs::path(beside).replace_extension(".src").string()));
   }
+  if (!program.empty())
+    throw InputError(named_at, fmt::format("'{}' is a robot program, and is named by its file", name),
+                     fmt::format("write '{}'", program));
   throw InputError(
       named_at,
       fmt::format("'{}' is not in the catalogue (config/{}){}", name, folder,

@@ -444,19 +444,26 @@ std::string plain(std::string text) {
 constexpr const char* example_line =
     "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket PUR 1.1 mm";
 
-/// "write '7 x 0.518 mm2' for AWG 20" for 7 x AWG 20, "write '7 x 0.5 mm2'" for 7G0.5 and 7 x 0.5 qmm; else empty.
+/// "write '7 x 0.518 mm2' for AWG 20" for 7 x AWG 20, "write '4 x 2.5 mm2'" for 2.5 x 4 mm2 and 4 x 2.5 mm; else empty.
 std::string meant_section(const std::string& phrase) {
-  static const std::regex gauge(R"((\d+) *[x*]? *(?:awg *(\d+)|(\d+) *awg))"),
-      section(R"((\d+) *[x*g] *([\d.]+) *(?:qmm|sqmm|mm)?)");
+  static const std::regex gauge(R"((\d+) *[x*g]? *(?:awg *(\d+)|(\d+) *awg))"),
+      other_unit(R"((\d+) *[x*g] *([\d.]+) *(?:mm)?)"),
+      exchanged(R"((\d*\.\d+) *[x*g] *(\d+) *(?:mm2|mm\^2|mm²|qmm|sqmm|mm)?)");
   std::smatch found;
   if (std::regex_match(phrase, found, gauge)) {
     const std::string number = found[2].matched ? found[2] : found[3];
     return fmt::format("write '{} x {:.3g} mm2' for AWG {}", found[1].str(),
                        square_mm_of_awg(std::stod(number)), number);
   }
-  return std::regex_match(phrase, found, section)
-             ? fmt::format("write '{} x {} mm2'", found[1].str(), found[2].str())
-             : "";
+  if (std::regex_match(phrase, found, exchanged))
+    return fmt::format("write '{} x {} mm2': the number of cores comes first", found[2].str(),
+                       found[1].str());
+  if (!std::regex_match(phrase, found, other_unit)) return "";
+  constexpr double thick_wire = 0.5;  // [mm] of flexible conductors
+  return fmt::format("write '{} x {} mm2'", found[1].str(), found[2].str()) +
+         (std::strtod(found[2].str().c_str(), nullptr) < thick_wire
+              ? fmt::format(", or 'wire {} mm' if those are the wires of a core", found[2].str())
+              : "");
 }
 
 /// Of "jacket pur 1.1 mm", a name of config/materials; empty: none is known.
@@ -489,7 +496,7 @@ void refuse_unknown_material(const std::string& words, const Where& where) {
 
 /// Decimal commas as points: "12 x 0,25 mm2, OD 9,5 mm". A comma behind a unit, or before a number of cores, separates.
 std::string with_points(const std::string& text) {
-  static const std::regex comma(R"((^|[^a-zA-Z0-9.²^])(\d+),(\d+)(?![\d.]* *[xX*]))");
+  static const std::regex comma(R"((^|[^a-zA-Z0-9.²^]|\d[gGxX])(\d+),(\d+)(?![\d.]* *[xX*]))");
   return std::regex_replace(text, comma, "$1$2.$3");
 }
 
@@ -527,8 +534,11 @@ std::string other_key(const std::string& phrase) {
 /// The keys that one phrase of a sheet's line stands for.
 std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase,
                                                                 const Where& where) {
-  static const std::regex section(R"((\d+) *[x*] *(?:(\d+) *[x*] *)?([\d.]+) *mm(?:2|\^2|²))"),
-      word_class("class *([1-6])"), length(R"(([a-z][a-z -]*?) *([\d.]+) *mm(?: *[a-z]+)?)");
+  // 4 x 2.5 mm2, 4 x (2 x 0.25) mm2, and as shops write it: 3x1.5 qmm, and 4G2.5 with the protective conductor among the four.
+  static const std::regex section(
+      R"((\d+) *[x*] *(?:\(? *(\d+) *[x*] *)?([\d.]+) *\)? *(?:mm2|mm\^2|mm²|qmm|sqmm))"),
+      with_earth(R"((\d+) *g *([\d.]+) *(?:mm2|mm\^2|mm²|qmm|sqmm)?)"), word_class("class *([1-6])"),
+      length(R"(([a-z][a-z -]*?) *([\d.]+) *mm(?: *[a-z]+)?)");
   static const std::vector<std::pair<std::regex, const char*>> lengths{
       {std::regex("(single )?wires?( diameter)?"), "wire_diameter_mm"},
       {std::regex("(outer |outside )?diameter|od"), "outer_diameter_mm"},
@@ -539,6 +549,8 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
       {std::regex("wire lay( length)?"), "wire_lay_length_mm"}};
   std::smatch found;
   if (std::regex_match(phrase, found, word_class)) return {{"conductor_class", found[1]}};
+  if (std::regex_match(phrase, found, with_earth))
+    return {{"cores", found[1]}, {"cross_section_mm2", found[2]}};
   if (std::regex_match(phrase, found, section)) {
     std::vector<std::pair<const char*, std::string>> keys{{"cores", found[1]},
                                                           {"cross_section_mm2", found[3]}};
@@ -565,7 +577,17 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
     return {{material.empty() ? "unused" : "jacket_material", material.empty() ? phrase : material}};
   }
   if (changes_nothing(phrase)) return {{"unused", phrase}};
-  const std::string meant = meant_section(phrase), other = other_key(phrase);
+  static const std::regex without_unit(R"(([a-z][a-z -]*?) *([\d.]+))");
+  std::string meant = meant_section(phrase);
+  if (meant.empty() && std::regex_match(phrase, found, without_unit) &&
+      std::any_of(lengths.begin(), lengths.end(),
+                  [&](const auto& of) { return std::regex_match(found[1].str(), of.first); }))
+    meant = fmt::format("write '{} {} mm'", found[1].str(), found[2].str());
+  static const std::regex two_kinds(R"((\d+ *[x*g] *.*\d) *\+ *\(?\d+ *[x*g(].*)");
+  if (meant.empty() && std::regex_match(phrase, found, two_kinds))
+    meant = fmt::format("a data sheet has one kind of cores: write '{} mm2' alone, or describe the cable by its components",
+                        std::string(found[1]).substr(0, found[1].str().find(" mm")));
+  const std::string other = other_key(phrase);
   throw InputError(
       where, fmt::format("'{}' of a data sheet is not understood", phrase),
       !meant.empty()   ? meant

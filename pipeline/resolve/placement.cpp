@@ -146,9 +146,12 @@ std::vector<AutoPart> auto_parts(const Node& components, const std::string& path
                    "write auto, or helix_radius_mm and phase_deg instead of place", key);
     for (const char* other : {"helix_radius_mm", "phase_deg", "lay_angle_deg"})
       if (const Node* given = component.find(other))
-        problems.add(given->where, fmt::format("both place and {} are given", other), "keep one of the two", key);
-    if (!(number_of(component, "radius_mm") > 0))
-      problems.add(component.where, "has place: auto and no radius_mm", "give radius_mm, or a data_sheet", key);
+        problems.add(given->where, fmt::format("both place and {} are given", other), "keep one of the two",
+                     key);
+    if (!(number_of(component, "radius_mm") > 0) &&
+        !component.find("data_sheet"))  // one that is left is refused itself
+      problems.add(component.where, "has place: auto and no radius_mm", "give radius_mm, or a data_sheet",
+                   key);
     const int count = component.find("count") ? static_cast<int>(number_of(component, "count")) : 1;
     for (int number = 0; number < std::clamp(count, 1, 1000); ++number) parts.push_back({i, number});
   }
@@ -210,6 +213,13 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
     own.add(where, "place: auto is given, and the hose's bore is not (how much room there is is not known)",
             "give inner_diameter_mm or hose_corrugation of the dresspack", path);
   if (!problems.attempt(path + ".components", where, [&] { own.finish(); })) return;
+  if (std::any_of(components->items.begin(), components->items.end(),
+                  [](const Node& of) { return of.is_map() && of.find("data_sheet"); })) {
+    for (Node& component : components->items)
+      if (asks(component))
+        set_place(component, {});  // their places follow from the cable whose data sheet was refused
+    return;
+  }
   std::vector<double> radii;
   for (const AutoPart& part : parts) radii.push_back(number_of(components->items[part.component], "radius_mm") / 1e3);
   const auto places = pack_in_bore(radii, bore, core);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/bend_limit.h"
@@ -18,7 +19,12 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double most_radians = 2 * std::numbers::pi;  // of an axis, if the numbers were radians
-constexpr double moves = 0.1;          // an axis' way in one of these numbers: less is a robot that stands
+constexpr double moves = 0.1;  // an axis' way in one of these numbers: less is a robot that stands
+// One target in radians: half a turn in radians, no adjustment of a robot at its zero pose; the others reach farther than that.
+constexpr double half_turn = 3.15, small_turn = 0.35;  // [deg] that were rad
+constexpr double wide_targets = 15 * degree;
+// One place in metres: 50 mm to 5 m. Places at the origin of a work object are 0 or rounded to 0.01 mm.
+constexpr double least_metres = 0.05e-3, most_metres = 5e-3, far_place = 0.05;  // [m]
 constexpr double least_percent = 1;    // a hundredth of an axis' speed: no program of a plant runs so
 constexpr double fastest_tool = 10;     // [m/s]: the fastest controllers allow 5 to 7
 constexpr double longest_dwell = 100;  // [s]: the cycles of lines are shorter
@@ -47,14 +53,21 @@ constexpr double slowest_move = 0.2 * degree;  // [rad/s] of the fastest axis in
 constexpr double slowest_axis = 5 * degree,
                  fastest_axis = 3000 * degree;  // [rad/s]: positioners 30, wrists of small robots 1000 deg/s
 constexpr double longest_ramp = 5,
-                 shortest_ramp = 0.005;  // [s] from rest to full speed: robots take 0.1 to 1
-constexpr double farthest = 20;          // [m] from the origin: a cell
+                 quickest_robot = 0.05, shortest_ramp = 0.005;  // [s] from rest to full speed: robots take 0.1 to 1
+constexpr double most_turns = 4 * 360,
+                 twice_around = 2 * 360;  // [deg]: wrists turn up to two turns either way
+constexpr double endless_axis = 36000;    // of a continuous joint of a URDF [deg]
+constexpr double longest_box = 60;  // [m]: a hall's floor
+constexpr double farthest = 20;           // [m] from the origin: a cell
 constexpr double widest_spread = 20;  // a factor in one deviation: friction of seven published cables has 2.2
 constexpr double least_pre_twist = 6.2832 * degree, largest_pre_twist = 3600 * degree;
-constexpr double longest_hose = 20;      // [m]: as long as a cell; hoses on robots are 0.5 to 6 m long
-constexpr double farthest_clamp = 3;     // [m] from its link's frame: arms of large robots are 1.5 m long, brackets 0.3
-constexpr int few_segments = 16;  // with more, a hose whose segments are too long is too long itself
-constexpr double inside_robot = 0.01;    // [m] below a box's surface: floors and tables end at the base
+constexpr double longest_hose = 20;  // [m]: as long as a cell; hoses on robots are 0.5 to 6 m long
+constexpr double farthest_clamp =
+    3;  // [m] from its link's frame: arms of large robots are 1.5 m long, brackets 0.3
+constexpr double longest_tool = 0.5,
+                 near_link = 0.25;     // [m]: clamps on welding guns; usual brackets and small tools
+constexpr int few_segments = 16;       // with more, a hose whose segments are too long is too long itself
+constexpr double inside_robot = 0.01;  // [m] below a box's surface: floors and tables end at the base
 constexpr double shortest_bracket = 1e-3, longest_built = 2;  // [m]
 constexpr double widest_ring = 10;                            // of the dresspack's diameter
 constexpr double longest_stroke = 5, largest_pull = 2000, stiffest_spring = 1e4,
@@ -116,6 +129,91 @@ void look_at(const std::vector<MotionStep>& steps, Seen& seen) {
   }
 }
 
+/// Targets one by one, beside all others: of joint moves without durations, and places of the tool.
+void gather(const std::vector<MotionStep>& steps, std::vector<const MotionStep*>& joints,
+            std::vector<const MotionStep*>& places) {
+  for (const MotionStep& step : steps) {
+    gather(step.steps, joints, places);
+    if (!step.joints.empty() && !step.duration) joints.push_back(&step);
+    if (!step.position.empty()) places.push_back(&step);
+  }
+}
+
+double largest_of(const std::vector<double>& numbers) {
+  double largest = 0;
+  for (const double number : numbers) largest = std::max(largest, std::abs(number));
+  return largest;
+}
+std::ptrdiff_t nonzero(const std::vector<double>& numbers) {
+  return std::ranges::count_if(numbers, [](double x) { return x != 0; });
+}
+
+/// Few targets in radians among others in degrees, and few places in metres among others in millimetres.
+void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warning>& warnings) {
+  std::vector<const MotionStep*> joints, places;
+  gather(steps, joints, places);
+  Doubted radians, metres;
+  double widest = 0;  // [rad]
+  for (const MotionStep* step : joints) widest = std::max(widest, largest_of(step->joints));
+  for (const MotionStep* step : joints)
+    if (const double largest = largest_of(step->joints) / degree;
+        largest > small_turn && largest <= half_turn && widest > wide_targets && nonzero(step->joints) >= 3)
+      radians.add(*step);
+  const auto few = [](const Doubted& found, std::size_t all) {
+    return found.first && 3 * (static_cast<std::size_t>(found.more) + 1) <= all + 1;
+  };
+  if (few(radians, joints.size())) {
+    std::vector<std::string> meant;
+    for (const double angle : radians.first->joints)
+      meant.push_back(fmt::format("{:.4g}", angle / degree / degree));
+    warnings.push_back(radians.warning(
+        fmt::format(
+            "all angles of this target are below {:.3g} deg (limit: those of other targets reach {:.0f} deg)",
+            half_turn, widest / degree),
+        "radians instead of degrees in one target",
+        fmt::format("[{}] if those were radians; leave it if the robot stands so near to its zero pose",
+                    fmt::join(meant, ", "))));
+  }
+  std::vector<double> reaches;
+  for (const MotionStep* step : places) reaches.push_back(largest_of(step->position));
+  if (reaches.empty()) return;
+  const double farthest_place = *std::max_element(reaches.begin(), reaches.end());
+  for (std::size_t k = 0; k < places.size(); ++k)
+    // The same object: the origin of another may be its only place.
+    if (const double reach = reaches[k];
+        reach >= least_metres && reach <= most_metres && farthest_place >= far_place &&
+        nonzero(places[k]->position) >= 2 &&
+        std::any_of(places.begin(), places.end(), [&](const MotionStep* other) {
+          return other->work_object == places[k]->work_object && largest_of(other->position) >= far_place;
+        }))
+      metres.add(*places[k]);
+  if (few(metres, places.size())) {
+    const std::vector<double>& at = metres.first->position;
+    warnings.push_back(metres.warning(
+        fmt::format(
+            "this target lies {:.3g} mm from the origin of its frame (limit: others lie up to {:.0f} mm from theirs)",
+            1e3 * largest_of(at), 1e3 * farthest_place),
+        "metres instead of millimetres in one target",
+        fmt::format(
+            "[{:.4g}, {:.4g}, {:.4g}] if those were metres; leave it if it is a place at the origin of the work object",
+            1e6 * at[0], 1e6 * at[1], 1e6 * at[2])));
+  }
+}
+
+/// Tools and work objects that lie nearly, but not, where they count from.
+void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, std::vector<Warning>& warnings) {
+  for (const MotionFrame& frame : frames) {
+    const Vector3d& at = frame.position;
+    if (const double reach = at.cwiseAbs().maxCoeff(); reach < least_metres || reach > most_metres) continue;
+    warnings.push_back(warning_of(
+        WarningKind::motion, "",
+        fmt::format("{} '{}' lies {:.3g} mm from the frame in which it is given (limit 0, or more than {:g} mm)", kind, frame.name,
+                    1e3 * at.norm(), 1e3 * most_metres),
+        "metres instead of millimetres",
+        fmt::format("[{:.4g}, {:.4g}, {:.4g}] in its declaration if those were metres", 1e6 * at.x(), 1e6 * at.y(), 1e6 * at.z())));
+  }
+}
+
 }  // namespace
 
 std::vector<Warning> plausibility_of_steps(const Motion& motion) {
@@ -147,9 +245,13 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         "radians per second instead of degrees",
         fmt::format("speed_deg_per_s: {:.3g} if that was rad/s", *step->speed / degree / degree)));
   if (const MotionStep* step = seen.waits.first)
-    warnings.push_back(seen.waits.warning(fmt::format("dwell_s is {:g} (limit {:g} or less)", step->dwell, longest_dwell),
-                                          "milliseconds instead of seconds",
-                                          fmt::format("dwell_s: {:g} if that was milliseconds", step->dwell / 1000)));
+    warnings.push_back(
+        seen.waits.warning(fmt::format("dwell_s is {:g} (limit {:g} or less)", step->dwell, longest_dwell),
+                           "milliseconds instead of seconds",
+                           fmt::format("dwell_s: {:g} if that was milliseconds", step->dwell / 1000)));
+  doubt_single_targets(motion.steps, warnings);
+  doubt_frames(motion.tools, "tool", warnings);
+  doubt_frames(motion.work_objects, "work object", warnings);
   if (!seen.first) return warnings;
   double largest = 0, way = 0;  // [deg]
   for (std::size_t k = 0; k < seen.low.size(); ++k) {
@@ -188,34 +290,158 @@ namespace {
 using AddDoubt = std::function<void(const Where&, const std::string& what, const std::string& cause,
                                     const std::string& remedy)>;
 
+/// Of a URDF, whose lengths and angles are in m and rad.
+bool is_urdf(const Where& where) { return where.file.ends_with(".urdf") || where.file.ends_with(".xml"); }
+
+/// Whether the accelerations are one list in the job, beside the name of a URDF.
+bool has_list(const Joint& joint) { return is_urdf(joint.where) && !is_urdf(joint.acceleration_where); }
+
+void doubt_limits(const Joint& joint, const AddDoubt& add) {
+  const double lower = joint.lower / degree, upper = joint.upper / degree,
+               largest = std::max(std::abs(lower), std::abs(upper));
+  if (largest <= most_turns || largest * degree > twice_around || std::abs(largest - endless_axis) < 1e-6)
+    return;
+  const std::string what = fmt::format("{} turns from {:.5g} to {:.5g} deg (limit {:g} turns)", joint.name,
+                                       lower, upper, most_turns / 360);
+  const std::string last = "; leave it if the axis is built to turn so far";
+  if (is_urdf(joint.where))
+    add(joint.where, what, "degrees in a URDF, whose angles are in radians",
+        fmt::format("limit lower=\"{:.5g}\" upper=\"{:.5g}\" if those were degrees{}", joint.lower * degree,
+                    joint.upper * degree, last));
+  else
+    add(joint.where, what, "degrees that were converted from radians twice",
+        fmt::format("lower_deg: {:.5g} and upper_deg: {:.5g} if so{}", lower * degree, upper * degree, last));
+}
+
+/// Axes that all turn by less than a turn in radians.
+void doubt_ranges(const std::vector<const Joint*>& driven, const AddDoubt& add) {
+  double largest = 0;  // [deg]
+  for (const Joint* joint : driven)
+    largest = std::max({largest, std::abs(joint->lower) / degree, std::abs(joint->upper) / degree});
+  if (driven.empty() || largest == 0 || largest > most_radians) return;
+  const Joint& first = *driven.front();
+  add(first.where,
+      fmt::format("no axis of the robot turns farther than {:.3g} deg (limit {:.3g} or more)", largest,
+                  most_radians),
+      is_urdf(first.where) ? "radians that were converted from degrees twice" : "radians instead of degrees",
+      is_urdf(first.where)
+          ? fmt::format("limit lower=\"{:.4g}\" upper=\"{:.4g}\" of {}, and of the other joints likewise",
+                        first.lower / degree, first.upper / degree, first.name)
+          : fmt::format(
+                "lower_deg: {:.4g} and upper_deg: {:.4g} of {} if those were radians, and of the other joints likewise",
+                first.lower / degree / degree, first.upper / degree / degree, first.name));
+}
+
+/// The arm has more inertia than the wrist: in config/robots axes 1 to 3 accelerate by
+/// at most 0.4 times what axes 4 to 6 do.
+void doubt_order(const std::vector<const Joint*>& driven, const AddDoubt& add) {
+  constexpr std::size_t arm = 3, axes = 6;
+  if (driven.size() != axes) return;
+  std::vector<double> numbers;
+  for (const Joint* joint : driven) numbers.push_back(joint->acceleration / degree);
+  const double least = *std::min_element(numbers.begin(), numbers.begin() + arm),
+               most = *std::max_element(numbers.begin() + arm, numbers.end());
+  const Joint& first = *driven.front();
+  if (!(least > most) || !(most > 0)) return;
+  std::reverse(numbers.begin(), numbers.end());
+  std::vector<std::string> words;
+  for (const double number : numbers) words.push_back(fmt::format("{:.5g}", number));
+  add(first.acceleration_where,
+      fmt::format(
+          "axes 1 to 3 accelerate by {:.4g} deg/s2 and more, and the wrist by {:.4g} at most (limit: the arm has the most inertia "
+          "and the least acceleration)",
+          least, most),
+      "the reversed order of the axes",
+      fmt::format(
+          "{}: {} if so",
+          has_list(first) ? "accelerations_deg_per_s2" : "acceleration_deg_per_s2 of the axes in turn",
+          has_list(first) ? fmt::format("[{}]", fmt::join(words, ", "))
+                          : fmt::format("{}", fmt::join(words, ", "))));
+}
+
+void doubt_speed(const Joint& joint, const AddDoubt& add) {
+  const double speed = joint.speed / degree;
+  const bool slow = joint.speed < slowest_axis;
+  if (!(joint.speed > 0) || (!slow && joint.speed <= fastest_axis)) return;
+  const std::string limits =
+      fmt::format("(limits {:g} .. {:g}", slowest_axis / degree, fastest_axis / degree);
+  if (!is_urdf(joint.where))
+    return add(joint.where, fmt::format("speed_deg_per_s of {} is {:.4g} {})", joint.name, speed, limits),
+               slow ? "radians per second instead of degrees" : "degrees per minute",
+               slow ? fmt::format("speed_deg_per_s: {:.4g} if that was rad/s", speed / degree)
+                    : fmt::format("speed_deg_per_s: {:.4g} if that was deg/min", speed / 60));
+  add(joint.where,
+      fmt::format("velocity of {} is {:.4g} rad/s, {:.4g} deg/s {} deg/s)", joint.name, joint.speed, speed,
+                  limits),
+      slow ? "another unit, or a conversion that was made twice"
+           : "degrees per second in a URDF, whose angles are in radians",
+      slow ? fmt::format("velocity=\"{:.4g}\" if the conversion was made twice", speed)
+           : fmt::format("velocity=\"{:.4g}\" if that was deg/s", joint.speed * degree));
+}
+
+/// True: there is a doubt, and it is of all axes.
+bool doubt_ramp(const Joint& joint, const std::vector<const Joint*>& driven, const AddDoubt& add) {
+  const double speed = joint.speed / degree, ramp = joint.speed / joint.acceleration;
+  if (ramp >= shortest_ramp && ramp <= longest_ramp) return false;
+  const bool slow = ramp > longest_ramp;
+  const auto meant = [&](const Joint& of) {
+    return fmt::format("{:.4g}", slow ? of.acceleration / degree / degree : 2 * of.speed / degree);
+  };
+  const std::string cause = slow ? "radians instead of degrees" : "another unit",
+                    why = slow ? " if that was rad/s2" : ", full speed in half a second";
+  const std::string what = fmt::format(
+      "{} takes {:.3g} s from rest to its full speed of {:.4g} deg/s by acceleration_deg_per_s2 {:.4g} (limits {:g} .. {:g} s)",
+      joint.name, ramp, speed, joint.acceleration / degree, shortest_ramp, longest_ramp);
+  if (!has_list(joint)) {
+    add(joint.acceleration_where, what, cause,
+        fmt::format("acceleration_deg_per_s2: {}{}", meant(joint), why));
+    return false;
+  }
+  std::vector<std::string> numbers;
+  for (const Joint* of : driven) numbers.push_back(meant(*of));
+  add(joint.acceleration_where, what, cause,
+      fmt::format("accelerations_deg_per_s2: [{}]{}", fmt::join(numbers, ", "), why));
+  return true;
+}
+
+/// Accelerations with an extra digit: in config/robots arms take 0.15 s and more to their full speed, wrists 0.066 s.
+void doubt_quick(const std::vector<const Joint*>& driven, const AddDoubt& add) {
+  double longest = 0;
+  std::vector<std::string> numbers;
+  for (const Joint* joint : driven) {
+    if (!(joint->acceleration > 0)) return;
+    longest = std::max(longest, joint->speed / joint->acceleration);
+    numbers.push_back(fmt::format("{:.5g}", joint->acceleration / degree / 10));
+  }
+  if (driven.empty() || longest >= quickest_robot || longest < shortest_ramp) return;
+  const Joint& first = *driven.front();
+  add(first.acceleration_where,
+      fmt::format("every axis reaches its full speed within {:.3g} s (limit {:g} s or more for one of them)", longest, quickest_robot),
+      "accelerations with a digit too many, or in another unit",
+      fmt::format("{}: {} if there is an extra zero",
+                  has_list(first) ? "accelerations_deg_per_s2" : "acceleration_deg_per_s2 of the axes in turn",
+                  has_list(first) ? fmt::format("[{}]", fmt::join(numbers, ", ")) : fmt::format("{}", fmt::join(numbers, ", "))));
+}
+
 void doubt_robot(const Robot& robot, const AddDoubt& add) {
   if (const double far = robot.base_position.norm(); far > farthest)
     add({}, fmt::format("robot.base_position_m lies {:.4g} m from the origin (limit {:g})", far, farthest),
         "millimetres instead of metres",
         fmt::format("robot.base_position_m: [{:g}, {:g}, {:g}]", robot.base_position.x() / 1e3,
                     robot.base_position.y() / 1e3, robot.base_position.z() / 1e3));
-  for (const Joint& joint : robot.joints) {
-    if (!joint.follows.empty() || !(joint.speed > 0) || !(joint.acceleration > 0)) continue;
-    const double speed = joint.speed / degree, ramp = joint.speed / joint.acceleration;
-    if (joint.speed < slowest_axis || joint.speed > fastest_axis)
-      add(joint.where,
-          fmt::format("speed_deg_per_s of {} is {:.4g} (limits {:g} .. {:g})", joint.name, speed,
-                      slowest_axis / degree, fastest_axis / degree),
-          joint.speed < slowest_axis ? "radians per second instead of degrees" : "degrees per minute",
-          joint.speed < slowest_axis
-              ? fmt::format("speed_deg_per_s: {:.4g} if that was rad/s", speed / degree)
-              : fmt::format("speed_deg_per_s: {:.4g} if that was deg/min", speed / 60));
-    else if (ramp > longest_ramp || ramp < shortest_ramp)
-      add(joint.where,
-          fmt::format(
-              "{} takes {:.3g} s from rest to its full speed by acceleration_deg_per_s2 {:.4g} (limits {:g} .. {:g} s)",
-              joint.name, ramp, joint.acceleration / degree, shortest_ramp, longest_ramp),
-          ramp > longest_ramp ? "radians instead of degrees" : "another unit",
-          ramp > longest_ramp
-              ? fmt::format("acceleration_deg_per_s2: {:.4g} if that was rad/s2",
-                            joint.acceleration / degree / degree)
-              : fmt::format("acceleration_deg_per_s2: {:.4g}, full speed in half a second", 2 * speed));
-  }
+  std::vector<const Joint*> driven;
+  for (const Joint& joint : robot.joints)
+    if (joint.follows.empty()) driven.push_back(&joint);
+  for (const Joint* joint : driven) doubt_limits(*joint, add);
+  doubt_ranges(driven, add);
+  doubt_order(driven, add);
+  doubt_quick(driven, add);
+  for (const Joint* joint : driven) doubt_speed(*joint, add);
+  const auto ramps = [](const Joint* joint) {
+    return joint->speed >= slowest_axis && joint->speed <= fastest_axis && joint->acceleration > 0;
+  };
+  for (const Joint* joint : driven)
+    if (ramps(joint) && doubt_ramp(*joint, driven, add)) return;
 }
 
 /// Origins of the frames that a robot's stand and its first two joints have in the zero pose: inside the robot.
@@ -261,7 +487,11 @@ void doubt_cell(const Cell& cell, const SimulationSettings& simulation, const Ad
                     shapes == 1 ? "" : "s"),
         "contact that was switched off for a trial", "simulation.contact: true, or no cell");
   for (std::size_t k = 0; k < cell.boxes.size(); ++k)
-    if (const double far = cell.boxes[k].position.norm() - cell.boxes[k].sides.norm(); far > farthest)
+    if (const Eigen::Vector3d& sides = cell.boxes[k].sides; sides.maxCoeff() > longest_box)
+      add({}, fmt::format("cell.boxes[{}] is {:.4g} m long (limit {:g})", k + 1, sides.maxCoeff(), longest_box),
+          "millimetres instead of metres",
+          fmt::format("sides_m: [{:g}, {:g}, {:g}] if those were millimetres", sides.x() / 1e3, sides.y() / 1e3, sides.z() / 1e3));
+    else if (const double far = cell.boxes[k].position.norm() - cell.boxes[k].sides.norm(); far > farthest)
       add({}, fmt::format("cell.boxes[{}] lies {:.4g} m from the origin (limit {:g})", k + 1, far, farthest),
           "another unit", "position_m in metres, or no box: the dresspack does not reach it");
   for (std::size_t k = 0; k < cell.capsules.size(); ++k)
@@ -294,7 +524,58 @@ void doubt_mounting(const Routing& routing, const AddDoubt& add) {
                   fmt::join(meant, ", ")));
 }
 
-void doubt_routing(const Routing& routing, const Dresspack& dresspack, int segments, const AddDoubt& add) {
+/// From a point in the frame of a link to its capsules and boxes, and to the flange on the last link [m]; nothing: it has meshes
+/// or no shapes.
+std::optional<double> distance_to(const Robot& robot, const std::string& name, const Vector3d& point) {
+  const auto link = std::ranges::find(robot.links, name, &Link::name);
+  if (link == robot.links.end() || !link->meshes.empty()) return {};
+  double nearest = &*link == &robot.links.back() ? (point - robot.flange_position).norm() : HUGE_VAL;
+  for (const Capsule& capsule : link->capsules) {
+    const Vector3d along = capsule.to - capsule.from;
+    const double square = along.squaredNorm();
+    const double share = square > 0 ? std::clamp((point - capsule.from).dot(along) / square, 0.0, 1.0) : 0;
+    nearest = std::min(nearest, (point - capsule.from - share * along).norm() - capsule.radius);
+  }
+  for (const Box& box : link->boxes) {
+    const Vector3d inside = from_roll_pitch_yaw(box.orientation).conjugate() * (point - box.position);
+    nearest = std::min(nearest, (inside.cwiseAbs() - box.sides / 2).cwiseMax(0).norm());
+  }
+  return std::isfinite(nearest) ? std::optional(std::max(0.0, nearest)) : std::nullopt;
+}
+
+/// A clamp in the air, farther from its link than a bracket or a tool is long.
+void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, const Robot& robot,
+                 const AddDoubt& add) {
+  const double limit = std::max(longest_tool, routing.longest_bracket.value_or(0));
+  const auto away = distance_to(robot, clamp.link, clamp.position);
+  if (!away || *away <= limit) return;
+  // Slips of the decimal point in one, then two, then three numbers: the first that leads near to the link.
+  Vector3d best = clamp.position;
+  double nearest = *away;
+  for (const int which : {1, 2, 4, 3, 5, 6, 7}) {
+    Vector3d other = clamp.position;
+    for (int i = 0; i < 3; ++i)
+      if (which & (1 << i)) other[i] /= 10;
+    if (nearest > near_link) best = other, nearest = *distance_to(robot, clamp.link, other);
+  }
+  const bool on_tool = clamp.link == robot.links.back().name;
+  add(clamp.where,
+      fmt::format(
+          "routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g}): the clamp is in the air",
+          key, *away, clamp.link, limit),
+      "a decimal point at another place, another link or a place in another frame",
+      (nearest <= near_link ? fmt::format("position_m: [{:g}, {:g}, {:g}] if a decimal point slipped; ",
+                                          best.x(), best.y(), best.z())
+                            : std::string("position_m in the frame of the link; ")) +
+          (on_tool ? fmt::format(
+                         "or the shape of the tool as robot.links.{}.boxes, if it is clamped to a large tool",
+                         robot.links.size())
+                   : fmt::format("or routing.longest_bracket_mm: {:.0f} if a bracket is so long",
+                                 std::ceil(1e2 * *away) * 10)));
+}
+
+void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Robot& robot, int segments,
+                   const AddDoubt& add) {
   doubt_mounting(routing, add);
   if (const double length = routing.free_length; length > longest_hose)
     add(routing.where, fmt::format("routing.free_length_m is {:.6g} (limit {:g})", length, longest_hose),
@@ -305,7 +586,10 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, int segme
       add((*clamp)->where,
           fmt::format("routing.{}.position_m lies {:.4g} m from the frame of its link (limit {:g})", key, at.norm(), farthest_clamp),
           "centimetres instead of metres, or a place in the world",
-          fmt::format("position_m: [{:g}, {:g}, {:g}] if those were centimetres", at.x() / 100, at.y() / 100, at.z() / 100));
+          fmt::format("position_m: [{:g}, {:g}, {:g}] if those were centimetres", at.x() / 100, at.y() / 100,
+                      at.z() / 100));
+    } else if (*clamp) {
+      doubt_place(key, **clamp, routing, robot, add);
     }
   if (const double limit = least_bend_radius(dresspack), segment = routing.free_length / segments;
       routing.base_clamp && segments < few_segments && limit > 0 && segment > limit)
@@ -418,7 +702,7 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
   doubt_cell(job.cell, job.simulation, doubt);
   doubt_boxes(job.cell, job.robot, doubt);
   for (const MountedDresspack& mounted : job.dresspacks)
-    doubt_routing(mounted.routing, mounted.dresspack, job.simulation.segments, doubt);
+    doubt_routing(mounted.routing, mounted.dresspack, job.robot, job.simulation.segments, doubt);
   warnings = joined(std::move(warnings), radians_in(echo_fields(job.robot), "robot"));
   warnings = joined(std::move(warnings), radians_in(echo_fields(job.cell), "cell"));
   for (const MountedDresspack& mounted : job.dresspacks) {

@@ -16,6 +16,7 @@ void describe(Fields& f, UrdfRequest& request) {
            "Whether the collision shapes of the URDF become the shapes of the links.");
   f.numbers("accelerations_deg_per_s2", request.accelerations, Need::optional,
             "The highest accelerations of the axes in their order. A URDF has none.");
+  f.place_of("accelerations_deg_per_s2", request.accelerations_where);
 }
 
 }  // namespace dresslife::pipeline

@@ -17,6 +17,7 @@ struct UrdfRequest {
   std::filesystem::path package_folder;  ///< holds the packages of package://; empty: found above the URDF
   enum class Collision { keep, drop } collision = Collision::keep;
   std::vector<double> accelerations;  ///< of the axes, in their order [rad/s2]
+  Where accelerations_where;
 };
 constexpr std::string_view word(UrdfRequest::Collision value) { return word_at({"keep", "drop"}, value); }
 

@@ -171,6 +171,9 @@ class FieldReader final : public Fields {
   }
 
   void place(Where& where) override { where = levels_.back().map->where; }
+  void place_of(Key key, Where& where) override {
+    if (const Node* value = levels_.back().map->find(key)) where = value->where;
+  }
 
  protected:
   void choose(Key key, int& index, const Words& words, std::string_view meaning) override {
@@ -352,6 +355,13 @@ class FieldReader final : public Fields {
                             : fmt::format("its unit is {}, write '{}'", unit, known);
       return known;
     }
+    // Another kind of unit: mass_g for mass_kg_per_m.
+    for (const std::string& known : level.known)
+      if (const std::string stem(stem_of_key(known));
+          stem.size() < known.size() && unknown.key.starts_with(stem + "_")) {
+        remedy = fmt::format("did you mean '{}'? Its unit is {}", known, unit_of_key(known).name);
+        return known;
+      }
     const std::string nearest = nearest_word(unknown.key, level.known);
     remedy = nearest.empty() ? fmt::format("keys here: {}", fmt::join(level.known, ", "))
                              : fmt::format("did you mean '{}'?", nearest);
@@ -436,6 +446,7 @@ class FieldEcho final : public Fields {
   }
 
   void place(Where&) override {}
+  void place_of(Key, Where&) override {}
 
  protected:
   void choose(Key key, int& index, const Words& words, std::string_view) override {
@@ -550,6 +561,7 @@ class KeyLister final : public Fields {
   }
 
   void place(Where&) override {}
+  void place_of(Key, Where&) override {}
 
  protected:
   void choose(Key key, int& index, const Words& words, std::string_view meaning) override {

@@ -72,6 +72,8 @@ class Fields {
   virtual void path(Key key, std::filesystem::path& value, Need need, std::string_view meaning) = 0;
   /// Where the map being read begins.
   virtual void place(Where& where) = 0;
+  /// Where the value of this key stands; nothing without the key.
+  virtual void place_of(Key key, Where& where) = 0;
 
   /// One of an enumeration that has a word() for each of its values.
   template <class Enum>

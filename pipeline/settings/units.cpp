@@ -115,6 +115,27 @@ std::string converted_text(std::string_view written, double value, std::string_v
   return "";
 }
 
+Meant meant_length(std::string_view key, double value, double low, double high) {
+  struct Slip {
+    double factor;
+    const char *cause, *condition;
+  };
+  constexpr Slip slips[] = {{10, "a missing digit, or centimetres", "a digit is missing"},
+                            {1e3, "metres instead of millimetres", "that was metres"},
+                            {inch, "inches instead of millimetres", "that was inches"},
+                            {0.1, "an extra zero", "there is an extra zero"},
+                            {1e-3, "micrometres instead of millimetres", "that was micrometres"}};
+  Meant meant;
+  for (const Slip& slip : slips) {
+    const double other = value * slip.factor;
+    if (!(other >= low && other <= high)) continue;
+    meant.remedy += meant.remedy.empty() ? fmt::format("{}: {:.4g} if {}", key, other, slip.condition)
+                                         : fmt::format(", {:.4g} if {}", other, slip.condition);
+    if (meant.cause.empty()) meant.cause = slip.cause;
+  }
+  return meant;
+}
+
 std::string shortest_text(double value) { return fmt::format("{}", value); }
 
 std::string text_in_unit(double si, const Unit& unit) {

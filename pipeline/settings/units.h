@@ -26,6 +26,14 @@ std::string_view stem_of_key(std::string_view key);
 /// not known, or is of another kind.
 std::string converted_text(std::string_view written, double value, std::string_view known);
 
+/// What a number of a key in mm may have meant.
+struct Meant {
+  std::string cause;   ///< "metres instead of millimetres"; empty: no usual slip explains it
+  std::string remedy;  ///< "diameter_mm: 42.5 if that was metres"
+};
+/// The slips that bring `value` [mm] of `key` into low .. high: another unit of length, a digit too many or too few.
+Meant meant_length(std::string_view key, double value, double low, double high);
+
 /// The section of a round wire of this American wire gauge [mm2].
 double square_mm_of_awg(double gauge);
 

@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <numbers>
+#include <sstream>
 
 #include "pipeline/resolve/sources.h"
 
@@ -22,7 +23,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr double endless = 36000;  // of a continuous joint [deg]
+constexpr double endless = 36000;    // of a continuous joint [deg]
+constexpr double longest_link = 10;  // that moves [m]: arms of the largest robots are 2.5 m long
 constexpr std::size_t largest_file = 8u << 20;
 constexpr int most_elements = 2000;  // of links and joints: the tree is walked and given back recursively
 constexpr int deepest = 50;          // elements in each other: urdfdom's XML reader recurses
@@ -113,10 +115,23 @@ class XmlPlaces {
     if ((name == "link" || name == "joint") && ++elements_ > most_elements)
       fail(line, fmt::format("has more than {} links and joints", most_elements));
     lines_.try_emplace(name + " " + attribute(tag, "name"), line);
+    if (name == "origin") refuse_degrees(attribute(tag, "rpy"), line);
     if (empty) return;
     open_.emplace_back(name, line);
     if (open_.size() > deepest)
       fail(line, fmt::format("elements lie more than {} deep in each other", deepest));
+  }
+
+  /// Errors: InputError for an angle beyond a turn. urdfdom keeps no angles.
+  void refuse_degrees(const std::string& rpy, int line) const {
+    constexpr double turn = 6.3;  // [rad], rounded up
+    std::istringstream words(rpy);
+    std::vector<double> angles;
+    for (double angle = 0; words >> angle;) angles.push_back(angle);
+    if (angles.size() != 3 || std::ranges::all_of(angles, [&](double angle) { return std::abs(angle) <= turn; })) return;
+    throw InputError({file_, line}, fmt::format("rpy=\"{}\" turns by more than {} rad", rpy, turn),
+                     fmt::format("write rpy=\"{:.6g} {:.6g} {:.6g}\" if those were degrees: angles of a URDF are in rad", angles[0] / degrees,
+                                 angles[1] / degrees, angles[2] / degrees));
   }
 
   static std::string attribute(const std::string& tag, const std::string& name) {
@@ -348,6 +363,21 @@ class Chain {
     if (axes < 4 || axes > 7)
       fail(file_, fmt::format("has {} axes between its root and its tip (a robot has 4 to 7)", axes),
            "choose another tip");
+    // The base may be a track, and what lies before the first axis a portal.
+    for (std::size_t k = 1; k < moved_.size(); ++k)
+      refuse_millimetres(at(*moved_[k].joint), fmt::format("the origin of joint '{}'", moved_[k].joint->name),
+                         "origin xyz", moved_[k].joint->parent_to_joint_origin_transform.position);
+  }
+
+  /// Errors: InputError for lengths that no moved link of a robot has.
+  void refuse_millimetres(const Where& where, const std::string& what, const char* attribute,
+                          const urdf::Vector3& lengths) const {
+    const double largest = std::max({std::abs(lengths.x), std::abs(lengths.y), std::abs(lengths.z)});
+    if (largest > longest_link)
+      fail(where,
+           fmt::format("{} has {:.6g} m (at most {:g} in a link that moves)", what, largest, longest_link),
+           fmt::format("write {}=\"{:g} {:g} {:g}\" if those were millimetres: lengths of a URDF are in m",
+                       attribute, lengths.x / 1e3, lengths.y / 1e3, lengths.z / 1e3));
   }
 
   /// Drivers of the joints that follow; a follower's limits narrow its driver's.
@@ -416,9 +446,14 @@ class Chain {
     const auto axis =
         static_cast<std::size_t>(std::count_if(moved_.begin(), moved_.begin() + static_cast<long>(k),
                                                [](const MovedLink& m) { return m.driver < 0; }));
-    if (axis < request_.accelerations.size())
-      tree.number("acceleration_deg_per_s2", degrees * request_.accelerations[axis]);
-    return tree.done();
+    Node made = tree.done();
+    if (axis < request_.accelerations.size()) {
+      Node& acceleration = made["acceleration_deg_per_s2"];
+      acceleration = scalar(fmt::format("{}", degrees * request_.accelerations[axis]));
+      place_at(acceleration, request_.accelerations_where);
+      made.entries.back().where = request_.accelerations_where;
+    }
+    return made;
   }
 
   // ---- shapes -------------------------------------------------------------------------------------------
@@ -433,22 +468,48 @@ class Chain {
     tree.text("name", carrier.link->name);
     if (request_.collision == UrdfRequest::Collision::drop) return tree.done();
     Shapes shapes;
-    gather(*carrier.link, Isometry3d::Identity(), shapes);
+    gather(*carrier.link, Isometry3d::Identity(), &carrier != &carriers_.front(), shapes);
     if (!shapes.capsules.empty()) tree.put("capsules", list_of(std::move(shapes.capsules)));
     if (!shapes.boxes.empty()) tree.put("boxes", list_of(std::move(shapes.boxes)));
     if (!shapes.meshes.empty()) tree.put("meshes", list_of(std::move(shapes.meshes)));
     return tree.done();
   }
 
-  void gather(const urdf::Link& link, const Isometry3d& frame, Shapes& shapes) const {
+  /// moves: a floor or a fence beside the base may be of any size.
+  void gather(const urdf::Link& link, const Isometry3d& frame, bool moves, Shapes& shapes) const {
     for (const auto& collision : link.collision_array)
-      if (collision && collision->geometry)
+      if (collision && collision->geometry) {
+        if (moves) refuse_large(link, *collision);
         add_shape(*collision->geometry, frame * transform(collision->origin), places_.of("link", link.name),
                   shapes);
+      }
     for (const auto& joint : link.child_joints)
       if (joint->type == urdf::Joint::FIXED)
         gather(*model_.getLink(joint->child_link_name),
-               frame * transform(joint->parent_to_joint_origin_transform), shapes);
+               frame * transform(joint->parent_to_joint_origin_transform), moves, shapes);
+  }
+
+  /// Shapes in millimetres. Meshes show their size when they are read.
+  void refuse_large(const urdf::Link& link, const urdf::Collision& collision) const {
+    const Where where = places_.of("link", link.name);
+    refuse_millimetres(where, fmt::format("the origin of a shape of link '{}'", link.name), "origin xyz",
+                       collision.origin.position);
+    const urdf::Geometry& geometry = *collision.geometry;
+    if (geometry.type == urdf::Geometry::BOX) {
+      refuse_millimetres(where, fmt::format("a box of link '{}'", link.name), "box size",
+                         static_cast<const urdf::Box&>(geometry).dim);
+    } else if (geometry.type == urdf::Geometry::CYLINDER || geometry.type == urdf::Geometry::SPHERE) {
+      const bool round = geometry.type == urdf::Geometry::SPHERE;
+      const double radius = round ? static_cast<const urdf::Sphere&>(geometry).radius
+                                  : static_cast<const urdf::Cylinder&>(geometry).radius;
+      const double length = round ? 0 : static_cast<const urdf::Cylinder&>(geometry).length;
+      if (std::max(radius, length) > longest_link)
+        fail(where,
+             fmt::format("a {} of link '{}' has {:.6g} m (at most {:g} in a link that moves)",
+                         round ? "sphere" : "cylinder", link.name, std::max(radius, length), longest_link),
+             fmt::format("write radius=\"{:g}\"{} if those were millimetres: lengths of a URDF are in m",
+                         radius / 1e3, round ? "" : fmt::format(" length=\"{:g}\"", length / 1e3)));
+    }
   }
 
   void add_shape(const urdf::Geometry& geometry, const Isometry3d& frame, const Where& where,

@@ -78,6 +78,44 @@ std::string estimate_words(const std::filesystem::path& file, const LogSize& siz
   return text;
 }
 
+namespace {
+
+/// Angles that are probably radians under names in degrees; empty: they are not.
+std::string radians_words(const Recording& log) {
+  constexpr double turn = 2 * std::numbers::pi,
+                   moves = 0.1;  // [deg]: a turn in radians; less is a robot that stands
+  double largest = 0, way = 0;
+  for (const AxisOfLog& of : log.columns) {
+    largest = std::max({largest, std::abs(of.low) * degrees, std::abs(of.high) * degrees});
+    way = std::max(way, (of.high - of.low) * degrees);
+  }
+  if (largest > turn || way <= moves) return "";
+  return fmt::format(
+      "warning: no angle of the log is larger than {:.3g} deg (limit {:.3g} or more): they may be radians under names in "
+      "degrees. Give --value unit=rad then",
+      largest, turn);
+}
+
+/// Times that are probably in a larger unit than their name says; empty: they are not.
+std::string times_words(const Recording& log, const Course& course) {
+  constexpr double far_beyond = 10;  // of the limits: rows that are rounded or late are less
+  double ratio = 0;
+  for (std::size_t i = 0; i < std::min(course.fastest.size(), log.columns.size()); ++i)
+    ratio = std::max(ratio, course.fastest[i] / log.columns[i].axis.speed);
+  if (!(ratio > far_beyond) || !(log.interval > 0)) return "";
+  std::string text = fmt::format(
+      "warning: by the times of the log an axis turns {:.0f} times as fast as it can: they may be in another unit or another rate.",
+      ratio);
+  for (const double factor : {60.0, 1e3, 1e6, 1e9})
+    if (ratio / factor < 1.2 && ratio / factor > 0.02)
+      return text +
+             fmt::format(" Give --value rate_Hz={:.4g} if they are {:g} times as long: a row in {:.3g} s",
+                         1 / (factor * log.interval), factor, factor * log.interval);
+  return text + " Give --value rate_Hz=N with the rows per second";
+}
+
+}  // namespace
+
 std::vector<std::string> read_words(const Recording& log, const Course& course) {
   std::vector<std::string> lines{"Read: " + log.format};
   std::size_t name = 4, column = 6;
@@ -99,6 +137,8 @@ std::vector<std::string> read_words(const Recording& log, const Course& course) 
   }
   if (const std::string order = order_words(log.columns, course.fastest); !order.empty())
     lines.push_back("warning: " + order);
+  for (std::string words : {radians_words(log), times_words(log, course)})
+    if (!words.empty()) lines.push_back(std::move(words));
   return lines;
 }
 

@@ -1,5 +1,7 @@
 #include "sim/route/bracket.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -107,6 +109,38 @@ BracketFit fit_of(const Carried& carried, const Surfaces& surfaces, std::span<co
             static_cast<int>(link));
   }
   return fit;
+}
+
+std::string gripper_note(const pipeline::Setup& setup, const std::vector<Vector3>& tools) {
+  constexpr double short_tool = 0.1;  // [m]: measuring tips and suction cups; the hose bends wider
+  if (setup.robot.links.empty()) return "";
+  const pipeline::Robot& robot = setup.robot;
+  const Eigen::Quaterniond turn = pipeline::from_roll_pitch_yaw(robot.flange_orientation);
+  std::optional<Surfaces> surfaces;
+  double longest = 0;
+  for (const Vector3& tool : tools) {
+    const double reach = tool.norm();
+    if (reach <= std::max(short_tool, longest)) continue;
+    if (!surfaces) surfaces.emplace(setup);
+    const int last = static_cast<int>(robot.links.size()) - 1;
+    if (surfaces->of_link(last, robot.flange_position + turn * tool, reach) > reach / 2) longest = reach;
+  }
+  if (longest == 0) return "";
+  const pipeline::Link& last = robot.links.back();
+  const auto point = [&](double along) {
+    const Vector3 at =
+        (1e3 * (robot.flange_position + turn * Vector3(0, 0, along))).array().round() / 1e3 + 0.0;  // no -0
+    return fmt::format("[{:g}, {:g}, {:g}]", at.x(), at.y(), at.z());
+  };
+  const std::string shape =  // of the kind that the link lacks: a list replaces the one that is there
+      last.capsules.empty()
+          ? fmt::format("capsules: [{{from_m: {}, to_m: {}, radius_mm: 60}}]", point(0.1 * longest),
+                        point(0.8 * longest))
+          : fmt::format("boxes: [{{position_m: {}, sides_m: [0.1, 0.1, 0.1]}}]", point(0.6 * longest));
+  return fmt::format(
+      "The space of the tool is not known: it works {:.0f} mm from the flange, and {} has no shape there. The hose may "
+      "pass through the tool. A line such as robot.links.{}.{} gives it one (sizes: those of your tool)",
+      1e3 * longest, last.name, robot.links.size(), shape);
 }
 
 }  // namespace dresslife::sim

@@ -33,6 +33,10 @@ class Surfaces {
   std::unique_ptr<Parts> parts_;
 };
 
+/// That the space of the gripper or gun is not known: half of a tool's reach and more from the flange is beyond all shapes of the
+/// last link. tools: origins of the motion's tools in the flange's frame [m]. Empty: there is no such tool.
+std::string gripper_note(const pipeline::Setup& setup, const std::vector<Vector3>& tools);
+
 /// A clamp or ring on its link.
 struct Carried {
   int link = 0;

@@ -9,6 +9,8 @@
 
 #include "pipeline/job/setup.h"
 #include "sim/rod/start_curve.h"
+#include "sim/route/bracket.h"
+#include "sim/run/cures.h"
 #include "sim/run/quick_checks.h"
 #include "sim/run/cures.h"
 #include "sim/run/routing.h"
@@ -62,7 +64,10 @@ class Previewer {
     }
     write_spans(file);
     write_scan(file);
-    const QuickWarnings quick = quick_warnings(setup_);
+    QuickWarnings quick = quick_warnings(setup_);
+    if (robot_ && setup_.simulation.contact)
+      if (std::string note = gripper_note(setup_, robot_->tools()); !note.empty())
+        quick.notes.push_back(std::move(note));
     write_refusal(quick.warnings, file);
     file.attribute("warnings", pipeline::warnings_text(quick.warnings));
     file.attribute("notes", fmt::format("{}", fmt::join(quick.notes, "\n")));

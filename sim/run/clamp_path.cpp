@@ -54,6 +54,24 @@ std::vector<pipeline::Warning> missing_external_axes(const pipeline::Motion& mot
   return warnings;
 }
 
+/// Whether the lower arm, from axis 2 to axis 3, lies flat where all axes are at 0; nothing: it is inclined, or there is none.
+std::optional<bool> lies_at_zero(const pipeline::Robot& robot) {
+  constexpr std::size_t arm = 3;
+  constexpr double upright = 0.95, flat = 0.3;  // of the arm's length: 18 deg, for arms with an offset
+  if (robot.joints.size() < 5) return {};       // SCARA robots and palletizers
+  Frame frame{robot.base_position, pipeline::from_roll_pitch_yaw(robot.base_orientation)};
+  Vector3 begin = Vector3::Zero(), end = begin;
+  const Vector3 up = frame.orientation * Vector3::UnitZ();  // also of a robot on a wall
+  for (std::size_t k = 0; k < arm; ++k) {
+    frame = frame * Frame{robot.joints[k].origin, pipeline::from_roll_pitch_yaw(robot.joints[k].orientation)};
+    if (k + 2 == arm) begin = frame.position;
+    if (k + 1 == arm) end = frame.position;
+  }
+  const double share = std::abs((end - begin).normalized().dot(up));
+  if (share > upright) return false;
+  return share < flat ? std::optional(true) : std::nullopt;
+}
+
 /// A program in the language of one maker, and a robot that another one names: zeros and directions of their axes differ.
 std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const pipeline::Robot& robot) {
   constexpr std::pair<Language, std::string_view> makers[] = {{Language::rapid, "ABB"},      {Language::krl, "KUKA"},
@@ -68,12 +86,30 @@ std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const
     if (spoken == language) return {};
     of_robot = maker;
   }
-  if (of_program.empty() || of_robot.empty()) return {};
-  return {pipeline::warning_of(pipeline::WarningKind::motion, "",
+  if (of_program.empty()) return {};
+  std::string robot_is,
+      cause = "a job of another robot: the zeros and directions of axes differ between makers",
+      remedy = "robot: the one for which the program was written";
+  if (!of_robot.empty()) {
+    robot_is = robot.name;
+  } else if (language == Language::fanuc) {
+    robot_is = fmt::format("{}, whose maker is not known; joint_3 is taken as J3 + J2", robot.name);
+    cause = "a job of another robot: of other makers no axis 3 counts from the horizontal as J3 does";
+    remedy += fmt::format("; or robot.name: Fanuc {}, if it is one of Fanuc", robot.name);
+  } else if (const auto lies = lies_at_zero(robot);
+             lies && *lies != (language == Language::krl || language == Language::urscript)) {
+    robot_is = fmt::format("{}, whose lower arm {} where all axes are at 0", robot.name,
+                           *lies ? "lies flat" : "stands upright");
+    cause = fmt::format("a job of another robot: at 0 the lower arm of a robot of {} {}", of_program,
+                        *lies ? "stands upright" : "lies flat");
+    remedy +=
+        fmt::format("; or robot.name: {} {}, if its controller has these zeros", of_program, robot.name);
+  }
+  if (robot_is.empty()) return {};
+  return {pipeline::warning_of(pipeline::WarningKind::motion, motion.program.filename().string(),
                                fmt::format("the program {} is one of {}, and the robot is {}",
-                                           motion.program.filename().string(), of_program, robot.name),
-                               "a job of another robot: the zeros and directions of axes differ between makers",
-                               "robot: the one for which the program was written")};
+                                           motion.program.filename().string(), of_program, robot_is),
+                               cause, remedy)};
 }
 
 /// Steps that give a time in which no axis of the robot gets there.
@@ -131,13 +167,21 @@ std::vector<pipeline::Warning> too_fast(const pipeline::Motion& motion, const pi
       "times that the robot can keep, or the axis' limit in robot.joints if it is larger")};
 }
 
-/// The motion in time. Errors: InputError, with what other_maker() says.
+/// Origins of the tools that the flange carries, in its frame.
+std::vector<Vector3> tool_points(const pipeline::Motion& motion) {
+  std::vector<Vector3> points;
+  for (const pipeline::MotionFrame& tool : motion.tools)
+    if (!tool.stationary) points.push_back(tool.position);
+  return points;
+}
+
+/// The motion in time. Errors: InputError, with the doubts about its program and steps.
 JointMotion motion_in_time(const RunMotion& run, const pipeline::Setup& setup) {
   try {
     return {run.motion, setup.robot};
   } catch (const pipeline::InputError& error) {
     std::string words = error.what();
-    const auto doubts = other_maker(setup.motion, setup.robot);
+    const auto doubts = pipeline::joined(other_maker(setup.motion, setup.robot), pipeline::plausibility_of_steps(run.motion));
     if (doubts.empty()) throw;
     for (const pipeline::Warning& doubt : doubts) words += "\n" + doubt.line();
     throw pipeline::InputError(words);
@@ -162,7 +206,8 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
               pipeline::joined(other_maker(setup.motion, setup.robot), too_fast(run.motion, setup.robot))),
           setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
                                        : pipeline::plausibility_of_steps(run.motion))),
-      note_(run.note) {
+      note_(run.note),
+      tools_(tool_points(run.motion)) {
   hold_joint(setup);
   mounting_pose_ = motion_.position(0);
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {

@@ -65,6 +65,8 @@ class RobotPath final : public ClampPath {
   /// Of the robot program (Motion::left_out, external axes that the robot lacks) and of unusual steps.
   const std::vector<pipeline::Warning>& doubts() const { return doubts_; }
   const std::string& note() const { return note_; }  ///< a run's note on its program; empty: none
+  /// Origins of the motion's tools in the flange's frame [m].
+  const std::vector<Vector3>& tools() const { return tools_; }
   Pose pose(const Eigen::VectorXd& joints) const;
   /// (end, as ClampFrames counts them) index of the link that carries it; no_link: a free end.
   const std::vector<int>& end_links() const { return end_links_; }
@@ -87,6 +89,7 @@ class RobotPath final : public ClampPath {
   JointMotion motion_;
   std::vector<pipeline::Warning> doubts_;
   std::string note_;
+  std::vector<Vector3> tools_;
   std::vector<int> end_links_, ring_links_;
   std::vector<int> end_clamps_;  // (end) index into clamps_; a free end names the clamp before it
   std::vector<int> clamp_links_;

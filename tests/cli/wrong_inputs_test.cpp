@@ -177,7 +177,7 @@ const Wrong wrong[] = {
     {"cable.yaml", "outer diameter 8.2 mm", "outer diameter 82 mm", "cable.yaml:6:17: error: ", "times its conductor", "give outer_diameter_mm: 8.2 if a decimal point was lost", "dresslife draw cable.yaml"},
     {"cable.yaml", "outer diameter 8.2 mm", "outer diameter 0.0082 mm", "cable.yaml:6:17: error: ", "leaves no room", "give outer_diameter_mm: 8.2 if that was metres", "dresslife draw cable.yaml"},
     {"cable.yaml", "7 x 0.5 mm2", "7 x 20 mm2", "cable.yaml:6:17: error: ", "a conductor 5.807 mm wide", "give cross_section_mm2: 0.518 if 20 is a wire gauge (AWG)", "dresslife draw cable.yaml"},
-    {"cable.yaml", "7 x 0.5 mm2", "7G0.5", "cable.yaml:6:17: error: ", "'7g0.5' of a data sheet is not understood", "write '7 x 0.5 mm2'", "dresslife draw cable.yaml"},
+    {"cable.yaml", "7 x 0.5 mm2", "0.5 x 7 mm2", "cable.yaml:6:17: error: ", "'0.5 x 7 mm2' of a data sheet is not understood", "write '7 x 0.5 mm2'", "dresslife draw cable.yaml"},
     {"hose.yaml", "diameter_mm: 50\ninner", "diameter_m: 0.05\ninner", "hose.yaml:3:1: error: ", "unknown key 'dresspack.diameter_m'", "its unit is mm, write 'diameter_mm: 50'"},
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_g_per_m: 1200", "hose.yaml:5:1: error: ", "unknown key 'dresspack.mass_g_per_m'", "write 'mass_kg_per_m: 1.2'"},
     {"axes.csv", "", "t,a,b,c,d,e,f" + axes.substr(axes.find('\n')), "axes.csv:1:1: error: ", "names axes without their order", "motion.values: [{name: joints, value: 'NAME,NAME,...'}]", "dresslife check axes.yaml"},
@@ -197,6 +197,13 @@ const Wrong wrong[] = {
     {"fleet.csv", "R1,2.03", "R1,2,03", "fleet.csv:2:6: error: ", "a row of 3 cells (the table has 2 columns)", "; ", run_fleet},
     {"fleet.csv", "R2", "R1", "fleet.csv:3:1: error: ", "'R1' is the name of line 2", "; ", run_fleet},
     {"fleet.csv", "free_length_m", "free_length_m,", "fleet.csv:1:28: error: ", "a column has no title", "; ", run_fleet},
+    // Files and names of another kind
+    {"", "", "", "machine.urdf: error: ", "is a robot description (URDF)", "dresslife new --robot FILE JOB.yaml", "dresslife run machine.urdf"},
+    {"", "", "", "machine.xacro: error: ", "is a robot description (URDF)", "dresslife new --robot FILE JOB.yaml", "dresslife check machine.xacro"},
+    {"job.yaml", "dresspack: hose.yaml", "dresspack: machine.urdf", "job.yaml:9:12: error: ", "'machine.urdf' is a robot description (URDF)", "write it after 'robot:'"},
+    {"job.yaml", "dresspack: hose.yaml", "dresspack: spot.mod", "job.yaml:9:12: error: ", "'spot.mod' is a robot program or a table", "write a program after 'motion:'"},
+    {"hose.yaml", "mass_kg_per_m: 1.2", "mass_g: 1200", "hose.yaml:5:1: error: ", "unknown key 'dresspack.mass_g'", "did you mean 'mass_kg_per_m'? Its unit is kg/m"},
+    {"spot.mod", "MoveAbsJ a", "WaitTime -0.6;\n  MoveAbsJ a", "spot.mod:4:", "waits for -0.6 s (must be 0 or more)", "write 0.6 if the sign is a slip", "dresslife-sim module.yaml --preview -o out.h5"},
     // What a search may change
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.lenght=2.05: error: unknown key 'routing.lenght'", "mend `free`, or --free", free_as("routing.lenght=2 .. 2.1")},
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.free_length_m=2050: error: ", "mend `free`, or --free", free_as("routing.free_length_m=2000 .. 2100")},
@@ -212,6 +219,8 @@ void write_inputs(const Scratch& scratch) {
   scratch.write("job.yaml", job);
   scratch.write("hose.yaml", hose);
   scratch.write("spot.mod", module);
+  scratch.write("machine.urdf", "<robot name=\"arm\"/>\n");
+  scratch.write("machine.xacro", "<robot name=\"arm\"/>\n");
   const std::size_t motion = job.find("motion:"), after = job.find("dresspack:");
   scratch.write("module.yaml", job.substr(0, motion) + "motion: {program: spot.mod}\n" + job.substr(after));
   scratch.write("axes.yaml", job.substr(0, motion) + "motion: {program: axes.csv}\n" + job.substr(after));
@@ -302,7 +311,7 @@ const Doubtful doubtful[] = {
     setting("motion.speed_percent: 0.5", "motion.speed_percent is 0.5 (limit 1 or more). Likely cause: a share", "motion.speed_percent: 50 if"),
     setting("cell: {boxes: [{position_m: [0, 0, 0.5], sides_m: [1, 1, 1]}]}", "cell.boxes[1] contains joint_1 in the zero pose", "position_m of its centre"),
     {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: tube, radius_mm: 3, helix_radius_mm: 0, mass_kg_per_m: 0.00003, without_wires: {kind: hose, bore_mm: 0.004}}", "hose.yaml:19:5", "mass_kg_per_m of 'tube' is 3e-05 (limit 0.00141: foam)", "mass_kg_per_m: 0.03 if"},
-    {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: tube, radius_mm: 3, helix_radius_mm: 0, without_wires: {kind: hose, bore_mm: 0.004}}", "hose.yaml:19:67", "bore_mm of 'tube' is 0.004 (limit 0.6: a tenth", "bore_mm: 4 if that was metres"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: tube, radius_mm: 3, helix_radius_mm: 0, without_wires: {kind: hose, bore_mm: 0.004}}", "hose.yaml:19:67", "bore_mm of 'tube' is 0.004, and it is 6 mm wide outside by radius_mm 3 (limits 2.28 .. 5.52", "bore_mm: 4 if that was metres"},
     {"job.yaml", "30, 0]}\n    - {text: nod, joints_deg: [20, 0, 0, 0, 60, 90]", "0.52, 0]}\n    - {text: nod, joints_deg: [0.35, 0, 0, 0, 1.05, 1.57]", "job.yaml:6:7", "no joint angle of the motion is larger than 1.57 deg (limit 6.28 or more). Likely cause: radians", "joints_deg in degrees"},
     {"job.yaml", "speed_percent: 50", "speed_percent: 0.5", "job.yaml:7:7", "speed_percent is 0.5 (limit 1 or more). Likely cause: a share", "speed_percent: 50 if that was a share"},
     {"job.yaml", "dwell_s: 0.5", "dwell_s: 500", "job.yaml:8:7", "dwell_s is 500 (limit 100 or less). Likely cause: milliseconds", "dwell_s: 0.5 if"},
@@ -317,7 +326,7 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "components:\n  - name: lead", "components:\n  - {name: lead, radius_mm: 4.1, helix_radius_mm: 0, components: [{name: wire, count: 19, radius_mm: 0.1, helix_radius_mm: 0.8, lay_angle_deg: 5, material: copper}]}\n  - name: lead", "hose.yaml:13:5", "two parts side by side are named 'lead' (the other: line 12)", "another name"},
     {"hose.yaml", "torsional_stiffness_Nm2: 1.6", "torsional_stiffness_Nm2: 1600000", "hose.yaml:1:1", "torsional_stiffness_Nm2 is 1.6e+06 (limit 2.76e+04 N m2: solid copper of diameter_mm)", "as measured"},
     {"hose.yaml", "axial_stiffness_N: 50000", "axial_stiffness_N: 50", "hose.yaml:1:1", "axial_stiffness_N is 50 (limit 589 or more: 2 % of stretch by the weight of a metre)", "axial_stiffness_N: 5e+04 if that was kN"},
-    {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 0.25", "hose.yaml:1:1", "least_bend_radius_mm is 0.25 (limit 25: half of diameter_mm). Likely cause: metres", "least_bend_radius_mm: 250 if that was metres"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 0.25", "hose.yaml:1:1", "least_bend_radius_mm is 0.25 (limits 50 .. 2000: 1 to 40 diameters). Likely cause: metres", "least_bend_radius_mm: 250 if that was metres"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    play_mm: 400", "hose.yaml:12:5", "play_mm of 'lead' is 400 (limit 25: half of diameter_mm)", "it follows from the bore"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 0.3\n    radial_line_load_N_per_m: 5e6", "hose.yaml:12:5", "radial_line_load_N_per_m of 'lead' is 5e+06, 610 MPa on its width (limit 10: jackets yield)", "0.05 MPa times the part's width"},
     {"job.yaml", "segments: 24", "segments: 24, sample_rate_Hz: 0.5", "", "simulation.sample_rate_Hz is 0.5 (limit 5 or more)", "simulation.sample_rate_Hz: 25"},
@@ -339,7 +348,7 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "diameter_mm: 50\ninner", "diameter_mm: 480\ninner", "hose.yaml:1:1", "diameter_mm is 480 (limits 1 .. 200)", "diameter_mm: 48 if"},
     {"hose.yaml", "inner_diameter_mm: 42", "inner_diameter_mm: 49.99", "hose.yaml:1:1", "the wall is 0.005 mm thick", "inner_diameter_mm: 42.5 (ESTIMATE)"},
     {"hose.yaml", "torsional_stiffness_Nm2: 1.6", "torsional_stiffness_Nm2: 0.000016", "hose.yaml:1:1", "torsional_stiffness_Nm2 is 8e-06 times bending_stiffness_Nm2", "torsional_stiffness_Nm2: from_construction"},
-    {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 5000", "hose.yaml:1:1", "least_bend_radius_mm is 5000 (limit 2000: 40 diameters)", "least_bend_radius_mm: 500 if"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 5000", "hose.yaml:1:1", "least_bend_radius_mm is 5000 (limits 50 .. 2000: 1 to 40 diameters)", "least_bend_radius_mm: 500 if"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 15", "hose.yaml:12:5", "slack_percent of 'lead' is 15 (limit 5). Likely cause: millimetres in a metre", "slack_percent: 1.5"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 30\n    radial_line_load_N_per_m: 5", "hose.yaml:12:5", "friction_coefficient of 'lead' is 30 (limit 1.5)", "friction_coefficient: 0.3"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    base_grip_N: 1e9", "hose.yaml:12:5", "base_grip_N of 'lead' is 1e+09 (limit 100000)", "no base_grip_N"},
@@ -379,6 +388,11 @@ const Doubtful doubtful[] = {
     {"job.yaml", "{text: wait, dwell_s: 0.5}", "{text: wait, repeat: 1200, steps: [{text: pause, dwell_s: 0.01}]}", "job.yaml:8:7", "repeat is 1200 (limit 1000 or less)", "no repeat"},
     {"job.yaml", "speed_percent: 50", "speed_deg_per_s: 0.1", "job.yaml:7:7", "speed_deg_per_s is 0.1 (limit 0.2 or more)", "speed_deg_per_s: 5.73 if that was rad/s"},
     {"job.yaml", "speed_percent: 50", "speed_mm_per_s: 0.5", "job.yaml:7:7", "the tool's speed is 0.5 mm/s (limit 1 or more)", "speed_mm_per_s: 500 if that was m/s"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 30", "hose.yaml:1:1", "least_bend_radius_mm is 30 (limits 50 .. 2000", "least_bend_radius_mm: 300 if a digit is missing"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: tube, radius_mm: 6, helix_radius_mm: 0, without_wires: {kind: hose, bore_mm: 4}}", "hose.yaml:19:67", "it is 12 mm wide outside by radius_mm 6", "radius_mm: 3 if 6 is the outer diameter"},
+    {"job.yaml", "position_m: [0.15, 0, 0.18]", "position_m: [1.5, 0, 0.18]", "job.yaml:12:15", "routing.tool_clamp.position_m lies 1.5 m from all shapes of link_6", "position_m: [0.15, 0, 0.18] if a decimal point slipped"},
+    setting("cell: {boxes: [{position_m: [50, 0, 0], sides_m: [800, 600, 10]}]}", "cell.boxes[1] is 800 m long (limit 60)", "sides_m: [0.8, 0.6, 0.01] if those were millimetres"),
+    setting("robot.joints.3.upper_deg: 4010.7", "joint_3 turns from -180 to 4010.7 deg (limit 4 turns)", "lower_deg: -3.1416 and upper_deg: 70"),
     {"job.yaml", "direction: [1, 0, -0.35]", "direction: [-1, 0, 0.35]", "", "smallest bend radius at rest: 52.2 mm", "direction"},
 };
 
@@ -405,6 +419,42 @@ TEST_CASE("a program of another maker's robot is warned of, one of its own is no
     CHECK(made.status == 0);
     CHECK((made.out.find("the program nod.src is one of KUKA") != std::string::npos) == warned);
   }
+}
+
+TEST_CASE("a program is compared with the zero pose of a robot whose maker is not known") {
+  const std::string rapid =
+      "MODULE nod\nPROC main()\nMoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;\n"
+      "MoveAbsJ [[20,-20,20,0,60,90],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;\nENDPROC\nENDMODULE\n";
+  const std::string krl =
+      "DEF nod()\nPTP {A1 0, A2 -20, A3 20, A4 0, A5 30, A6 0}\nPTP {A1 20, A2 -20, A3 20, A4 0, A5 60, A6 90}\nEND\n";
+  const std::string fanuc =
+      "/PROG NOD\n/MN\n1:J P[1] 60% FINE ;\n2:J P[2] 60% FINE ;\n/POS\nP[1]{GP1: UF:0,UT:1,J1=0 deg,J2=0 deg,J3=0 deg,"
+      "J4=0 deg,J5=-30 deg,J6=0 deg};\nP[2]{GP1: UF:0,UT:1,J1=20 deg,J2=0 deg,J3=0 deg,J4=0 deg,J5=-60 deg,J6=9 deg};\n/END\n";
+  const auto output = [&](const char* file, const std::string& text, const char* robot) {
+    const Scratch scratch;
+    write_inputs(scratch);
+    scratch.write(file, text);
+    const Outcome outcome =
+        run(scratch, "dresslife",
+            fmt::format("check job.yaml --set robot={} --set robot.name=own --set motion={}", robot, file));
+    return outcome.out + outcome.err;
+  };
+  const char *upright = "abb_irb6640_185_280", *flat = "kuka_kr16_2";
+  CHECK_THAT(
+      output("nod.src", krl, upright),
+      Contains(
+          "nod.src: warning: the program nod.src is one of KUKA, and the robot is own, whose lower arm stands upright where all axes "
+          "are at 0") &&
+          Contains("or robot.name: KUKA own, if its controller has these zeros"));
+  CHECK_THAT(output("nod.mod", rapid, upright), !Contains("is one of ABB"));
+  CHECK_THAT(output("nod.src", krl, flat), !Contains("is one of KUKA"));
+  CHECK_THAT(output("nod.mod", rapid, flat),
+             Contains("is one of ABB, and the robot is own, whose lower arm lies flat"));
+  CHECK_THAT(
+      output("nod.ls", fanuc, upright),
+      Contains(
+          "is one of Fanuc, and the robot is own, whose maker is not known; joint_3 is taken as J3 + J2") &&
+          Contains("or robot.name: Fanuc own"));
 }
 
 TEST_CASE("plausible mistakes that make a job are warned of, with place, limit and remedy, the job as it is is not") {

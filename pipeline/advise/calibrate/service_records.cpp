@@ -28,22 +28,54 @@ struct ColumnWords {
 };
 const std::array<ColumnWords, column_count>& columns() {
   static const std::array<ColumnWords, column_count> all{{
-      {"robot", {"robot", "robotname", "roboter", "machine", "maschine", "station", "asset", "equipment"}},
+      {"robot",
+       {"robot", "robotname", "roboter", "machine", "maschine", "station", "asset", "equipment", "maquina",
+        "mquina", "estacion", "estacin", "equipo"}},
       {"dresspack",
        {"dresspack", "cable", "cablepackage", "cabledress", "umbilical", "component", "schlauchpaket",
-        "kabel"}},
+        "kabel", "paquete", "paquetedecables", "paquetedemangueras", "mazo", "mazodecables", "manguera"}},
       {"installed",
-       {"installed", "installedon", "installdate", "installationdate", "installation", "dateinstalled",
-        "mounted", "einbau", "einbaudatum", "eingebaut", "eingebautam", "dateofinstallation"}},
+       {"installed",
+        "installedon",
+        "installdate",
+        "installationdate",
+        "installation",
+        "dateinstalled",
+        "mounted",
+        "einbau",
+        "einbaudatum",
+        "eingebaut",
+        "eingebautam",
+        "dateofinstallation",
+        "instalado",
+        "instaladoel",
+        "instalacion",
+        "instalacin",
+        "fechadeinstalacion",
+        "fechadeinstalacin",
+        "fechainstalacion",
+        "fechainstalacin",
+        "montado",
+        "montadoel",
+        "fechademontaje",
+        "fechamontaje"}},
       {"replaced",
-       {"replaced", "replacedon", "replaceddate", "replacementdate", "datereplaced", "removed", "removedon",
-        "removaldate", "ausbau", "ausbaudatum", "ausgebaut", "ersetzt", "gewechselt", "ausgebautam",
-        "dateofreplacement"}},
+       {"replaced",          "replacedon",    "replaceddate",    "replacementdate",  "datereplaced",
+        "removed",           "removedon",     "removaldate",     "ausbau",           "ausbaudatum",
+        "ausgebaut",         "ersetzt",       "gewechselt",      "ausgebautam",      "dateofreplacement",
+        "reemplazado",       "reemplazadoel", "reemplazo",       "fechadereemplazo", "fechareemplazo",
+        "sustituido",        "sustituidoel",  "sustitucion",     "sustitucin",       "fechadesustitucion",
+        "fechadesustitucin", "cambiado",      "cambiadoel",      "fechadecambio",    "fechacambio",
+        "retirado",          "retiradoel",    "fechaderetirada", "desmontado",       "fechadedesmontaje"}},
       {"reason",
-       {"reason", "removalreason", "replacementreason", "cause", "grund", "ausbaugrund", "ursache"}},
-      {"hours_per_week", {"hoursperweek", "hperweek", "operatinghoursperweek", "stundenprowoche",
-                          "betriebsstundenprowoche", "hprowoche", "stundenwoche", "betriebsstundenwoche", "hwoche"}},
-      {"job", {"job", "program", "programm"}},
+       {"reason", "removalreason", "replacementreason", "cause", "grund", "ausbaugrund", "ursache", "motivo",
+        "causa", "razon", "razn"}},
+      {"hours_per_week",
+       {"hoursperweek", "hperweek", "operatinghoursperweek", "stundenprowoche", "betriebsstundenprowoche",
+        "hprowoche", "stundenwoche", "betriebsstundenwoche", "hwoche", "horasporsemana", "hporsemana",
+        "horassemanales", "horassemana", "hsemana", "horasdetrabajoporsemana", "horasdeoperacionporsemana",
+        "horasdeoperacinporsemana", "horasdefuncionamientoporsemana"}},
+      {"job", {"job", "program", "programm", "programa"}},
   }};
   return all;
 }
@@ -66,19 +98,26 @@ enum class End { failed, removed, in_use };
 /// absent: not known. "unplanned" holds "planned", so failures come first. Letters beyond ASCII are left out of the words.
 std::optional<End> end_in(const std::string& text) {
   const std::string letters = letters_of(text);
-  if (has_any(letters, {"notfail", "nofail", "notdefect", "nodefect", "notbroke", "nobreak", "kein", "nicht", "ohne"})) return std::nullopt;
-  if (has_any(letters, {"fail", "broke", "break", "defect", "fault", "unplanned", "unscheduled", "corrective",
-                        "ausfall", "defekt", "bruch", "gebrochen", "gerissen", "geplatzt", "strung", "stoerung", "ungeplant",
-                        "unplanm", "auerplanm", "ausserplanm"}) &&
+  if (has_any(letters, {"notfail", "nofail", "notdefect", "nodefect", "notbroke", "nobreak", "kein", "nicht",
+                        "ohne", "sinfall", "sindefect", "sinrotura", "sinaver", "noroto"}))
+    return std::nullopt;
+  if ((has_any(letters, {"fail",        "broke",       "break",        "defect",    "fault",     "unplanned",
+                         "unscheduled", "corrective",  "ausfall",      "defekt",    "bruch",     "gebrochen",
+                         "gerissen",    "geplatzt",    "strung",       "stoerung",  "ungeplant", "unplanm",
+                         "auerplanm",   "ausserplanm", "rotura",       "cableroto", "averia",    "fallo",
+                         "correctiv",   "noprogramad", "noplanificad", "imprevist"}) ||
+       letters == "falla" || letters.ends_with("avera")) &&
       !has_any(letters, {"prevent", "prventiv", "praeventiv", "vorbeug"}))
     // A cable that broke in a crash is no life. The words may also mean a cable that broke first.
     return has_any(letters, {"collision", "crash", "kollision"}) ? std::nullopt : std::optional(End::failed);
-  if (has_any(letters, {"prevent", "planned", "scheduled", "maintenance", "inspection", "prventiv", "praeventiv", "vorbeug", "geplant",
-                        "planm", "wartung", "collision", "crash", "kollision", "conversion", "modification", "umbau",
-                        "dismantled", "verschrott"}))
+  if (has_any(letters, {"prevent",    "planned",    "scheduled",  "maintenance",   "inspection", "prventiv",
+                        "praeventiv", "vorbeug",    "geplant",    "planm",         "wartung",    "collision",
+                        "crash",      "kollision",  "conversion", "modification",  "umbau",      "dismantled",
+                        "verschrott", "planificad", "programad",  "mantenimiento", "inspecci",   "colisi",
+                        "choque",     "modificaci"}))
     return End::removed;
-  if (letters.empty() ||
-      has_any(letters, {"alive", "inuse", "inservice", "running", "imbetrieb", "imeinsatz"}))
+  if (letters.empty() || has_any(letters, {"alive", "inuse", "inservice", "running", "imbetrieb", "imeinsatz",
+                                           "enuso", "enservicio", "enfuncionamiento"}))
     return End::in_use;
   return std::nullopt;
 }

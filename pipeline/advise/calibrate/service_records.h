@@ -4,7 +4,7 @@
 //   R17;body side;02.03.2025;14.01.2026;failed
 //   R17;body side;14.01.2026;;
 //
-// Columns have usual names in English or German, in any order, beside any others. `replaced` is empty for one in use.
+// Columns have usual names in English, German or Spanish, in any order, beside any others. `replaced` is empty for one in use.
 // `job` names a job, or several with their shares of the hours of operation: "sills.yaml 60 % + doors.yaml 25 %". They
 // differ only in motion. The programs are taken to load the same place, so that their damage adds up.
 // Removals for other reasons than a failure end the observation (censored).

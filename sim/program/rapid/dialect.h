@@ -70,6 +70,9 @@ class Rapid final : public Dialect {
   bool steers(const std::vector<Statement>& body, int module, int depth) const;
   bool named_data(const Statement& statement, Interpreter& run);
   Value offset(const Expression& call, bool in_tool, Interpreter& run);
+  /// Of length 1. Another length is a problem of `written`, and the direction counts. Nothing: all of it is 0.
+  std::optional<Quaternion> checked(const Value& orient, const char* what, const Expression& written,
+                                    Interpreter& run);
   Value text_to_value(const Expression& call, Interpreter& run);
 
   const Code& code_;

@@ -119,6 +119,26 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
   return {};
 }
 
+std::optional<Quaternion> Rapid::checked(const Value& orient, const char* what, const Expression& written,
+                                         Interpreter& run) {
+  if (const auto q = rapid_orientation(orient)) return q;
+  const Quaternion q(at(orient, 0), at(orient, 1), at(orient, 2), at(orient, 3));
+  if (!(q.norm() > 0)) return {};
+  const Quaternion unit = q.normalized();
+  const Place declared = run.origin(written);
+  const std::string name = run.name_of(written);
+  run.miss(
+      "quaternion of " + (name.empty() ? run.short_place(written.place) : name), written.place,
+      fmt::format(
+          "has {}{} whose quaternion [{:.6g},{:.6g},{:.6g},{:.6g}] has the length {:.5g} (must be 1){}", what,
+          name.empty() ? "" : fmt::format(" '{}'", name), q.w(), q.x(), q.y(), q.z(), q.norm(),
+          declared.line > 0 ? fmt::format(" in {}", run.short_place(declared)) : ""),
+      fmt::format(
+          "write [{:.6f},{:.6f},{:.6f},{:.6f}] for the same direction, or mend the number that is mistyped",
+          unit.w(), unit.x(), unit.y(), unit.z()));
+  return unit;
+}
+
 bool Rapid::read_target(const Expression& written, bool joints, Instruction& move, Interpreter& run) {
   const auto value = typed(written, joints ? "jointtarget" : "robtarget", "a target", run);
   if (!value) {
@@ -135,15 +155,16 @@ bool Rapid::read_target(const Expression& written, bool joints, Instruction& mov
     move.target.external_axes = external_of(value->items[1], external_shift_);
     return true;
   }
-  const auto q = rapid_orientation(value->items[1]);
+  const auto q = checked(value->items[1], "a target", written, run);
   if (!q) {
     const bool unset = *value == rapid_initial(code_, "robtarget");
     // One that the program itself has set to zeros is no question: the controller stops here.
     const std::string path = unset && !run.was_assigned(written) ? run.answer_name(run.path_of(written)) : "";
     if (path.empty())
-      run.complain(written.place,
-                   unset ? "has a target that the program set to zeros" : "has a target whose quaternion has not the length 1",
-                   "mend its orientation");
+      run.complain(
+          written.place,
+          unset ? "has a target that the program set to zeros" : "has a target whose quaternion is [0,0,0,0]",
+          "give its orientation");
     else
       run.miss(path, written.place, "has a target that was never given a value (all of it is 0)",
                fmt::format("give it one, in the program or with --value '{}=...'", path),
@@ -214,13 +235,16 @@ bool Rapid::read_zone(const Expression& written, Instruction& move, Interpreter&
 std::optional<NamedFrame> Rapid::tool_of(const Expression& written, Interpreter& run) {
   const auto value = typed(written, "tooldata", "a tool", run);
   if (!value) return {};
-  const auto frame = rapid_frame(value->items[1]);
-  if (!frame) {
-    run.complain(written.place, "has a tool whose quaternion has not the length 1", "mend its tframe");
+  const Value& frame = value->items[1];
+  const auto q = checked(frame.items[1], "a tool", written, run);
+  if (!q) {
+    run.complain(written.place, "has a tool whose quaternion is [0,0,0,0]",
+                 "give the orientation of its tframe, [1,0,0,0] without a turn");
     return {};
   }
   const std::string name = run.name_of(written);
-  return NamedFrame{name.empty() ? "tool" : name, *frame, value->items[0].number == 0};
+  return NamedFrame{name.empty() ? "tool" : name, Frame{rapid_position(frame.items[0]), *q},
+                    value->items[0].number == 0};
 }
 
 bool Rapid::read_tool(const Expression& written, Instruction& move, Interpreter& run) {
@@ -235,9 +259,12 @@ bool Rapid::read_tool(const Expression& written, Instruction& move, Interpreter&
 std::optional<NamedFrame> Rapid::work_object_of(const Expression& written, Interpreter& run) {
   const auto value = typed(written, "wobjdata", "a work object", run);
   if (!value) return {};
-  const auto user = rapid_frame(value->items[3]), object = rapid_frame(value->items[4]);
-  if (!user || !object) {
-    run.complain(written.place, "has a work object whose quaternion has not the length 1", "mend its frames");
+  const Value &user = value->items[3], &object = value->items[4];
+  const auto user_turn = checked(user.items[1], "a work object", written, run),
+             turn = checked(object.items[1], "a work object", written, run);
+  if (!user_turn || !turn) {
+    run.complain(written.place, "has a work object with a quaternion [0,0,0,0]",
+                 "give the orientation of uframe and oframe, [1,0,0,0] without a turn");
     return {};
   }
   if (value->items[1].number == 0)
@@ -246,7 +273,10 @@ std::optional<NamedFrame> Rapid::work_object_of(const Expression& written, Inter
                          run.written(written)),
              true);
   const std::string name = run.name_of(written);
-  return NamedFrame{name.empty() ? "work object" : name, *user * *object, value->items[0].number != 0};
+  return NamedFrame{
+      name.empty() ? "work object" : name,
+      Frame{rapid_position(user.items[0]), *user_turn} * Frame{rapid_position(object.items[0]), *turn},
+      value->items[0].number != 0};
 }
 
 bool Rapid::read_work_object(const Expression& written, Instruction& move, Interpreter& run) {

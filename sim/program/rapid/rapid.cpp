@@ -161,7 +161,10 @@ void Rapid::wait(const Statement& statement, Interpreter& run) {
   Value time;
   for (const Expression& argument : statement.arguments)
     if (argument.option.empty()) time = run.answered(argument);
-  if (!time.is_number() || !(time.number >= 0))
+  if (time.is_number() && time.number < 0)
+    run.complain(statement.place, fmt::format("waits for {:g} s (must be 0 or more)", time.number),
+                 fmt::format("write {:g} if the sign is a slip, or 0", -time.number));
+  else if (!time.is_number() || !(time.number >= 0))
     run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
                 "write it as a constant", "a time in s");
   else if (time.number > 0) {
@@ -311,11 +314,12 @@ Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
       by[k++] = number;
   }
   if (k < 3) return {};
-  const auto q = rapid_orientation(target.items[1]);
+  const auto q = checked(target.items[1], "a target", call.items[0], run);
   if (!q)
-    return unknown_value(run.answer_name(run.path_of(call.items[0])), target == rapid_initial(code_, "robtarget")
-                                                         ? "was never given a value (all of it is 0)"
-                                                         : "has a quaternion whose length is not 1");
+    return unknown_value(run.answer_name(run.path_of(call.items[0])),
+                         target == rapid_initial(code_, "robtarget")
+                             ? "was never given a value (all of it is 0)"
+                             : "has the quaternion [0,0,0,0]");
   Vector3 shift(by[0], by[1], by[2]);
   Quaternion turned = *q;
   if (in_tool) {  // turned about x, then y, then z of the tool (RelTool)

@@ -53,4 +53,68 @@ TEST_CASE("plausible: a swing that neither rings on nor stands still") {
   }
 }
 
+TEST_CASE("plausible: tubes whose bore or radius is half or twice what it should be") {
+  const auto words = [](double radius, double bore) {
+    Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/handling.yaml");
+    for (Component& of : dresspack.components)
+      if (of.plain && of.plain->bore) of.radius = radius / 1e3, of.plain->bore = bore / 1e3, of.count = 1;
+    std::string all;
+    for (const Warning& warning : plausibility_warnings(dresspack)) all += warning.words + "\n";
+    return all;
+  };
+  // Makers' tubes of polyamide and polyurethane, and a hydraulic hose with one steel braid.
+  for (const auto& [outer, bore] : {std::pair{4.0, 2.0},
+                                    {4.0, 2.5},
+                                    {6.0, 4.0},
+                                    {8.0, 5.0},
+                                    {8.0, 5.5},
+                                    {8.0, 6.0},
+                                    {16.0, 13.0},
+                                    {13.4, 6.4}}) {
+    CAPTURE(outer, bore);
+    CHECK(words(outer / 2, bore) == "");
+  }
+  CHECK_THAT(words(4, 2.75), Catch::Contains("is 2.75, and it is 8 mm wide outside by radius_mm 4") &&
+                                 Catch::Contains("bore_mm: 5.5 if 2.75 is half the bore"));
+  CHECK_THAT(
+      words(8, 5.5),
+      Catch::Contains("bore_mm: 11 if 5.5 is half the bore; or radius_mm: 4 if 8 is the outer diameter"));
+  CHECK_THAT(words(3, 5.9), Catch::Contains("bore_mm: 4 (ESTIMATE)"));
+  CHECK_THAT(words(4, 0.0055), Catch::Contains("bore_mm: 5.5 if that was metres"));
+}
+
+TEST_CASE("plausible: slack as a share") {
+  Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/handling.yaml");
+  for (const auto& [percent, doubts] : {std::pair{0.0, 0u}, {0.01, 1u}, {0.049, 1u}, {0.051, 0u}, {1.0, 0u}}) {
+    CAPTURE(percent);
+    dresspack.components[1].laying.slack = percent;
+    CHECK(plausibility_warnings(dresspack).size() == doubts);
+  }
+}
+
+TEST_CASE("plausible: a corrugation beside its two diameters, and a bend radius of a slip") {
+  Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/handling.yaml");
+  REQUIRE(dresspack.hose_corrugation);
+  const double height = (dresspack.diameter - inner_radius(dresspack).value() * 2) / 2;
+  dresspack.inner_diameter = dresspack.diameter - 2 * height;
+  const auto words = [&] {
+    std::string all;
+    for (const Warning& warning : plausibility_warnings(dresspack)) all += warning.words + "\n";
+    return all;
+  };
+  for (const auto& [factor, doubt] :
+       {std::pair{0.81, false}, {1.19, false}, {0.79, true}, {1.21, true}, {2.0, true}}) {
+    CAPTURE(factor);
+    dresspack.hose_corrugation->height = factor * height;
+    CHECK((words().find("height_mm of hose_corrugation is") != std::string::npos) == doubt);
+    CHECK((words().find(fmt::format("height_mm: {:.3g}, or the diameters", 1e3 * height)) !=
+           std::string::npos) == doubt);
+  }
+  dresspack.hose_corrugation->height = height;
+  CHECK(words() == "");
+  dresspack.least_bend_radius = 0.26 * dresspack.diameter;
+  CHECK_THAT(words(), Catch::Contains(fmt::format("least_bend_radius_mm: {:.4g} if a digit is missing",
+                                                  2.6e3 * dresspack.diameter)));
+}
+
 }  // namespace dresslife::pipeline

@@ -206,10 +206,35 @@ TEST_CASE("a data sheet whose cores have no insulation is refused") {
 
 TEST_CASE("a data sheet's line may have decimal commas") {
   const auto line_of = [](const std::string& text) { return parse_yaml("'" + text + "'", "sheet"); };
-  CHECK(to_yaml(sheet_from_line(line_of("4 x 2 x 0,25 mm2,class 6,wire 0,1 mm, OD 9,5 mm,jacket PUR 1,1 mm"))) ==
-        to_yaml(sheet_from_line(line_of("4 x 2 x 0.25 mm2, class 6, wire 0.1 mm, OD 9.5 mm, jacket PUR 1.1 mm"))));
-  CHECK(to_yaml(sheet_from_line(line_of("class 6,12 x 0,25 mm2"))) == to_yaml(sheet_from_line(line_of("class 6, 12 x 0.25 mm2"))));
-  CHECK_THAT(message_of([&] { sheet_from_line(line_of("12 x 0,25")); }), Catch::Contains("write '12 x 0.25 mm2'"));
+  CHECK(to_yaml(
+            sheet_from_line(line_of("4 x 2 x 0,25 mm2,class 6,wire 0,1 mm, OD 9,5 mm,jacket PUR 1,1 mm"))) ==
+        to_yaml(sheet_from_line(
+            line_of("4 x 2 x 0.25 mm2, class 6, wire 0.1 mm, OD 9.5 mm, jacket PUR 1.1 mm"))));
+  CHECK(to_yaml(sheet_from_line(line_of("class 6,12 x 0,25 mm2"))) ==
+        to_yaml(sheet_from_line(line_of("class 6, 12 x 0.25 mm2"))));
+  CHECK_THAT(message_of([&] { sheet_from_line(line_of("12 x 0,25")); }),
+             Catch::Contains("write '12 x 0.25 mm2'"));
+  CHECK(to_yaml(sheet_from_line(line_of("4x2,5 mm2, class 6"))) ==
+        to_yaml(sheet_from_line(line_of("4 x 2.5 mm2, class 6"))));
+}
+
+TEST_CASE("a data sheet's line takes the sections of shops, and proposes what others mean") {
+  const auto text = [](const std::string& line) {
+    return to_yaml(sheet_from_line(parse_yaml("'" + line + "'", "sheet")));
+  };
+  for (const char* four : {"4G2.5", "4G2,5", "4 G 2.5 mm2", "4x2.5qmm", "4 X 2,5 mm²"}) {
+    CAPTURE(four);
+    CHECK(text(four) == text("4 x 2.5 mm2"));
+  }
+  CHECK(text("4x(2x0.25) mm2") == text("4 x 2 x 0.25 mm2"));
+  const auto refused = [&](const std::string& line) { return message_of([&] { text(line); }); };
+  CHECK_THAT(refused("2.5 x 4 mm2"), Catch::Contains("write '4 x 2.5 mm2': the number of cores comes first"));
+  CHECK_THAT(refused("4 x 2.5 mm"), Catch::Contains("write '4 x 2.5 mm2'"));
+  CHECK_THAT(refused("4x2.5 + 2x(2x0.5) mm2"), Catch::Contains("a data sheet has one kind of cores: write '4x2.5 mm2' alone"));
+  CHECK_THAT(refused("32 x 0.1 mm"), Catch::Contains("or 'wire 0.1 mm' if those are the wires of a core"));
+  CHECK_THAT(refused("4G AWG 14"), Catch::Contains("write '4 x 2.08 mm2' for AWG 14"));
+  CHECK_THAT(refused("4 x 2.5 mm2, wire 0.1"),
+             Catch::Contains("'wire 0.1' of a data sheet is not understood; write 'wire 0.1 mm'"));
 }
 
 TEST_CASE("a conductor's class stands in for what a sheet leaves out, and the source says so") {

@@ -148,6 +148,15 @@ TEST_CASE("placement: what cannot be placed is refused with what would do") {
   CHECK_THAT(
       refusal(hose_text("inner_diameter_mm: 50\n", cable("lead", 3, 5, "place: auto, helix_radius_mm: 10"))),
       Contains("both place and helix_radius_mm are given"));
+  // A data sheet that is refused: nothing else is wrong.
+  const std::string sheet = refusal(
+      hose_text("inner_diameter_mm: 50\n",
+                "  - {name: a, place: auto, data_sheet: '4 x 2.5 mm2, sausage'}\n" + cable("lead", 3, 5)));
+  CHECK_THAT(sheet, Contains("'sausage' of a data sheet is not understood"));
+  CHECK(std::count(sheet.begin(), sheet.end(), '\n') == 0);
+  CHECK_THAT(
+      refusal(hose_text("inner_diameter_mm: 50\n", "  - {name: a, place: auto}\n" + cable("lead", 3, 5))),
+      Contains("has place: auto and no radius_mm"));
   CHECK_THAT(refusal(hose_text("inner_diameter_mm: 50\n", cable("lead", 3, 5, "place: middle"))),
              Contains("place is 'middle' (must be auto)"));
   CHECK_THAT(refusal(hose_text("inner_diameter_mm: 50\n",

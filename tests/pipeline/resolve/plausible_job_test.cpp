@@ -1,5 +1,8 @@
 #include "pipeline/resolve/plausible_job.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <numbers>
 
 #include "pipeline/resolve/radians.h"
@@ -137,4 +140,164 @@ TEST_CASE("plausible jobs: a mounting pose in rounded radians, segments longer t
   CHECK(words_of({}, 8) == "");                          // 0.25 m
   CHECK_THAT(words_of({}, 4), Catch::Contains("simulation.segments is 4: a segment is 0.5 m long (limit 0.26 m") &&
                                   Catch::Contains("Remedy: simulation.segments: 64"));
+}
+
+namespace {
+
+/// Six axes of a published robot; file: where they are described, and where the accelerations are.
+Job with_axes(const std::string& file = "robot.yaml", const std::string& accelerations = "robot.yaml") {
+  Job job;
+  const double speeds[] = {175, 175, 175, 360, 360, 500}, rates[] = {760, 555, 1170, 5155, 5420, 7615};
+  for (int k = 0; k < 6; ++k) {
+    Joint joint;
+    joint.name = fmt::format("a{}", k + 1);
+    joint.lower = -180 * degree, joint.upper = 180 * degree, joint.speed = speeds[k] * degree,
+    joint.acceleration = rates[k] * degree;
+    joint.where = {file, 10 + k}, joint.acceleration_where = {accelerations, 4, 8};
+    job.robot.joints.push_back(joint);
+  }
+  return job;
+}
+
+std::string doubts_of(const Job& job) {
+  std::string words;
+  for (const Warning& warning : plausibility_warnings(job)) words += warning.line() + "\n";
+  return words;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "plausible jobs: limits of axes in degrees in a URDF, in radians in YAML, and those of wrists that turn far") {
+  CHECK(doubts_of(with_axes()) == "");
+  Job job = with_axes("arm.urdf", "job.yaml");
+  CHECK(doubts_of(job) == "");
+  job.robot.joints[0].lower = -180, job.robot.joints[0].upper = 180;  // [rad] as written
+  CHECK_THAT(doubts_of(job),
+             Catch::StartsWith("arm.urdf:10: warning: a1 turns from -10313 to 10313 deg (limit 4 turns)") &&
+                 Catch::Contains("limit lower=\"-3.1416\" upper=\"3.1416\" if those were degrees"));
+  job.robot.joints[0].lower = -4 * 360 * degree, job.robot.joints[0].upper = 4 * 360 * degree;
+  CHECK(doubts_of(job) == "");
+  job.robot.joints[0].upper = 36000 * degree,
+  job.robot.joints[0].lower = -job.robot.joints[0].upper;  // continuous
+  CHECK(doubts_of(job) == "");
+  job.robot.joints[0].upper =
+      251 * 360 * degree;  // a wrist with 251 revolutions: no robot has 1577 deg as a limit
+  CHECK(doubts_of(job) == "");
+  Job radians = with_axes();
+  for (Joint& joint : radians.robot.joints) joint.lower = -2.9 * degree, joint.upper = 2.9 * degree;
+  CHECK_THAT(doubts_of(radians),
+             Catch::Contains("robot.yaml:10: warning: no axis of the robot turns farther than 2.9 deg") &&
+                 Catch::Contains("lower_deg: -166.2 and upper_deg: 166.2 of a1 if those were radians"));
+}
+
+TEST_CASE("plausible jobs: speeds of a URDF in degrees, accelerations in radians or reversed") {
+  Job job = with_axes("arm.urdf", "job.yaml");
+  job.robot.joints[2].speed = 166;
+  CHECK_THAT(doubts_of(job),
+             Catch::Contains(
+                 "arm.urdf:12: warning: velocity of a3 is 166 rad/s, 9511 deg/s (limits 5 .. 3000 deg/s)") &&
+                 Catch::Contains("velocity=\"2.897\" if that was deg/s"));
+  job = with_axes("arm.urdf", "job.yaml");
+  for (Joint& joint : job.robot.joints) joint.acceleration *= degree;
+  const std::string slow = doubts_of(job);
+  CHECK_THAT(
+      slow,
+      Catch::StartsWith("job.yaml:4:8: warning: a1 takes 13.2 s") &&
+          Catch::Contains("accelerations_deg_per_s2: [760, 555, 1170, 5155, 5420, 7615] if that was rad/s2"));
+  CHECK(std::count(slow.begin(), slow.end(), '\n') == 1);  // one remedy for the list
+  job = with_axes("arm.urdf", "job.yaml");
+  for (int k = 0; k < 3; ++k)
+    std::swap(job.robot.joints[k].acceleration, job.robot.joints[5 - k].acceleration);
+  CHECK_THAT(
+      doubts_of(job),
+      Catch::StartsWith(
+          "job.yaml:4:8: warning: axes 1 to 3 accelerate by 5155 deg/s2 and more, and the wrist by 1170 at most") &&
+          Catch::Contains("accelerations_deg_per_s2: [760, 555, 1170, 5155, 5420, 7615] if so"));
+  job = with_axes("arm.urdf", "job.yaml");
+  for (Joint& joint : job.robot.joints) joint.acceleration *= 10;
+  CHECK_THAT(doubts_of(job), Catch::Contains("every axis reaches its full speed within 0.0315 s (limit 0.05 s") &&
+                                 Catch::Contains("accelerations_deg_per_s2: [760, 555, 1170, 5155, 5420, 7615] if there is an extra zero"));
+  for (Joint& joint : job.robot.joints) joint.acceleration = 500 * degree;  // all alike
+  CHECK(doubts_of(job) == "");
+}
+
+TEST_CASE("plausible steps: tools and work objects in metres") {
+  const auto doubts_at = [](double x, double y, double z) {
+    Motion motion;
+    motion.tools.push_back({"grip", {x / 1e3, y / 1e3, z / 1e3}, {1, 0, 0, 0}, false});
+    motion.work_objects.push_back({"table", {0, 0, 0}, {1, 0, 0, 0}, false});
+    std::string words;
+    for (const Warning& warning : plausibility_of_steps(motion)) words += warning.words;
+    return words;
+  };
+  CHECK_THAT(doubts_at(0, 0, 0.22), Catch::Contains("tool 'grip' lies 0.22 mm from the frame in which it is given (limit 0, or more than 5 mm)") &&
+                                        Catch::Contains("[0, 0, 220] in its declaration if those were metres"));
+  CHECK(doubts_at(0, 0, 220) == "");
+  CHECK(doubts_at(0, 0, 0) == "");
+  CHECK(doubts_at(0.01, -0.02, 0) == "");
+}
+
+TEST_CASE("plausible jobs: a clamp in the air") {
+  Job job = with_axes();
+  job.robot.links.resize(7);
+  for (int k = 0; k < 7; ++k) job.robot.links[k].name = fmt::format("l{}", k);
+  job.robot.links[3].boxes = {{{0, 0, 0}, {0, 0, 0}, {0.4, 0.4, 0.4}}};
+  job.robot.links[3].capsules = {{{0, 0, 0}, {1, 0, 0}, 0.1}};
+  const auto with = [&](const char* link, Vector3d place) {
+    Routing& routing = job.dresspacks[0].routing;
+    routing.base_clamp = Clamp{link, place, {1, 0, 0}, {}, {"job.yaml", 9}};
+    routing.free_length = 1;
+    return doubts_of(job);
+  };
+  CHECK(with("l3", {0.5, 0, 0.59}) == "");
+  CHECK(with("l3", {0, 0, 0.69}) == "");
+  CHECK_THAT(
+      with("l3", {0.1, -0.02, -1.17}),
+      Catch::StartsWith(
+          "job.yaml:9: warning: routing.base_clamp.position_m lies 0.97 m from all shapes of l3 (limit 0.5)") &&
+          Catch::Contains("position_m: [0.1, -0.02, -0.117] if a decimal point slipped"));
+  CHECK(with("l2", {0, 0, 1}) == "");  // without shapes
+  CHECK(with("l6", {0, 0.3, 0.3}) == "");
+  CHECK_THAT(with("l6", {0, 0.72, -0.24}),
+             Catch::Contains("lies 0.759 m from all shapes of l6") && Catch::Contains("robot.links.7.boxes"));
+  job.dresspacks[0].routing.longest_bracket = 0.8;
+  CHECK(with("l6", {0, 0.72, -0.24}) == "");
+  job.robot.links[3].meshes.emplace_back();  // whose surface is not read here
+  CHECK(with("l3", {0, 0, 2.9}) == "");
+}
+
+TEST_CASE("plausible steps: one target in radians among others, one place in metres among others") {
+  const auto words = [](std::vector<MotionStep> steps) {
+    Motion motion;
+    motion.steps = std::move(steps);
+    std::string all;
+    for (const Warning& warning : plausibility_of_steps(motion)) all += warning.words + "\n";
+    return all;
+  };
+  const MotionStep home = move_to({0, -15, 15, 0, 60, 0}),
+                   turned = move_to({1.05, -0.09, 0.17, 0.70, 1.05, -0.79});
+  CHECK_THAT(
+      words({home, turned}),
+      Catch::Contains(
+          "all angles of this target are below 3.15 deg (limit: those of other targets reach 60 deg)") &&
+          Catch::Contains("[60.16, -5.157, 9.74, 40.11, 60.16, -45.26] if those were radians"));
+  CHECK(words({home, move_to({0, 0, 0, 0, 0, 0})}) == "");             // the zero pose
+  CHECK(words({home, move_to({0.1, -0.2, 0.3, 0, 0.1, 0.2})}) == "");  // its adjustment
+  CHECK(words({home, move_to({0, -1.2, 1.2, 0, 0, 0})}) == "");        // two axes
+  CHECK(words({home, turned, turned, turned}) == "");                  // most of the program stands so
+  const auto place = [](double x, double y, double z, const char* object = "table") {
+    MotionStep step;
+    step.position = {x / 1e3, y / 1e3, z / 1e3}, step.work_object = object;
+    return step;
+  };
+  CHECK_THAT(
+      words({place(0.1, 0.1, 0.4), place(100, 100, 150), place(100, 900, 400)}),
+      Catch::Contains(
+          "this target lies 0.4 mm from the origin of its frame (limit: others lie up to 900 mm from theirs)") &&
+          Catch::Contains("[100, 100, 400] if those were metres"));
+  CHECK(words({place(0, 0, 0), place(100, 100, 150), place(100, 900, 400)}) == "");
+  CHECK(words({place(0.01, -0.02, 0.03), place(100, 100, 150), place(100, 900, 400)}) == "");
+  CHECK(words({place(0, 0, 3), place(100, 100, 150), place(100, 900, 400)}) == "");
+  CHECK(words({place(1, 2, 3, "pin"), place(100, 100, 150), place(100, 900, 400)}) == "");  // another object
 }

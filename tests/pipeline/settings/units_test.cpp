@@ -34,6 +34,17 @@ TEST_CASE("units: a value in another unit is converted into that of the key") {
   CHECK(square_mm_of_awg(0) == Approx(53.49).epsilon(1e-3));     // 8.252 mm
 }
 
+TEST_CASE("units: a length beyond its range is explained by the slips that bring it back") {
+  const Meant digit = meant_length("least_bend_radius_mm", 11, 55, 1700);
+  CHECK(digit.cause == "a missing digit, or centimetres");
+  CHECK(digit.remedy == "least_bend_radius_mm: 110 if a digit is missing, 279.4 if that was inches");
+  CHECK(meant_length("diameter_mm", 0.05, 5, 200).remedy == "diameter_mm: 50 if that was metres");
+  CHECK(meant_length("diameter_mm", 480, 5, 200).remedy == "diameter_mm: 48 if there is an extra zero");
+  CHECK(meant_length("diameter_mm", 42500, 5, 200).remedy == "diameter_mm: 42.5 if that was micrometres");
+  for (const double none : {0.0, -50.0, 1e12, HUGE_VAL, std::nan("")})
+    CHECK(meant_length("diameter_mm", none, 5, 200).cause.empty());
+}
+
 TEST_CASE("units: the unit of a key is its longest ending that is one") {
   CHECK(unit_of_key("radius_mm").name == "mm");
   CHECK(unit_of_key("free_length_m").name == "m");

@@ -231,6 +231,22 @@ TEST_CASE("urdf: what is wrong is told with its line") {
   refused(
       "<link name=\"turret\"/>", "<xacro:arm name=\"turret\"/>", "<xacro:arm",
       "is xacro, from which a URDF is made (<xacro:arm>); run xacro first: xacro palletizer.urdf > robot.urdf");
+  refused("rpy=\"0 0 1.5707963267948966\"", "rpy=\"0 0 90\"", "<origin xyz=\"0.3 0 0.1\"",
+          "rpy=\"0 0 90\" turns by more than 6.3 rad; write rpy=\"0 0 1.5708\" if those were degrees");
+  CHECK_NOTHROW(robot_of(changed("rpy=\"0 0 1.5707963267948966\"", "rpy=\"0 0 -6.2832\"")));
+  // Millimetres. A floor beside the base may be large.
+  refused(
+      "<origin xyz=\"0 0 1\"/>\n    <axis", "<origin xyz=\"0 0 1000\"/>\n    <axis", "<joint name=\"j3\"",
+      "the origin of joint 'j3' has 1000 m (at most 10 in a link that moves); write origin xyz=\"0 0 1\" if those were millimetres");
+  refused(
+      "length=\"1\" radius=\"0.1\"", "length=\"1000\" radius=\"100\"", "<link name=\"lower_arm\"",
+      "a cylinder of link 'lower_arm' has 1000 m (at most 10 in a link that moves); write radius=\"0.1\" length=\"1\" if those were");
+  refused("<origin xyz=\"0 0 0.5\"/><geometry>", "<origin xyz=\"0 0 500\"/><geometry>",
+          "<link name=\"lower_arm\"", "the origin of a shape of link 'lower_arm' has 500 m");
+  refused(
+      "<sphere radius=\"0.05\"/>", "<box size=\"180 130 150\"/>", "<link name=\"bracket\"",
+      "a box of link 'bracket' has 180 m (at most 10 in a link that moves); write box size=\"0.18 0.13 0.15\" if those were");
+  CHECK(robot_of(changed("0.4 0.5 0.2", "40 50 0.2")).links[0].boxes.size() == 1);
   UrdfRequest slow = request();
   slow.accelerations.pop_back();
   told(palletizer, "<joint name=\"j4\"", "joints[5].acceleration_deg_per_s2 is missing", slow);
@@ -288,6 +304,11 @@ TEST_CASE("urdf: a small YAML beside it adds what a URDF lacks, by the names of 
                              ", accelerations_deg_per_s2: [1, 1, 1, 1]}"})) != job_text(job));
   CHECK_THAT(message_of([&] { with_links({"robot=" + (scratch / "palletizer.urdf").string()}); }),
              Catch::Contains("has no accelerations of j1"));
+  const std::string five =
+      (scratch / "palletizer.urdf").string() + ", accelerations_deg_per_s2: [1, 1, 1, 1, 1]}";
+  CHECK_THAT(message_of([&] { with_links({"robot={urdf: " + five}); }),
+             Catch::Contains("accelerations_deg_per_s2 has 5 numbers (the robot of ") &&
+                 Catch::Contains("has 4 axes); give 4 numbers"));
 }
 
 }  // namespace dresslife::pipeline

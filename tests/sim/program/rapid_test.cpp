@@ -235,3 +235,37 @@ TEST_CASE("rapid: a typing error in the name of a move is the first problem, and
                                 Catch::Contains("did you mean MoveAbsJ?") && Catch::Contains("motion.modules"));
   CHECK(run("Mover home, 7;\nMoveJ p1, v1000, fine, gun;").program.instructions.size() == 1);  // no move: it has no tool
 }
+
+TEST_CASE(
+    "rapid: a quaternion of another length is one problem for all of its uses, with the numbers that are meant") {
+  const std::string targets =
+      "CONST robtarget bad:=[[100,900,400],[0,0.5,0.923880,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+      "CONST robtarget none:=[[100,900,400],[0,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+      "PERS tooldata bent:=[TRUE,[[0,0,100],[2,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n";
+  const Reading r = run(
+      "MoveJ home_,v100,fine,tool0;\nMoveJ bad,v100,fine,tool0;\nMoveL Offs(bad,0,0,50),v100,fine,tool0;\nMoveJ bad,v100,z10,tool0;",
+      {}, targets + "CONST robtarget home_:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n");
+  REQUIRE(r.problems.size() == 1);
+  CHECK_THAT(r.problem(),
+             Catch::Contains("main.mod:4") &&
+                 Catch::Contains(
+                     "whose quaternion [0,0.5,0.92388,0] has the length 1.0505 (must be 1) in main.mod:8") &&
+                 Catch::Contains("write [0.000000,0.475963,0.879465,0.000000] for the same direction"));
+  CHECK_THAT(r.problem(), !Catch::Contains("only while the robot runs"));
+  const Reading tool = run("MoveJ p1,v100,fine,bent;", {}, targets);
+  REQUIRE(tool.problems.size() == 1);
+  CHECK_THAT(tool.problem(),
+             Catch::Contains("has a tool 'bent' whose quaternion [2,0,0,0] has the length 2") &&
+                 Catch::Contains("write [1.000000,0.000000,0.000000,0.000000]"));
+  CHECK(run("MoveJ none,v100,fine,tool0;", {}, targets).problems.size() == 1);
+  CHECK(run("MoveJ p1,v100,fine,gun\\WObj:=jig;").problems.empty());  // rounded to eight decimals
+}
+
+TEST_CASE("rapid: a wait of less than 0 s says so") {
+  const Reading r = run("MoveJ p1,v100,fine,tool0;\nWaitTime -0.6;");
+  REQUIRE(r.problems.size() == 1);
+  CHECK_THAT(r.problem(),
+             Catch::Contains("main.mod:4") &&
+                 Catch::Contains("waits for -0.6 s (must be 0 or more); write 0.6 if the sign is a slip"));
+  CHECK(run("MoveJ p1,v100,fine,tool0;\nWaitTime 0;").problems.empty());
+}

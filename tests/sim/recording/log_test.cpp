@@ -251,6 +251,30 @@ TEST_CASE("log: columns, times, unit and ranges are stated, and columns that fit
              !Contains("exchanged"));
 }
 
+TEST_CASE("log: radians under names in degrees, and times in another unit, have a remedy that works") {
+  const auto text_of = [](double size, double step, const char* time) {
+    std::string text = fmt::format("{},J1_deg,J2_deg\n", time);
+    for (int k = 0; k < 200; ++k)
+      text += fmt::format("{:.6f},{:.5f},{:.5f}\n", step * k, size * (1 - std::cos(0.1 * k)),
+                          size * std::sin(0.1 * k));
+    return text;
+  };
+  const auto words = [](const std::string& text, LogOptions options = {.still = bound}) {
+    const Recording log = read(text, options);
+    return fmt::format("{}", fmt::join(read_words(log, Course(log, two_axes(), bound)), "\n"));
+  };
+  CHECK_THAT(words(text_of(30, 0.1, "time_s")), !Contains("warning"));
+  const std::string radians = text_of(0.8, 0.1, "time_s");
+  CHECK_THAT(words(radians), Contains("no angle of the log is larger than 1.6 deg (limit 6.28 or more)") &&
+                                 Contains("--value unit=rad"));
+  CHECK_THAT(words(radians, {.unit = "rad", .still = bound}), !Contains("warning"));
+  const std::string short_times = text_of(30, 0.1, "time_ms");  // seconds under a name in ms
+  CHECK_THAT(words(short_times),
+             Contains("an axis turns") &&
+                 Contains("--value rate_Hz=10 if they are 1000 times as long: a row in 0.1 s"));
+  CHECK_THAT(words(short_times, {.rate = 10, .still = bound}), !Contains("warning"));
+}
+
 TEST_CASE("log: its length is known before it is read") {
   const Scratch scratch;
   std::string text = "time,j1_deg,j2_deg\n";

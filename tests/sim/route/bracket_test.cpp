@@ -59,5 +59,21 @@ TEST_CASE("bracket: a link without shapes limits nothing, and the cell counts as
   CHECK(fit.neighbour == -1);
 }
 
+TEST_CASE("bracket: the space of a tool without a shape is not known, and the proposed line makes it known") {
+  pipeline::Job job = two_links();
+  job.robot.flange_orientation = {0, EIGEN_PI / 2, 0};  // its z along x of the link
+  job.robot.flange_position = {0.1, 0, 0};
+  CHECK(gripper_note(job, {}).empty());
+  CHECK(gripper_note(job, {{0, 0, 0.1}}).empty());  // a measuring tip
+  const std::string note = gripper_note(job, {{0, 0, 0.05}, {0, 0, 0.4}});
+  CHECK_THAT(note, Catch::Contains("it works 400 mm from the flange, and spindle has no shape there") &&
+                       Catch::Contains("robot.links.2.capsules: [{from_m: [0.14, 0, "));
+  job.robot.links[1].capsules = {{{0.14, 0, 0}, {0.42, 0, 0}, 0.06}};
+  CHECK(gripper_note(job, {{0, 0, 0.4}}).empty());
+  CHECK_THAT(gripper_note(job, {{0, 0, 2}}), Catch::Contains("robot.links.2.boxes: "));
+  job.robot.links.clear();
+  CHECK(gripper_note(job, {{0, 0, 0.4}}).empty());
+}
+
 }  // namespace
 }  // namespace dresslife::sim

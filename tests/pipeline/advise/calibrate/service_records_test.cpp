@@ -154,6 +154,29 @@ TEST_CASE("service records: reasons in German, and reasons that two readings exp
                Contains("does not say whether the dresspack failed"));
 }
 
+TEST_CASE("service records: titles and reasons in Spanish") {
+  const auto of = [](const std::string& titles, const std::string& reason) {
+    return read(titles + "\nA;x;2024-01-01;2025-01-06;" + reason + ";76\nB;x;2024-01-01;;;76\n",
+                "2024-01-01");
+  };
+  const std::string plain = "Robot;Paquete;Fecha de instalacion;Fecha de sustitucion;Motivo;Horas por semana";
+  for (const std::string& titles :
+       {plain,
+        std::string(
+            "M\u00e1quina;Mazo de cables;Fecha de instalaci\u00f3n;Reemplazado;Raz\u00f3n;h/semana")}) {
+    const auto service = of(titles, "Rotura de cable").tests.front().observation.service;
+    CHECK(service.front().failed);
+    CHECK(service.size() == 2);
+  }
+  for (const char* failed : {"Aver\u00eda", "mantenimiento correctivo", "fallo", "no programado", "Falla"})
+    CHECK(of(plain, failed).tests.front().observation.service.front().failed);
+  for (const char* removed : {"preventivo", "Mantenimiento programado", "colisi\u00f3n", "inspecci\u00f3n"})
+    CHECK_FALSE(of(plain, removed).tests.front().observation.service.front().failed);
+  for (const char* unclear : {"sin fallo", "desgaste", "average wear"})
+    CHECK_THAT(refusal(plain + "\nA;x;2024-01-01;2025-01-06;" + std::string(unclear) + ";76\n"),
+               Contains("does not say whether the dresspack failed"));
+}
+
 TEST_CASE("service records: a dresspack of several programs has their shares of its hours") {
   const File job("two.yaml",
                  "motion: {rig: {kind: axial, elongation_percent: 0.2}}\ndresspack: {cable: {name: wire, source: test, radius_mm: "
