@@ -338,7 +338,9 @@ void plausible_size(const Dresspack& dresspack, Judge& judge) {
               "one of the two in another unit", "torsional_stiffness_Nm2: from_construction, or both as measured");
   for (const Component& of : dresspack.components) {
     if (of.laying.slack > 0 && of.laying.slack < 100 * least_slack)
-      judge.add(of.where, fmt::format("slack_percent of '{}' is {:.3g} (limit 0, or {:g} or more)", of.name, of.laying.slack, 100 * least_slack),
+      judge.add(of.where,
+                fmt::format("slack_percent of '{}' is {:.3g} (limit 0, or {:g} or more)", of.name, of.laying.slack,
+                            100 * least_slack),
                 "a share instead of per cent", fmt::format("slack_percent: {:.3g} if that was a share", 100 * of.laying.slack));
     if (of.laying.slack > 100 * largest_slack)
       judge.add(of.where, fmt::format("slack_percent of '{}' is {:.3g} (limit {:g})", of.name, of.laying.slack, 100 * largest_slack),

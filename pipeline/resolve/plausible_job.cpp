@@ -201,12 +201,12 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
 }
 
 /// Tools and work objects that lie nearly, but not, where they count from.
-void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, std::vector<Warning>& warnings) {
+void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Where& where, std::vector<Warning>& warnings) {
   for (const MotionFrame& frame : frames) {
     const Vector3d& at = frame.position;
     if (const double reach = at.cwiseAbs().maxCoeff(); reach < least_metres || reach > most_metres) continue;
     warnings.push_back(warning_of(
-        WarningKind::motion, "",
+        WarningKind::motion, where.text(),
         fmt::format("{} '{}' lies {:.3g} mm from the frame in which it is given (limit 0, or more than {:g} mm)", kind, frame.name,
                     1e3 * at.norm(), 1e3 * most_metres),
         "metres instead of millimetres",
@@ -250,8 +250,8 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
                            "milliseconds instead of seconds",
                            fmt::format("dwell_s: {:g} if that was milliseconds", step->dwell / 1000)));
   doubt_single_targets(motion.steps, warnings);
-  doubt_frames(motion.tools, "tool", warnings);
-  doubt_frames(motion.work_objects, "work object", warnings);
+  doubt_frames(motion.tools, "tool", motion.where, warnings);
+  doubt_frames(motion.work_objects, "work object", motion.where, warnings);
   if (!seen.first) return warnings;
   double largest = 0, way = 0;  // [deg]
   for (std::size_t k = 0; k < seen.low.size(); ++k) {

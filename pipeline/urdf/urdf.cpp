@@ -130,7 +130,8 @@ class XmlPlaces {
     for (double angle = 0; words >> angle;) angles.push_back(angle);
     if (angles.size() != 3 || std::ranges::all_of(angles, [&](double angle) { return std::abs(angle) <= turn; })) return;
     throw InputError({file_, line}, fmt::format("rpy=\"{}\" turns by more than {} rad", rpy, turn),
-                     fmt::format("write rpy=\"{:.6g} {:.6g} {:.6g}\" if those were degrees: angles of a URDF are in rad", angles[0] / degrees,
+                     fmt::format("write rpy=\"{:.6g} {:.6g} {:.6g}\" if those were degrees: angles of a URDF are in rad",
+                                 angles[0] / degrees,
                                  angles[1] / degrees, angles[2] / degrees));
   }
 

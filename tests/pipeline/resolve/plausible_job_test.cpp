@@ -231,7 +231,8 @@ TEST_CASE("plausible steps: tools and work objects in metres") {
     for (const Warning& warning : plausibility_of_steps(motion)) words += warning.words;
     return words;
   };
-  CHECK_THAT(doubts_at(0, 0, 0.22), Catch::Contains("tool 'grip' lies 0.22 mm from the frame in which it is given (limit 0, or more than 5 mm)") &&
+  CHECK_THAT(doubts_at(0, 0, 0.22),
+             Catch::Contains("tool 'grip' lies 0.22 mm from the frame in which it is given (limit 0, or more than 5 mm)") &&
                                         Catch::Contains("[0, 0, 220] in its declaration if those were metres"));
   CHECK(doubts_at(0, 0, 220) == "");
   CHECK(doubts_at(0, 0, 0) == "");
