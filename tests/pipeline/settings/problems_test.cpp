@@ -86,7 +86,7 @@ TEST_CASE("problems: one is told as it ever was, the same line once, and no more
   const std::vector<std::string> lines = problem_lines(message_of([&] { problems.finish("a.yaml"); }));
   CHECK(lines.size() == 101);
   CHECK(lines.front() == "a.yaml:3:1: error: is wrong; mend it");
-  CHECK(lines.back() == "a.yaml: error: only the first 100 problems are told; mend them first");
+  CHECK(lines.back() == "a.yaml: error: only the first 100 problems are shown; correct them first");
 }
 
 }  // namespace
