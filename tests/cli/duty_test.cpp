@@ -158,7 +158,7 @@ fatigue: {robot_life_hours: 1.0e+7}
   // A tenth of the changes. The worst place may differ, so that damage is between the line and its ends.
   CHECK(damage("batches") > apart);
   CHECK(damage("batches") <= apart + 0.1 * (damage("in turns") - apart) * (1 + by_rows));
-  CHECK(outcome.out.find("Changes between the programs make the damage of 'wires") != std::string::npos);
+  CHECK(outcome.out.find("Changes between the programs make the damage of wires") != std::string::npos);
   CHECK(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);  // rounds are no jobs of the study
   CHECK(content(scratch / "runs/study/ranking.csv").find("left+right") == std::string::npos);
   // Without the joint angles of the programs an order is refused.

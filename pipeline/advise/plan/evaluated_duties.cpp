@@ -205,7 +205,7 @@ class Programs {
       throw InputError(program.where,
                        fmt::format("job '{}' has no result{}", program.job,
                                    row == rows_.end() ? "" : ": " + row->second->failure),
-                       "mend the job and run again");
+                       "correct the job and run again");
     return *row->second;
   }
 
