@@ -115,7 +115,7 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
   const RecordType* record = code_.record(type);
   if (value.type == record || (!value.type && value.kind == Value::Kind::list && run.shape(value, record)))
     return value;
-  run.complain(written.place, fmt::format("has no {} where {} is expected", type, what), "mend the argument");
+  run.complain(written.place, fmt::format("has no {} where {} is expected", type, what), "correct the argument");
   return {};
 }
 
@@ -143,7 +143,7 @@ bool Rapid::read_target(const Expression& written, bool joints, Instruction& mov
     if (path.empty())
       run.complain(written.place,
                    unset ? "has a target that the program set to zeros" : "has a target whose quaternion has not the length 1",
-                   "mend its orientation");
+                   "correct its orientation");
     else
       run.miss(path, written.place, "has a target that was never given a value (all of it is 0)",
                fmt::format("give it one, in the program or with --value '{}=...'", path),
@@ -216,7 +216,7 @@ std::optional<NamedFrame> Rapid::tool_of(const Expression& written, Interpreter&
   if (!value) return {};
   const auto frame = rapid_frame(value->items[1]);
   if (!frame) {
-    run.complain(written.place, "has a tool whose quaternion has not the length 1", "mend its tframe");
+    run.complain(written.place, "has a tool whose quaternion has not the length 1", "correct its tframe");
     return {};
   }
   const std::string name = run.name_of(written);
@@ -237,7 +237,7 @@ std::optional<NamedFrame> Rapid::work_object_of(const Expression& written, Inter
   if (!value) return {};
   const auto user = rapid_frame(value->items[3]), object = rapid_frame(value->items[4]);
   if (!user || !object) {
-    run.complain(written.place, "has a work object whose quaternion has not the length 1", "mend its frames");
+    run.complain(written.place, "has a work object whose quaternion has not the length 1", "correct its frames");
     return {};
   }
   if (value->items[1].number == 0)
@@ -415,7 +415,7 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
   displacement_ = Frame{};
   if (!programmed || !tool) {
     run.complain(statement.place, "has a PDispOn without the programmed point or the tool",
-                 "mend the instruction");
+                 "correct the instruction");
     return;
   }
   Expression world;  // without \WObj

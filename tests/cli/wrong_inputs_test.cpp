@@ -198,8 +198,8 @@ const Wrong wrong[] = {
     {"fleet.csv", "R2", "R1", "fleet.csv:3:1: error: ", "'R1' is the name of line 2", "; ", run_fleet},
     {"fleet.csv", "free_length_m", "free_length_m,", "fleet.csv:1:28: error: ", "a column has no title", "; ", run_fleet},
     // What a search may change
-    {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.lenght=2.05: error: unknown key 'routing.lenght'", "mend `free`, or --free", free_as("routing.lenght=2 .. 2.1")},
-    {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.free_length_m=2050: error: ", "mend `free`, or --free", free_as("routing.free_length_m=2000 .. 2100")},
+    {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.lenght=2.05: error: unknown key 'routing.lenght'", "correct `free`, or --free", free_as("routing.lenght=2 .. 2.1")},
+    {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.free_length_m=2050: error: ", "correct `free`, or --free", free_as("routing.free_length_m=2000 .. 2100")},
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: ", "items count from 1 to 1", free_as("dresspack.components.9.slack_percent=0.1 .. 2")},
     {"", "", "", "--free routing.free_length_m=2.1 .. 2.0: error: ", "which holds nothing", "write the smaller number first", free_as("routing.free_length_m=2.1 .. 2.0")},
     // Command lines

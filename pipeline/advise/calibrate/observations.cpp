@@ -313,7 +313,7 @@ Judgement judged(const Observation& observation, const Prediction& prediction) {
 
 std::string words_of(const Judgement& judgement) {
   const auto by = [&](const char* what) {
-    return std::isinf(judgement.factor) ? fmt::format("MISS: {}, for ever", what)
+    return std::isinf(judgement.factor) ? fmt::format("MISS: {}, no failure predicted", what)
                                         : fmt::format("MISS: {} by {}", what, readable(judgement.factor, 2));
   };
   switch (judgement.agreement) {

@@ -128,7 +128,7 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
   outcome.beyond.assign(outcome_limits, unasked);
   outcome.failure = row.failure;
   if (!row.done() && !is_refusal(row.failure))
-    throw MachineFault({folder.string()}, "has no result (" + row.failure + ")", "mend that");
+    throw MachineFault({folder.string()}, "has no result (" + row.failure + ")", "correct that");
   if (!row.done()) return outcome;
   outcome.hours = row.headline_hours();
   const double share = std::max(row.largest_force_share.value_or(0), row.clamp_moment_share.value_or(0));
