@@ -531,7 +531,7 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
   return fmt::format(
       "{} ({} months) until 10 % of such dresspacks have a conductor {} at one place; worst wire: {} h ({} "
       "repeats) until {} breaks, {:.2f} m from the tool{}",
-      std::isinf(p10) ? "without end" : pipeline::readable(p10) + " h",
+      std::isinf(p10) ? "no failure" : pipeline::readable(p10) + " h",
       pipeline::readable(pipeline::months(p10, c.job.fatigue.operating_hours_per_week)),
       c.job.fatigue.failed_wires_percent > 0
           ? fmt::format("without {:g} % of its wires", c.job.fatigue.failed_wires_percent)
@@ -604,8 +604,10 @@ std::string write_unvalidated(const Context& c, const std::vector<double>& lives
   c.life.attribute("not_evaluated", not_evaluated(c.strain, c.job, coils.size() == c.job.dresspacks.size()));
   std::string summary;
   for (const pipeline::UnvalidatedMode& mode : modes)
-    if (mode.mode != pipeline::UnvalidatedMode::rating && mode.mode != pipeline::UnvalidatedMode::corkscrew &&
-        mode.mode != pipeline::UnvalidatedMode::kink)
+    if (!is_credible(mode))
+      summary += "; the life of the hose's wall is not predicted";
+    else if (mode.mode != pipeline::UnvalidatedMode::rating && mode.mode != pipeline::UnvalidatedMode::corkscrew &&
+             mode.mode != pipeline::UnvalidatedMode::kink)
       summary += fmt::format("; the {} {}",
                              mode.mode == pipeline::UnvalidatedMode::wall     ? "hose's wall"
                              : mode.mode == pipeline::UnvalidatedMode::jacket ? "worst jacket"

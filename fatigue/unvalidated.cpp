@@ -29,6 +29,14 @@
 namespace dresslife::fatigue {
 namespace {
 
+/// "signal cable 3" of several equal cables, "power cable" of a single one. path: of a cable in the job.
+std::string cable_in_words(const pipeline::Job& job, const std::string& path) {
+  const PathInJob at = path_in_job(job, path);
+  for (const pipeline::Component& part : job.dresspacks[at.dresspack].dresspack.components)
+    if (part.count == 1 && at.inside == part.name + " 1") return part.name;
+  return at.inside;
+}
+
 using pipeline::FileReader;
 using pipeline::LifeResponse;
 using pipeline::UnvalidatedMode;
@@ -301,7 +309,7 @@ std::vector<UnvalidatedMode> jacket_modes(const FileReader& strain, const pipeli
     mode.dresspack = pipeline::name_among(job, d);
     std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
     if (std::isfinite(worst.repeats)) {
-      mode.place = path_in_job(job, names[*first]).inside;
+      mode.place = cable_in_words(job, names[*first]);
       mode.time = worst.time;
       own = pipeline::first_failures(
           {response_of(mode.mode, worst.repeats, worst.log10_spread, job, mode.dresspack)}, "", lives.size());
@@ -367,7 +375,7 @@ std::vector<UnvalidatedMode> corkscrew_modes(const FileReader& strain, const pip
     UnvalidatedMode& mode = modes.emplace_back();
     mode.mode = UnvalidatedMode::corkscrew;
     mode.dresspack = pipeline::name_among(job, d);
-    mode.place = path_in_job(job, strain.read<std::string>("/cable/name")[worst->cable]).inside;
+    mode.place = cable_in_words(job, strain.read<std::string>("/cable/name")[worst->cable]);
     mode.time = program.time[worst->sample];
     program.put_sample(mode, worst->sample);
     put_place(mode, strain, d, worst->position);

@@ -204,7 +204,7 @@ void note_log(const Request& request, const pipeline::StageCall& call, pipeline:
   const sim::Course course(log, robot, options.still);
   const sim::Cycles cycles =
       sim::cycles_of(course, {request.alike_deg * degree, request.warp_percent / 100, shortest_cycle},
-                     [&](double share) { progress.show(share, "looks for cycles"); });
+                     [&](double share) { progress.show(share, "finds cycles"); });
   const std::vector<sim::LogMotion> motions = sim::motions_of(course, cycles, options.still);
   progress.clear();
   if (!call.quiet)

@@ -113,7 +113,7 @@ std::vector<Triangle> read_triangles(const std::filesystem::path& file) {
   for (const Triangle& triangle : triangles)
     for (const Vector3& corner : triangle)
       if (!corner.allFinite())
-        throw InputError({file.string()}, "holds a corner that is not finite", "mend the mesh");
+        throw InputError({file.string()}, "holds a corner that is not finite", "correct the mesh");
   return triangles;
 }
 

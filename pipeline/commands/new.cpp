@@ -1,12 +1,16 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "pipeline/advise/improve/draft.h"
 #include "pipeline/advise/improve/screened.h"
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/plain_file.h"
@@ -14,6 +18,7 @@
 #include "pipeline/commands/checking.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/options.h"
+#include "pipeline/settings/units.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"
@@ -156,8 +161,8 @@ Choice proposed(const Draft& draft) {
   if (draft.exercise) arguments.emplace_back("--exercise");
   if (run_stage_program("dresslife-sim", arguments) != 0)
     throw InputError({"dresslife new"}, "no routing can be proposed (see above), nothing was written",
-                     draft.exercise ? "mend what is named there"
-                                    : "mend what is named there; what it calls motion.KEY belongs to a job: make one without "
+                     draft.exercise ? "correct what is named there"
+                                    : "correct what is named there; what it calls motion.KEY belongs to a job: make one without "
                                       "--program, and write motion: {program: FILE, KEY: VALUE} into it");
   const ScreenedList found = read_screening(screening.path());
   const ScreenedCandidate& best = found.candidates.front();
@@ -167,26 +172,37 @@ Choice proposed(const Draft& draft) {
   return choice;
 }
 
-/// How many accelerations a URDF needs beside it; 0: none are missing. A URDF holds no accelerations.
-std::size_t missing_accelerations(const std::string& robot) {
-  if (!robot.ends_with(".urdf")) return 0;
+/// The accelerations that a URDF needs beside it, as proposals [deg/s2]; empty: none are missing. A URDF holds no
+/// accelerations. A proposal is the largest speed of the axis times that of shipped robots over theirs, rounded to 10.
+std::vector<double> missing_accelerations(const std::string& robot) {
+  std::vector<double> proposals;
+  if (!robot.ends_with(".urdf")) return proposals;
+  // Medians of config/robots: acceleration over speed of axes 1 to 6 [1/s]. They spread by 5 % there.
+  constexpr std::array<double, 6> per_speed{4.3, 3.2, 6.7, 14.3, 15.1, 15.2};
+  constexpr double of_no_speed = 500;  // [deg/s2]: of a slide, or of a URDF without speeds
   UrdfRequest request;
   request.urdf = robot;
   const Node made = robot_from_urdf(request);
-  const std::vector<Node>& joints = made.find("joints")->items;
-  return static_cast<std::size_t>(std::count_if(joints.begin(), joints.end(), [](const Node& joint) {
-    return !joint.find("follows") && !joint.find("acceleration_deg_per_s2");
-  }));
+  for (const Node& joint : made.find("joints")->items) {
+    if (joint.find("follows") || joint.find("acceleration_deg_per_s2")) continue;
+    const Node* const speed = joint.find("speed_deg_per_s");
+    const double fastest = speed ? number_in(speed->text).value_or(0) : 0;
+    const double factor = per_speed[std::min(proposals.size(), per_speed.size() - 1)];
+    proposals.push_back(fastest > 0 ? std::max(10.0, 10 * std::round(fastest * factor / 10)) : of_no_speed);
+  }
+  return proposals;
 }
 
-/// A job of a URDF with some accelerations, which hardly matter to a routing.
-std::string job_of_urdf(const Options& options, std::size_t axes) {
+/// A job of a URDF with proposed accelerations, which hardly matter to a routing.
+std::string job_of_urdf(const Options& options, const std::vector<double>& accelerations) {
   const auto in_full = [](const std::string& name) {
     return scalar(kind_of(name) == FileKind::file ? fs::absolute(name).string() : name);
   };
   Node job;
   job["robot"]["urdf"] = in_full(options.robot);
-  job["robot"]["accelerations_deg_per_s2"] = list_of(std::vector<Node>(axes, scalar("500")));
+  std::vector<Node> numbers;
+  for (const double acceleration : accelerations) numbers.push_back(scalar(shortest_text(acceleration)));
+  job["robot"]["accelerations_deg_per_s2"] = list_of(std::move(numbers));
   job["dresspack"] = in_full(options.dresspack);
   if (!options.program.empty()) job["motion"] = in_full(options.program);
   return with_mark(to_yaml(job), Mark::yaml);
@@ -219,17 +235,19 @@ std::string commented(const std::string& key, const std::string& value, const st
 }
 
 std::string text_of(const Options& options, const Draft& draft, const Choice& choice,
-                    std::size_t accelerations) {
+                    const std::vector<double>& accelerations) {
   const std::string job = shown(options.job);
   const auto entry = [&](const std::string& name) { return flow(scalar(seen_from_job(name, options.job))); };
   std::string text = fmt::format(
       "# A job, written by dresslife new. Next: dresslife check {0}, dresslife preview {0}, dresslife run {0}\n",
       job);
-  if (accelerations > 0)
+  if (!accelerations.empty())
     text += fmt::format(
-        "# FILL IN beside urdf: accelerations_deg_per_s2: [{} numbers] (those of config/robots have {})\n"
-        "robot: {{urdf: {}}}\n",
-        accelerations, shipped_accelerations, entry(options.robot));
+        "# FILL IN beside urdf: accelerations_deg_per_s2: [{0} numbers] (those of config/robots have {1})\n"
+        "# If you do not know them, an ESTIMATE: the speeds of the URDF times the accelerations over the speeds of config/robots:\n"
+        "# robot: {{urdf: {2}, accelerations_deg_per_s2: [{3:g}]}}\n"
+        "robot: {{urdf: {2}}}\n",
+        accelerations.size(), shipped_accelerations, entry(options.robot), fmt::join(accelerations, ", "));
   else
     text += commented("robot", entry(options.robot), "a name of config/robots, or {urdf: FILE}");
   if (draft.exercise)
@@ -261,7 +279,7 @@ int make(Options options) {
   if (options.job.empty())
     throw InputError({"dresslife new"}, "lacks the job to write", "name a file, for example job.yaml");
   if (options.dresspack.empty()) options.dresspack = default_dresspack, options.dresspack_is_example = true;
-  const std::size_t accelerations = missing_accelerations(options.robot);
+  const std::vector<double> accelerations = missing_accelerations(options.robot);
   check_named("--robot", "robots", options.robot);
   check_named("--dresspack", "dresspacks", options.dresspack);
   if (!options.program.empty()) check_named("--program", "programs", options.program);
@@ -269,9 +287,9 @@ int make(Options options) {
     if (kind_of(name) == FileKind::file) note_input(name);
   check_replaceable(options.job);
   const PassingFile of_urdf("request.yaml");
-  if (accelerations > 0) write_text_if_changed(of_urdf.path(), job_of_urdf(options, accelerations));
+  if (!accelerations.empty()) write_text_if_changed(of_urdf.path(), job_of_urdf(options, accelerations));
   const Draft draft =
-      accelerations > 0
+      !accelerations.empty()
           ? draft_of({.of = of_urdf.path().string()})
           : draft_of({.of = options.robot, .dresspack = options.dresspack, .motion = options.program});
   const Choice choice = routing_for(draft, options);
@@ -283,7 +301,7 @@ int make(Options options) {
   for (const std::string& estimate : choice.estimates) print(shown(estimate + "\n"));
   if (options.dresspack_is_example)
     print(fmt::format("Its dresspack {} is an example for a large robot: name yours.\n", default_dresspack));
-  if (accelerations > 0) print("Fill in the accelerations of its axes.\n");
+  if (!accelerations.empty()) print("Fill in the accelerations of its axes. The job holds a proposal.\n");
   if (draft.exercise) print("Fill in its motion.\n");
   if (choice.refused)
     print(shown(fmt::format("Fill in its clamps, or let dresslife route {} search: no routing that was tried runs. {}\n", options.job,

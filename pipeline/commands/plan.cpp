@@ -121,6 +121,22 @@ std::map<std::string, AbrasionLife> abrasion_lives(const std::vector<DutyResult>
   return lives;
 }
 
+/// Of abrasion and jacket wear, which an inspection sees, by the duty's name.
+std::map<std::string, std::vector<AgeLimit>> age_limits(const std::vector<DutyResult>& duties) {
+  std::map<std::string, std::vector<AgeLimit>> limits;
+  for (const DutyResult& duty : duties)
+    for (const DutyMode& mode : duty.others)
+      if (mode.mode == UnvalidatedMode::abrasion || mode.mode == UnvalidatedMode::jacket)
+        limits[duty.name].push_back({mode.dresspack.empty() ? mode.mode : mode.mode + " of " + mode.dresspack, mode.hours});
+  return limits;
+}
+
+std::map<std::string, double> week_hours_of(const std::vector<DutyResult>& duties) {
+  std::map<std::string, double> hours;
+  for (const DutyResult& duty : duties) hours[duty.name] = duty.hours_per_week;
+  return hours;
+}
+
 /// The texts one after the other, and an empty line where there are some.
 std::string block(const std::vector<std::string>& texts) {
   return fmt::format("{}{}", fmt::join(texts, ""), texts.empty() ? "" : "\n");
@@ -188,6 +204,7 @@ int plan(const Options& options) {
       tests += check_words(checks, lives.begin()->second.inspection, fleet, found);
     }
   }
+  tests += age_words(fleet, found, age_limits(duties), week_hours_of(duties));
   const std::string stem = "plan_" + fs::path(options.fleet).stem().string(),
                     csv = plan_csv(fleet, found, checks);
   const fs::path table = made.places.folder / (stem + ".csv"),

@@ -42,7 +42,7 @@ bool refresh_preview(const fs::path& job, const fs::path& page, const JobState& 
       20, 4000};  // a preview takes one second and little memory; the table says why the job failed
   const std::string made_from = xxh3(shell_digest() + state.recipes[0] + state.failure + name);
   if (made_from_of(page) == made_from) return true;
-  const bool on_its_way = state.failure.find("is drawn taut") != std::string::npos;
+  const bool on_its_way = state.failure.find("is pulled tight") != std::string::npos;
   const PassingFile preview("preview.h5");
   if (print_preview(job, {}, limits, preview.path(), StageWords::dropped) != 0) return false;
   if (!on_its_way && refusal_of(preview.path()).empty()) return false;

@@ -108,7 +108,7 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
   if (draft.exercise) arguments.push_back("--exercise");
   if (!options.ring.empty()) arguments.insert(arguments.end(), {"--ring", options.ring});
   if (run_stage_program("dresslife-sim", arguments) != 0)
-    throw StageFailed({draft.name}, "no routing can be proposed (see above)", "mend what is named there");
+    throw StageFailed({draft.name}, "no routing can be proposed (see above)", "correct what is named there");
   return read_screening(passing.path());
 }
 
@@ -351,6 +351,10 @@ int route(const Options& options) {
   check_replaceable(page);
   const StudyPlaces places{fs::path(options.out) / (draft.name + "_route"), program_folder()};
   const FolderLock lock(places.folder);
+  // 45 s for the default numbers, measured on a busy machine with a job of 64 segments.
+  if (!options.quiet)
+    tell(fmt::format("Checks {} routings by geometry and the best of them in {} short runs, for each size. This takes about a minute. "
+                     "Runs with their remaining time follow.\n", options.tried, options.rehearsals));
   if (kind_of(options.request.of) == FileKind::file) claim_folder(places.folder, options.request.of);
   const FilesAtStart files({std::make_shared<const Job>(draft.job)});
   std::optional<Trial> chosen, nearest;

@@ -111,7 +111,7 @@ void check_direction(const Vector3d& axis, const std::string& name, const Where&
 
 void check_range(double lower, double upper, const std::string& name, const Where& where) {
   if (!(lower < upper))
-    throw InputError(where, fmt::format("limits of {} are empty (lower >= upper)", name), "mend them");
+    throw InputError(where, fmt::format("limits of {} are empty (lower >= upper)", name), "correct them");
 }
 
 void check_joint(const Joint& joint, const Robot& robot) {

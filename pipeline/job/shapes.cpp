@@ -45,7 +45,7 @@ void describe(Fields& f, Cell& cell) {
 void check_boxes(const std::vector<Box>& boxes, const Where& where) {
   for (const Box& box : boxes)
     if (!(box.sides.minCoeff() > 0))
-      throw InputError(where, "a box has a side of length 0 or less", "mend its sides_m");
+      throw InputError(where, "a box has a side of length 0 or less", "correct its sides_m");
 }
 
 }  // namespace dresslife::pipeline

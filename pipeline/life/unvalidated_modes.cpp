@@ -25,6 +25,11 @@ double number_of(const std::string& word) {
 
 }  // namespace
 
+bool is_credible(const UnvalidatedMode& mode) {
+  constexpr double long_life = 1e5;  // [h]
+  return mode.bends_at_limit <= 0 || mode.bends_at_limit >= published_wall_bends || !(mode.hours[1] < long_life);
+}
+
 std::string unvalidated_text(const std::vector<UnvalidatedMode>& modes) {
   std::string text;
   for (const UnvalidatedMode& m : modes)

@@ -42,6 +42,13 @@ struct UnvalidatedMode {
   bool operator==(const UnvalidatedMode&) const = default;
 };
 
+/// Bends that a corrugated hose of polyamide 11, 70 mm wide, endured without damage: the only published test that was found
+/// (REIKU, internal flexibility test; its radius is not published and counts as the limit).
+constexpr double published_wall_bends = 16e6;
+/// False for a wall whose law contradicts this test and whose life is below 1e5 h, longer than any robot works. No number of
+/// this life is shown. True for all other modes.
+bool is_credible(const UnvalidatedMode& mode);
+
 /// For an attribute: a line each, with tabs between the values in the order above.
 std::string unvalidated_text(const std::vector<UnvalidatedMode>& modes);
 /// And back. Errors: std::invalid_argument for a line that is none.

@@ -43,7 +43,9 @@ function showPlace() {
         segments.largest_twist[s]);
   }
   if (segments.hose_damage)
-    row('hose\u2019s wall', `${readable(segments.hose_damage[s])} damage per repeat`, segments.hose_damage[s]);
+    row('hose\u2019s wall',
+        `${readable(100 * segments.hose_damage[s] / (Math.max(...segments.hose_damage) || 1))} % of the damage of its worst place`,
+        segments.hose_damage[s]);
   rows.push(make('dt', {}, 'now'), make('dd', {id: 'now'}));
   place.replaceChildren(
       make('h2', {}, placeWords(s) + (s === life.worst_segment ? ': the worst' : '')),

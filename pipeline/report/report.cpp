@@ -226,9 +226,8 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "share a rank unless one outlives the other in 90 of 100 samples. "
       "Parts inside a cable rub on each other. Glued .. free: the same p10 if they could not slip, and if they slipped "
       "without friction. First wire: by then a first single wire has broken, by the scatter of wires alone, in 10 .. 90 % "
-      "of such dresspacks. Abrasion and the hose's wall are not in these hours: their laws have not been compared with a test. "
-      "A * marks a job in which one of them may come first.</p>\n",
-      sorted_table(heads, ranking_rows(rows, detailed), "jobs", "ranking.csv"), matrix,
+      "of such dresspacks. {}</p>\n",
+      sorted_table(heads, ranking_rows(rows, detailed), "jobs", "ranking.csv"), matrix, escaped(unvalidated_legend(rows)),
       chart.empty()
           ? ""
           : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: replace after. Blue bar: the median of the worst wire, glued to "
@@ -351,7 +350,8 @@ std::string facts(const RankingRow& row) {
   for (const UnvalidatedMode& mode : row.unvalidated) {
     const std::string of = mode.dresspack.empty() ? "" : " of " + escaped(mode.dresspack);
     const bool wall = mode.mode == UnvalidatedMode::wall;
-    if (mode.mode == UnvalidatedMode::rating || mode.mode == UnvalidatedMode::corkscrew || mode.mode == UnvalidatedMode::kink) {
+    if (mode.mode == UnvalidatedMode::rating || mode.mode == UnvalidatedMode::corkscrew || mode.mode == UnvalidatedMode::kink ||
+        !is_credible(mode)) {
       fact(mode.mode + of + ", unvalidated", escaped(unvalidated_words(mode)) + with_and_without(mode));
       continue;
     }

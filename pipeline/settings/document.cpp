@@ -127,7 +127,7 @@ void check_stream(const std::string& text, const std::string& file) {
     if (!parser.HandleNextDocument(walker)) return;
     const Where where = place(walker.begin, file);
     if (walker.begin.pos == first.pos)
-      throw InputError(where, "is not YAML (no value begins like this)", "mend the line");
+      throw InputError(where, "is not YAML (no value begins like this)", "correct the line");
     throw InputError(where, "a second document begins here", "keep one document per file");
   } catch (const YAML::Exception& problem) {
     if (problem.msg != YAML::ErrorMsg::EOF_IN_SCALAR) throw;
@@ -297,7 +297,7 @@ Node parse_yaml(const std::string& text, const std::string& file) {
     document = YAML::Load(text);
   } catch (const YAML::Exception& problem) {
     throw InputError(place(problem.mark, file), fmt::format("is not YAML ({})", problem.msg),
-                     "mend the line");
+                     "correct the line");
   }
   Node root = Converter(file).convert(document);
   if (root.where.line <= 0) root.where = {file, 1, 1};

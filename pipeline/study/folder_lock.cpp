@@ -44,7 +44,7 @@ bool lives(long process) {
 
 [[noreturn]] void refuse(const fs::path& folder) {
   throw InputError({folder.string()}, fmt::format("cannot be written ({})", std::strerror(errno)),
-                   "mend its permissions or the disk, or choose another folder with -o");
+                   "correct its permissions or the disk, or choose another folder with -o");
 }
 
 std::string run_of(long process) {

@@ -494,6 +494,8 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     if (!words.empty()) details += '\n' + (rows.size() > 1 ? one_line(row.job) + '\n' : "") + words;
   }
   if (const std::string note = unvalidated_note(rows); !note.empty()) text += wrapped(one_line(note), width, indent);
+  text += wrapped("h: hours of motion. glued .. free: 'replace after' if the parts inside the cables cannot slide, and if they slide "
+                  "without friction.", width, indent);
   text += details;
   std::string estimates;
   for (const std::string& one : estimate_words(rows)) estimates += wrapped(one_line(one), width, "");

@@ -211,8 +211,8 @@ class Table {
 
   void add_hose_and_causes() {
     constexpr const char* wall = UnvalidatedMode::wall;
-    add(of_mode("hose_life_hours", "h", "hours of motion until the hose's wall cracks; not validated", wall,
-                [](const UnvalidatedMode& mode) { return mode.hours[1]; }));
+    add(of_mode("hose_life_hours", "h", "hours of motion until the hose's wall cracks; not validated. Empty: the law contradicts a published test", wall,
+                [](const UnvalidatedMode& mode) { return is_credible(mode) ? mode.hours[1] : UnvalidatedMode::unknown; }));
     add(of_mode("hose_segment_from_tool", "1", "segment of the wall's worst place, 1 is nearest to the tool", wall,
                 [](const UnvalidatedMode& mode) { return mode.segment_from_tool; }));
     add(of_mode("hose_position_from_tool_m", "m", "the same along the dresspack, from the tool clamp", wall,

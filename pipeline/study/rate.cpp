@@ -166,6 +166,9 @@ CycleLives cycles_of(const RankingRow& row) {
   for (std::size_t i = 0; i < 3; ++i)
     lives.conductor[i] =
         (row.planned() ? row.by_scatter() : row.conductor_hours)[i] * 3600 / row.repeat_seconds;
+  if (std::isnan(row.glued_hours[1])) return lives;
+  lives.all_stick = row.glued_hours[1] * 3600 / row.repeat_seconds;
+  lives.all_free = row.free_hours[1] * 3600 / row.repeat_seconds;
   return lives;
 }
 
@@ -194,9 +197,12 @@ std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& ro
                         life_text(lives.all_stick) + " .. " + life_text(lives.all_free), maker);
   }
   return text +
-         "\ncycles: by which half of such cables have a conductor that lost its share of wires "
-         "(fatigue.failed_wires_percent) at one place, 10 .. 90 % of them by scatter;\nbounds: of the worst "
-         "wire. rolling_flex: round trips.\n";
+         "\ncycles: by then half of such cables have a conductor that has lost its share of wires "
+         "(fatigue.failed_wires_percent) at one place.\n10 .. 90 %: the same for 10 and 90 of 100 cables, by the scatter of "
+         "wires. inside glued .. free: cycles if the parts inside the cable cannot slide, and if they slide without friction.\n"
+         "rolling_flex: a cycle is a round trip. torsion: between held ends the wires take the change of length that the twist "
+         "asks for.\nA free lower end moves with it. Which of both lives longer depends on the lay. A heavier weight shortens the "
+         "life.\n";
 }
 
 std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows) {

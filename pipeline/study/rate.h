@@ -32,10 +32,12 @@ struct RateStudy {
 RateStudy rate_study(const std::filesystem::path& file, const std::filesystem::path& rigs,
                      const std::vector<std::string>& sets);
 
-/// Cycles of a rig: median of the worst wire, its bounds, and the cycles by which 10, 50 and 90 % of such cables have a
-/// conductor that lost its share of wires at one place.
+/// Cycles of a rig: median of the worst wire, and the cycles by which 10, 50 and 90 % of such cables have a conductor that lost
+/// its share of wires at one place.
 struct CycleLives {
-  double worst_wire = 0, all_stick = 0, all_free = 0;
+  double worst_wire = 0;
+  /// conductor[1] if the inside is glued, and if it slips freely; of files without a distribution the worst wire's median.
+  double all_stick = 0, all_free = 0;
   std::array<double, 3> conductor{};  ///< NaN: not known
 };
 CycleLives cycles_of(const RankingRow& row);

@@ -64,16 +64,12 @@ std::string joined_words(const std::vector<std::string>& sentences) {
 
 namespace {
 
-/// Where the law of the wall contradicts the only published test of a corrugated hose that was found: polyamide 11, 70 mm
-/// wide, no damage after 16 million bends (REIKU, internal flexibility test; its radius is not published and counts as the
-/// limit). Empty: it does not, or the life is long anyway.
+/// Of a wall whose life is not credible.
 std::string too_short_wall(const UnvalidatedMode& mode) {
-  constexpr double published_bends = 16e6, long_life = 1e5;  // [h]: no robot works so long
-  if (mode.bends_at_limit <= 0 || mode.bends_at_limit >= published_bends || !(mode.hours[1] < long_life)) return "";
   return fmt::format("The only known law gives {} bends from straight to the limit of the bend radius, and a published hose endured {} "
                      "without damage. Keep the maker's bend radius. A bending test by the maker, as strain_life_table of the material "
                      "of the wall, would give a life.",
-                     readable(mode.bends_at_limit), readable(published_bends));
+                     readable(mode.bends_at_limit), readable(published_wall_bends));
 }
 
 /// ", abrasion: from 25,000 h": the modes after earlier_unvalidated() that also come before the headline and the robot's life, the
@@ -166,6 +162,22 @@ const UnvalidatedMode* earlier_unvalidated(const RankingRow& row) {
   return first;
 }
 
+std::string unvalidated_legend(const std::vector<RankingRow>& rows) {
+  std::vector<std::string> modes;
+  std::map<std::string, int> first;  // jobs in which this mode may come first
+  for (const RankingRow& row : rows) {
+    if (!row.has_result()) continue;
+    if (const UnvalidatedMode* const mode = earlier_unvalidated(row)) ++first[mode->mode];
+    for (const UnvalidatedMode& mode : row.unvalidated)
+      if (std::find(modes.begin(), modes.end(), mode.mode) == modes.end()) modes.push_back(mode.mode);
+  }
+  if (modes.empty()) return "";
+  std::vector<std::string> counts;
+  for (const auto& [mode, jobs] : first) counts.push_back(fmt::format("{} in {} job{}", mode, jobs, jobs == 1 ? "" : "s"));
+  return fmt::format("Not in these hours, because no test confirms their laws: {}.{}", fmt::join(modes, ", "),
+                     counts.empty() ? "" : fmt::format(" * marks jobs in which one of them may come first: {}.", fmt::join(counts, ", ")));
+}
+
 std::string unvalidated_note(const std::vector<RankingRow>& rows) {
   std::vector<std::string> jobs;
   for (const RankingRow& row : rows)
@@ -174,8 +186,6 @@ std::string unvalidated_note(const std::vector<RankingRow>& rows) {
                                  further_unvalidated(row)));
   return jobs.empty() ? "" : fmt::format("* Plan with this number, and inspect for modes that are not validated. {}.", fmt::join(jobs, "; "));
 }
-
-bool is_credible(const UnvalidatedMode& mode) { return too_short_wall(mode).empty(); }
 
 bool is_believable(const RankingRow& row) {
   const std::vector<Warning> warnings = warnings_of(row);
@@ -206,7 +216,7 @@ std::string shown_calendar(const RankingRow& row) {
 std::string uncapped_words(const RankingRow& row) {
   const auto& [tenth, half, most] = row.planned_hours;
   if (!row.planned() || !std::isfinite(tenth) || !(most > row.robot_life_hours)) return "";
-  std::string text = fmt::format("By the model 1 of 10 such dresspacks has failed after {} ({})", hours_text(tenth),
+  std::string text = fmt::format("By the model 1 of 10 such dresspacks has failed after {} of motion ({})", hours_text(tenth),
                                  calendar_text(row.planned_months));
   if (std::isfinite(half)) text += ", half after " + hours_text(half);
   if (std::isfinite(most)) text += ", 90 % after " + hours_text(most);
@@ -251,7 +261,7 @@ std::string action_words(const RankingRow& row) {
     return joined_words({fmt::format("The {} last longer than the robot ({} h).", may_fail_before ? "wires" : "evaluated parts",
                                      readable(row.robot_life_hours)),
                          inspection, row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
-  return joined_words({fmt::format("Plan a replacement after {} ({}).", hours_text(hours), calendar_text(row.headline_months())),
+  return joined_words({fmt::format("Plan a replacement after {} of motion ({}).", hours_text(hours), calendar_text(row.headline_months())),
                        inspection});
 }
 
@@ -285,7 +295,7 @@ std::string joint_words(const RankingRow& row) {
 
 std::string unvalidated_words(const UnvalidatedMode& mode) {
   const std::string of = mode.dresspack.empty() ? "" : " of " + mode.dresspack;
-  if (mode.mode == UnvalidatedMode::wall && !is_credible(mode))
+  if (!is_credible(mode))
     return fmt::format("The life of the hose's wall{} is not predicted. {}", of, too_short_wall(mode));
   if (mode.mode == UnvalidatedMode::wall)
     return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.", of,

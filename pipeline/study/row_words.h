@@ -12,7 +12,7 @@ namespace dresslife::pipeline {
 /// Whether no warning says that the strains themselves are wrong.
 bool is_believable(const RankingRow& row);
 
-/// "Plan a replacement after 1,300 h (3.72 months).", or why not to plan with these hours. Empty: no result.
+/// "Plan a replacement after 1,300 h of motion (3.72 months).", or why not to plan with these hours. Empty: no result.
 std::string action_words(const RankingRow& row);
 
 /// The mode of which 1 of 10 has failed first, where that is before the headline and before the robot's own life: hours that
@@ -22,6 +22,9 @@ const UnvalidatedMode* earlier_unvalidated(const RankingRow& row);
 /// "* Plan with this number, and inspect for modes that are not validated. hard, abrasion: from 1,080 h." Of the rows that are marked with * in a
 /// table. Empty: none.
 std::string unvalidated_note(const std::vector<RankingRow>& rows);
+/// Below a table of many jobs: the modes that are not in its hours, and in how many jobs which of them may come first, as
+/// their * says. Empty: none was evaluated.
+std::string unvalidated_legend(const std::vector<RankingRow>& rows);
 
 /// A life in a table: "1,300", or beyond the robot's own life (fatigue.robot_life_hours) "over 40,000".
 std::string shown_life(const RankingRow& row, double hours);
@@ -47,8 +50,6 @@ std::string own_values_words(const RankingRow& row);
 /// "The strain of this wire follows joint_6 most.", that this is no cause, and the command that tries it. Empty: not known.
 std::string joint_words(const RankingRow& row);
 
-/// Whether the mode's law does not contradict the published test of a hose's wall.
-bool is_credible(const UnvalidatedMode& mode);
 /// "The life of the hose's wall is not validated .. By the model it is 3,400 h."; of abrasion also what rubs where and when.
 std::string unvalidated_words(const UnvalidatedMode& mode);
 /// Of all modes of a row. Empty: none was evaluated.

@@ -54,7 +54,7 @@ class XmlPlaces {
 
  private:
   [[noreturn]] void fail(int line, const std::string& what) const {
-    throw InputError({file_, line}, what, "mend the XML");
+    throw InputError({file_, line}, what, "correct the XML");
   }
 
   void advance(std::size_t to) {
@@ -194,7 +194,7 @@ urdf::ModelInterfaceSharedPtr parse(const std::string& text, const XmlPlaces& pl
   const std::string words =
       one_line(listener.errors.empty() ? "it names no reason" : listener.errors.front());
   throw InputError(places.mentioned(words), fmt::format("is no URDF that can be read (urdfdom: {})", words),
-                   "mend it");
+                   "correct it");
 }
 
 // ---- numbers ----------------------------------------------------------------------------------------------

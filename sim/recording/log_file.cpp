@@ -330,7 +330,7 @@ class Pass {
           where, fmt::format("{} of {} rows cannot be read; the first one {}", left_out, rows_, first_fault_),
           "export the log with one number per axis and a time stamp in every row");
     if (left_out == rows_)
-      throw InputError(where, "no row can be read; the first one " + first_fault_, "mend the rows");
+      throw InputError(where, "no row can be read; the first one " + first_fault_, "correct the rows");
   }
 
   const std::filesystem::path& file_;

@@ -133,11 +133,11 @@ class CornerSpeeds {
     bool changed = false;
     const int count = static_cast<int>(legs_.size());
     for (int pass = 0; pass < 2; ++pass)  // forward: leaving too fast; backward: entering too fast
-      for (int i = 0; i < count; ++i) changed |= mend(pass == 0 ? i : count - 1 - i);
+      for (int i = 0; i < count; ++i) changed |= correct(pass == 0 ? i : count - 1 - i);
     return changed;
   }
 
-  bool mend(int k) {
+  bool correct(int k) {
     if (legs_[k].dwell > 0) return false;
     const Corner entry = at_end(k - 1), exit = at_end(k);
     if (long_enough(k, entry.out, entry.after(), exit.in, exit.before())) return false;

@@ -460,7 +460,7 @@ Cure tension_cure(const CheckedMotion& motion, const std::vector<Check>& checks,
   const Check* slack = find(checks, check_name::too_short, broken.dresspack);
   if (slack && slack->warning) {
     const Cure longer = slack_cure(motion, checks, *slack);
-    return {"it is drawn taut: " + longer.cause, longer.remedy};
+    return {"it is pulled tight: " + longer.cause, longer.remedy};
   }
   const double percent = motion.setup.motion.acceleration_percent;
   return {"its weight and the acceleration of the program",
@@ -488,7 +488,7 @@ std::string hand_words(const Check& check) {
   return check.kind == WarningKind::twist ? (check.value > 0 ? ", right-hand" : ", left-hand") : "";
 }
 
-/// Of a dresspack that cannot be clamped or is drawn taut at this time.
+/// Of a dresspack that cannot be clamped or is pulled tight at this time.
 /// untried: what may help.
 std::string remedy_for(const CheckedMotion& motion, int dresspack, double time, const std::string& untried) {
   if (!can_be_tried(motion, dresspack)) return untried;

@@ -369,7 +369,7 @@ class Mounting {
     const std::unique_ptr<World> world = make_world(setup_, rod_, robot_, state, pose);
     const Equilibrium found = settle(*world, pose.links, settling_steps, rest);
     if (found.status == EquilibriumStatus::too_short)
-      fail(rod_.most_stretched(found.state).dresspack, "is drawn taut when it is clamped");
+      fail(rod_.most_stretched(found.state).dresspack, "is pulled tight when it is clamped");
     if (found.status != EquilibriumStatus::converged && !(found.residual < near_rest)) {
       const std::size_t contacts = world->contacts().size();
       const std::string what =
@@ -400,7 +400,7 @@ class Mounting {
       if (!world->advance(pose.clamps, pose.links).finite ||
           rod_.mean_elongation(world->state()) > longest_elongation)
         fail(rod_.most_stretched(world->state()).dresspack,
-             "is drawn taut on the way from the mounting pose to the first waypoint");
+             "is pulled tight on the way from the mounting pose to the first waypoint");
     }
     return world->state();
   }

@@ -348,8 +348,9 @@ class QuickChecks {
     const double limit =
         limits_of(setup_.dresspacks[static_cast<std::size_t>(dresspack)].dresspack).least_bend_radius;
     notes.push_back(fmt::format(
-        "Between these clamps {} has {} stable shapes at rest. In the shape with which a run begins its smallest bend radius "
-        "over the program is {:.0f} mm, in the other{} {} mm (limit {:.4g} mm). Clamp it as the preview of the run shows",
+        "Between these clamps {} can rest in {} different shapes. A run begins in the first one. There its smallest bend radius "
+        "over the program is {:.0f} mm, in the other{} {} mm (limit {:.4g} mm). After mounting, bring the hose into the first shape: "
+        "dresslife preview draws it",
         pipeline::dresspack_words(setup_, dresspack), radii.size(), 1e3 * radii.front(), radii.size() > 2 ? "s" : "", others,
         1e3 * limit));
   }
@@ -392,7 +393,7 @@ class QuickChecks {
 
 ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, int of) {
   ShortRun result;
-  // One repeat that leads in, and one that counts: what the first leaves wound may draw the next one taut.
+  // One repeat that leads in, and one that counts: what the first leaves wound may pull the next one tight.
   setup.simulation.most_repeats = std::min(setup.simulation.most_repeats, 2);
   try {
     const Simulation simulation(with_segments(std::move(setup), segments));

@@ -65,7 +65,7 @@ class Expansion {
   double pull_elongation(double twist) const {
     if (rig_.weight.value_or(0) == 0 && twist == 0) return 0;
     if (pipeline::pull_of_wires(dresspack_, dresspack_.components, 1e-3, 0) <= 0)
-      throw InputError(rig_.where, "weight_kg hangs on a cable without wires (they carry it)",
+      throw InputError(rig_.where, "weight_kg pulls on a cable without wires (only wires bear it)",
                        "give the cable its wires, or leave the weight out");
     return pipeline::elongation_under(dresspack_, dresspack_.components, gravity * *rig_.weight, twist);
   }

@@ -141,7 +141,7 @@ void Simulation::check_taut(const RodState& state, double time) const {
   if (elongation <= longest_elongation) return;
   throw RoutingRefusal(
       setup_.dresspacks[span.dresspack].routing.where,
-      fmt::format("{} is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
+      fmt::format("{} is pulled tight{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
                   pipeline::dresspack_words(setup_, span.dresspack), between_clamps(span), moment(time),
                   1e3 * elongation * span.properties.length, 1e2 * elongation),
       "give it more free length, or keep the motion from winding it around the robot (dresslife preview shows "

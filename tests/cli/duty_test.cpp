@@ -59,6 +59,41 @@ TEST_CASE("programs of a duty that start in different poses ask for the pose in 
   CHECK_FALSE(warned("25", "  mounting_pose_deg: [0, -10, 10, 0, 25, 0]\n"));
 }
 
+TEST_CASE("programs in files: poses come from the run, and one pose of all programs needs no warning") {
+  const Scratch scratch;
+  const auto program = [&](const std::string& file, const std::string& first, const std::string& then) {
+    const auto move = [](const std::string& joints) {
+      return "MoveAbsJ [[" + joints + "],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tool0;\n";
+    };
+    scratch.write(file, "MODULE m\nPROC main()\n" + move(first) + move(then) + move(first) + "ENDPROC\nENDMODULE\n");
+  };
+  program("one.mod", "0,-10,10,0,35,0", "0,-10,10,0,35,5");
+  program("same.mod", "0,-10,10,0,35,15", "0,-10,10,0,35,20");
+  program("away.mod", "0,-10,10,0,35,25", "0,-10,10,0,35,20");
+  scratch.write("job.yaml", R"(robot: abb_irb6640_185_280
+motion: one.mod
+dresspack: handling
+routing:
+  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}
+  tool_clamp: {link: link_6, position_m: [0.144, 0, 0.174], direction: [1, 0, -0.45]}
+  free_length_m: 2.035
+simulation: {segments: 8, sample_rate_Hz: 25}
+strain: {slip: stick}
+)");
+  scratch.write("study.yaml", "base: job.yaml\njobs:\n  one: {}\n  same: {motion: same.mod}\n  away: {motion: away.mod}\n");
+  const auto errors = [&](const std::string& programs) {
+    scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - {name: d, programs: [" + programs + "]}\n");
+    return must_run(scratch, "dresslife", "duty duties.yaml --quiet").err;
+  };
+  const std::string one = "{job: one, percent_of_time: 40}", same = "{job: same, percent_of_time: 30}",
+                    away = "{job: away, percent_of_time: 30}", mounted = "is mounted without twist in the first pose of 'one'";
+  CHECK(errors(one).find("mounted without twist") == std::string::npos);
+  CHECK(errors(one + ", " + same).find("mounted without twist") == std::string::npos);
+  const std::string warned = errors(one + ", " + same + ", " + away);
+  CHECK(warned.find(mounted + " and again in that of 'away' (an axis differs by more than 20 deg)") != std::string::npos);
+  CHECK(warned.find("mounted without twist") == warned.rfind("mounted without twist"));
+}
+
 TEST_CASE("a duty of one program in all of the time has the life of its job, and so have two equal programs") {
   const Scratch scratch;
   write_study(scratch);
@@ -123,7 +158,7 @@ fatigue: {robot_life_hours: 1.0e+7}
   // A tenth of the changes. The worst place may differ, so that damage is between the line and its ends.
   CHECK(damage("batches") > apart);
   CHECK(damage("batches") <= apart + 0.1 * (damage("in turns") - apart) * (1 + by_rows));
-  CHECK(outcome.out.find("Changes between the programs make the damage of 'wires") != std::string::npos);
+  CHECK(outcome.out.find("Changes between the programs make the damage of wires") != std::string::npos);
   CHECK(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);  // rounds are no jobs of the study
   CHECK(content(scratch / "runs/study/ranking.csv").find("left+right") == std::string::npos);
   // Without the joint angles of the programs an order is refused.

@@ -95,7 +95,7 @@ TEST_CASE("route and improve refuse a cable that no routing can give room, befor
                    "hose.yaml:13:5: error: no routing can keep the limits: 'cable' is compressed with "));
     CHECK_THAT(told.err, Catch::Contains(" % of its breaking force (") &&
                              Catch::Contains("Remedy: slack_percent: ") &&
-                             Catch::Contains("; mend the dresspack before the search\n"));
+                             Catch::Contains("; correct the dresspack before the search\n"));
     CHECK_FALSE(fs::exists(scratch / "found.yaml"));
     for (const char* folder : {"runs/abb_irb2600_12_165_route", "runs/job_improve"})
       CHECK(results_in(scratch / folder) == 0);

@@ -205,8 +205,8 @@ const Wrong wrong[] = {
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_g: 1200", "hose.yaml:5:1: error: ", "unknown key 'dresspack.mass_g'", "did you mean 'mass_kg_per_m'? Its unit is kg/m"},
     {"spot.mod", "MoveAbsJ a", "WaitTime -0.6;\n  MoveAbsJ a", "spot.mod:4:", "waits for -0.6 s (must be 0 or more)", "write 0.6 if the sign is a slip", "dresslife-sim module.yaml --preview -o out.h5"},
     // What a search may change
-    {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.lenght=2.05: error: unknown key 'routing.lenght'", "mend `free`, or --free", free_as("routing.lenght=2 .. 2.1")},
-    {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.free_length_m=2050: error: ", "mend `free`, or --free", free_as("routing.free_length_m=2000 .. 2100")},
+    {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.lenght=2.05: error: unknown key 'routing.lenght'", "correct `free`, or --free", free_as("routing.lenght=2 .. 2.1")},
+    {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.free_length_m=2050: error: ", "correct `free`, or --free", free_as("routing.free_length_m=2000 .. 2100")},
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: ", "items count from 1 to 1", free_as("dresspack.components.9.slack_percent=0.1 .. 2")},
     {"", "", "", "--free routing.free_length_m=2.1 .. 2.0: error: ", "which holds nothing", "write the smaller number first", free_as("routing.free_length_m=2.1 .. 2.0")},
     // Command lines

@@ -771,8 +771,7 @@ TEST_CASE("life.h5: the hose's wall is told beside the wires and not among them"
   CHECK(life.read<double>("/hose/damage")[1] == life.read<double>("/damage")[7]);
   CHECK_THAT(
       result.notes.summary,
-      Catch::Contains("breaks") && Catch::EndsWith(fmt::format("the hose's wall lasts {:.3g} h",
-                                                               life.number_attribute("hose_life_hours"))));
+      Catch::Contains("breaks") && Catch::EndsWith("the life of the hose's wall is not predicted"));  // 64 h of a law that is not credible
   // strains are kept to 7 decimals from the least of their pack on, which other sites shift; times the life's
   // slope
   constexpr double packed = 1e-5;

@@ -185,7 +185,7 @@ class RoundEmulation {
     if (const RankingRow* const row = rows_.done(job)) return *row;
     throw InputError(test.where,
                      fmt::format("'{}': its job failed: {}", test.observation.name, rows_.failure(job)),
-                     "mend it, or leave the row out");
+                     "correct it, or leave the row out");
   }
 
   /// How a cable bends: sums of its moments, or how fast its swing dies away.

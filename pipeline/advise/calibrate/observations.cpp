@@ -286,8 +286,12 @@ Prediction predicted(const Observation& observation, const Study& study,
     prediction.low = std::min(prediction.low, lives[0]);
     prediction.high = std::max(prediction.high, lives[2]);
     medians.push_back(lives[1]);
-    prediction.stuck = std::min(prediction.stuck, row->life_repeats_all_stick * bound);
-    prediction.free = std::max(prediction.free, row->life_repeats_all_free * bound);
+    // Of the same number as the medians: a conductor's, where the row has one.
+    const bool of_wire = observation.criterion == FailureCriterion::first_wire || std::isnan(row->glued_hours[1]);
+    const double from_hours = 3600 / row->repeat_seconds;
+    prediction.stuck =
+        std::min(prediction.stuck, (of_wire ? row->life_repeats_all_stick : row->glued_hours[1] * from_hours) * bound);
+    prediction.free = std::max(prediction.free, (of_wire ? row->life_repeats_all_free : row->free_hours[1] * from_hours) * bound);
   }
   std::sort(medians.begin(), medians.end());
   if (medians.empty()) return prediction;
@@ -309,7 +313,7 @@ Judgement judged(const Observation& observation, const Prediction& prediction) {
 
 std::string words_of(const Judgement& judgement) {
   const auto by = [&](const char* what) {
-    return std::isinf(judgement.factor) ? fmt::format("MISS: {}, without end", what)
+    return std::isinf(judgement.factor) ? fmt::format("MISS: {}, no failure predicted", what)
                                         : fmt::format("MISS: {} by {}", what, readable(judgement.factor, 2));
   };
   switch (judgement.agreement) {

@@ -73,7 +73,7 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
     throw InputError(test.where, fmt::format("'{}': {}", test.observation.name, what), remedy);
   };
-  if (!variant.failure.empty()) refuse("its job cannot be made: " + variant.failure, "mend it");
+  if (!variant.failure.empty()) refuse("its job cannot be made: " + variant.failure, "correct it");
   Runs runs;
   try {
     const Job plain = job_from(variant.job, sets_);
@@ -99,7 +99,7 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
     }
   } catch (const InputError& problem) {
     if (std::string(problem.what()).find("'" + test.observation.name + "': ") != std::string::npos) throw;
-    refuse(fmt::format("its job cannot be made: {}", problem.what()), "mend it");
+    refuse(fmt::format("its job cannot be made: {}", problem.what()), "correct it");
   }
   return runs;
 }

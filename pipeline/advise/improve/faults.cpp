@@ -15,7 +15,7 @@ std::vector<Warning> dresspack_faults(const Job& job, bool refuse) {
     if (refuse && !pressed.empty())
       throw InputError({pressed.front().where.empty() ? mounted.dresspack.name : pressed.front().where},
                        "no routing can keep the limits: " + pressed.front().words,
-                       "mend the dresspack before the search");
+                       "correct the dresspack before the search");
     all = joined(std::move(all), construction_warnings(mounted.dresspack, may_slide));
   }
   return all;

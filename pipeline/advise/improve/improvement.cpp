@@ -81,7 +81,7 @@ class Improver {
     for (const StudyJob& job : study.jobs) {
       if (!job.failure.empty())
         throw InputError({request.file.string()},
-                         fmt::format("job '{}' cannot be run: {}", job.name, job.failure), "mend it");
+                         fmt::format("job '{}' cannot be run: {}", job.name, job.failure), "correct it");
       done_.jobs.push_back(job.name);
       jobs_.push_back(job.job);
     }
@@ -184,7 +184,7 @@ class Improver {
       }
     }
     throw InputError({request_.file.string()}, "no value of what is free makes a job: " + failure,
-                     "mend `free`, or --free");
+                     "correct `free`, or --free");
   }
 
   /// Jobs whose routing can be screened, one of each set of equal geometry.

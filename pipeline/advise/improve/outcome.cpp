@@ -190,7 +190,7 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
   outcome.reached.resize(outcome_limits);
   outcome.failure = row.failure;
   if (!row.done() && !is_refusal(row.failure))
-    throw MachineFault({folder.string()}, "has no result (" + row.failure + ")", "mend that");
+    throw MachineFault({folder.string()}, "has no result (" + row.failure + ")", "correct that");
   if (!row.done()) return outcome;
   outcome.hours = row.headline_hours();
   outcome.robot_life = row.robot_life_hours;

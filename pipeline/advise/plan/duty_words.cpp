@@ -85,9 +85,15 @@ std::string percentile_words(const DutyResult& duty) {
   const auto& [tenth, half, most] = duty.past_hours > 0 ? duty.lives.remaining : duty.lives.percentiles;
   if (std::isinf(tenth)) return "";
   const double robot_life = robot_life_left(duty);
-  std::string words = fmt::format("Hours until 1 of 10, half and 90 % have failed: {}, {}, {}.",
-                                  shown_hours(robot_life, tenth), shown_hours(robot_life, half),
-                                  shown_hours(robot_life, most));
+  const auto calendar = [&](double hours) {
+    const double shown = std::min(hours, robot_life);
+    return fmt::format("{}{}", hours > shown ? "over " : "", calendar_text(months(shown, duty.hours_per_week)));
+  };
+  std::string words = fmt::format(
+      "Hours of operation, with standstill, until 1 of 10, half and 90 % have failed: {}, {}, {}. By the calendar, at {:g} h per "
+      "week: {}, {}, {}.",
+      shown_hours(robot_life, tenth), shown_hours(robot_life, half), shown_hours(robot_life, most), duty.hours_per_week,
+      calendar(tenth), calendar(half), calendar(most));
   if (duty.past_hours > 0)
     words += fmt::format(
         " These hours begin now, after {} of operation. By the model {:.0f} % of such dresspacks live until now; the hours are theirs.",
@@ -110,23 +116,21 @@ std::string caution_words(const DutyResult& duty) {
 }
 
 std::string mixture_words(const DutyResult& duty) {
-  constexpr double worth_a_word = 0.01;
+  constexpr double worth_a_word = 0.01, worth_a_place = 0.05;
   std::string text;
+  std::vector<std::string> larger;
   for (std::size_t m = 0; m < duty.modes.size(); ++m) {
     const double apart = duty.damage.same_place[m] / duty.changes[m];
-    if (apart < 1 - worth_a_word)
-      text += wrapped(
-          fmt::format(
-              "The programs wear different places: with all at one place the damage of '{}' would be {:.2g} times "
-              "as large.",
-              duty.modes[m], 1 / apart),
-          118, "  ");
+    if (1 / apart > 1 + worth_a_place) larger.push_back(fmt::format("{} by {:.0f} %", duty.modes[m], 100 / apart - 100));
     if (std::abs(duty.changes[m] - 1) > worth_a_word)
-      text +=
-          wrapped(fmt::format("Changes between the programs make the damage of '{}' {:.2f} times as large.",
-                              duty.modes[m], duty.changes[m]),
-                  118, "  ");
+      text += wrapped(fmt::format("Changes between the programs make the damage of {} {:.2f} times as large.", duty.modes[m],
+                                  duty.changes[m]),
+                      118, "  ");
   }
+  if (!larger.empty())
+    text += wrapped(fmt::format("The programs damage different places. If all damaged the same place, the damage would be larger: {}.",
+                                fmt::join(larger, ", ")),
+                    118, "  ");
   if (duty.parts.size() > 1 && !duty.has_order)
     text += wrapped("Cycles that begin in one program and end in another are not counted. With `order` they are.", 118, "  ");
   return text;

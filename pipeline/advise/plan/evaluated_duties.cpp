@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <span>
 #include <unordered_map>
@@ -16,6 +17,8 @@
 #include "pipeline/base/readable.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/base/warning_words.h"
+#include "pipeline/base/whole_file.h"
+#include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
@@ -86,30 +89,86 @@ void check_same_dresspack(const Duty& duty, const Jobs& jobs) {
 
 constexpr double turned = 20;  // [deg]: on a metre of hose a tenth of the twist that makers allow
 
-/// Where the robot starts; empty: a stage reads it from the program.
-std::vector<double> first_pose(const Job& job) {
+/// Joint angles [rad] in which a job's program starts; empty: not known.
+std::vector<double> first_pose_in(const Job& job) {
   return job.motion.steps.empty() ? std::vector<double>{} : job.motion.steps.front().joints;
 }
 
-bool starts_elsewhere(const Job& job, const Job& other) {
-  const std::vector<double> a = first_pose(job), b = first_pose(other);
-  if (a.empty() || a.size() != b.size()) return true;
-  for (std::size_t axis = 0; axis < a.size(); ++axis)
+/// The same of a robot program in a file, whose poses only a run knows. axes: of the robot; further ones move other machines.
+std::vector<double> first_pose_in(const RankingRow& row, std::size_t axes) {
+  const std::filesystem::path strain = row.life_file.parent_path() / "strain.h5";
+  std::vector<double> pose;
+  if (!row.has_result() || kind_of(strain) != FileKind::file) return pose;
+  const FileReader file(strain, strain_format());
+  if (!file.has("/robot/joint_position")) return pose;
+  file.read_rows("/robot/joint_position", 0, 1, pose);
+  if (pose.size() > axes) pose.resize(axes);
+  return pose;
+}
+
+bool is_turned(const std::vector<double>& a, const std::vector<double>& b) {
+  for (std::size_t axis = 0; axis < std::min(a.size(), b.size()); ++axis)
     if (std::abs(a[axis] - b[axis]) > turned * std::numbers::pi / 180) return true;
   return false;
 }
 
-/// The first program that starts elsewhere than the duty's first one; null: none, or the hose is mounted in one pose for all.
-const DutyProgram* mounted_elsewhere(const Duty& duty, const Jobs& jobs) {
-  const StudyJob& first = jobs.of(duty.programs.front());
-  if (!first.job || !first.job->motion.needs_robot() || first.job->dresspacks.empty() ||
-      !first.job->dresspacks.front().routing.mounting_pose.empty())
-    return nullptr;
-  for (const DutyProgram& program : duty.programs)
-    if (const StudyJob& job = jobs.of(program); job.job && starts_elsewhere(*first.job, *job.job))
-      return &program;
-  return nullptr;
-}
+/// The poses in which the programs of duties start. Those of a file are read once.
+class FirstPoses {
+ public:
+  /// rows: of the study after its run; null: before it.
+  FirstPoses(const Study& study, const std::vector<RankingRow>* rows) : jobs_(study), runs_(rows) {
+    if (rows)
+      for (const RankingRow& row : *rows) rows_.emplace(row.job, &row);
+  }
+  /// A warning if the hose is mounted in another pose for each program of the duty, and only the present state of the study
+  /// can say so: before the run of poses in jobs, after it of poses in program files.
+  std::optional<Warning> warning_of_mounting(const Duty& duty) {
+    const StudyJob& first = jobs_.of(duty.programs.front());
+    if (!first.job || !first.job->motion.needs_robot() || first.job->dresspacks.empty() ||
+        !first.job->dresspacks.front().routing.mounting_pose.empty())
+      return std::nullopt;
+    for (const DutyProgram& program : duty.programs) {
+      const StudyJob& other = jobs_.of(program);
+      if (!other.job || other.job == first.job || other.name == first.name) continue;
+      const bool in_jobs = !first_pose_in(*first.job).empty() && !first_pose_in(*other.job).empty();
+      if (in_jobs == runs_) continue;
+      const std::vector<double>&a = of(first), &b = of(other);
+      const bool known = !a.empty() && !b.empty();
+      if (!known && !runs_) continue;
+      if (known && !is_turned(a, b)) continue;
+      return warning(program, first.name, other.name, known);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  const std::vector<double>& of(const StudyJob& job) {
+    const auto [found, is_new] = poses_.try_emplace(job.name);
+    if (!is_new) return found->second;
+    found->second = first_pose_in(*job.job);
+    const auto row = rows_.find(job.name);
+    if (found->second.empty() && row != rows_.end())
+      found->second = first_pose_in(*row->second, job.job->robot.axes());
+    return found->second;
+  }
+  static Warning warning(const DutyProgram& program, const std::string& first, const std::string& other,
+                         bool known) {
+    return warning_of(
+        WarningKind::twist, program.where.text(),
+        fmt::format(
+            "the hose is mounted without twist in the first pose of '{}' and again in that of '{}' ({})",
+            first, other,
+            known ? fmt::format("an axis differs by more than {:g} deg", turned)
+                  : "these poses are not known, because the study keeps no strain.h5"),
+        "the study has no routing.mounting_pose_deg",
+        "routing.mounting_pose_deg: the joint angles in which the clamps were closed, for all programs");
+  }
+
+  Jobs jobs_;
+  bool runs_;
+  std::unordered_map<std::string_view, const RankingRow*> rows_;
+  std::map<std::string, std::vector<double>> poses_;
+};
 
 /// Precondition: the duty has an order.
 DutyProgram program_of_round(const Duty& duty) {
@@ -146,7 +205,7 @@ class Programs {
       throw InputError(program.where,
                        fmt::format("job '{}' has no result{}", program.job,
                                    row == rows_.end() ? "" : ": " + row->second->failure),
-                       "mend the job and run again");
+                       "correct the job and run again");
     return *row->second;
   }
 
@@ -346,19 +405,12 @@ void check_programs(const DutyFile& file, const Study& study) {
   problems.finish(file.where.file);
 }
 
-std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study) {
+std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study,
+                                       const std::vector<RankingRow>* rows) {
   std::vector<Warning> warnings;
-  const Jobs jobs(study);
+  FirstPoses poses(study, rows);
   for (const Duty& duty : file.duties)
-    if (const DutyProgram* const other = mounted_elsewhere(duty, jobs))
-      warnings.push_back(warning_of(
-          WarningKind::twist, other->where.text(),
-          fmt::format(
-              "the hose is mounted without twist in the first pose of '{}' and again in that of '{}' (they differ by more than {:g} "
-              "deg, or are not known before the run)",
-              duty.programs.front().job, other->job, turned),
-          "the study has no routing.mounting_pose_deg",
-          "routing.mounting_pose_deg: the joint angles in which the clamps were closed, for all programs"));
+    if (auto warning = poses.warning_of_mounting(duty)) warnings.push_back(std::move(*warning));
   return warnings;
 }
 

@@ -63,8 +63,11 @@ std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std:
 /// different dresspacks, routings or settings: their damage does not add up.
 void check_programs(const DutyFile& file, const Study& study);
 /// Duties whose programs start in different poses and whose study does not say in which the hose is mounted: each program's
-/// hose then has another twist. Precondition: check_programs().
-std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study);
+/// hose then has another twist. rows: of the study after its run, for programs in files, whose poses their strain.h5 holds;
+/// null before the run, for programs with their poses in the jobs. Precondition: check_programs(). Errors: InputError for a
+/// damaged strain.h5.
+std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study,
+                                       const std::vector<RankingRow>* rows);
 
 /// The rows of the programs that duties name.
 std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingRow>& rows);

@@ -192,6 +192,45 @@ std::string check_words(const std::optional<std::vector<CheckValue>>& checks, co
   return text;
 }
 
+std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::string, std::vector<AgeLimit>>& limits,
+                      const std::map<std::string, double>& week_hours) {
+  struct Reached {
+    std::vector<std::string> today, later;
+  };
+  std::map<std::string, Reached> by_mode;
+  for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+    const Installed& row = fleet.rows[i];
+    const auto known = limits.find(row.duty);
+    const auto usual = week_hours.find(row.duty);
+    if (known == limits.end() || (!row.hours_per_week && usual == week_hours.end())) continue;
+    const std::optional<std::size_t> window = plan.rows[i].window;
+    const Day last = window ? plan.windows[*window].first : plan.end;
+    const double weeks = static_cast<double>((last - plan.today).count()) / 7, age = plan.rows[i].age_hours,
+                 then = age + weeks * row.hours_per_week.value_or(usual == week_hours.end() ? 0 : usual->second);
+    for (const AgeLimit& limit : known->second) {
+      if (!(limit.hours <= then)) continue;
+      Reached& reached = by_mode[limit.mode];
+      (limit.hours <= age ? reached.today : reached.later).push_back(row.name);
+    }
+  }
+  std::string text;
+  const auto names = [](std::vector<std::string> all) {
+    constexpr std::size_t most_names = 20;  // four lines
+    if (const std::size_t count = all.size(); count > most_names) {
+      all.resize(most_names);
+      all.push_back(fmt::format("and {} more", count - most_names));
+    }
+    return fmt::format("{}", fmt::join(all, ", "));
+  };
+  for (const auto& [mode, reached] : by_mode) {
+    std::string line = fmt::format("Not validated and not in this plan: {}. At these ages 1 of 10 dresspacks has failed by it.", mode);
+    if (!reached.today.empty()) line += fmt::format(" Inspect now: {}.", names(reached.today));
+    if (!reached.later.empty()) line += fmt::format(" They reach this age before they are replaced: {}.", names(reached.later));
+    text += wrapped(line, width, "");
+  }
+  return text;
+}
+
 std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
   std::string text = fmt::format("{:<32}  {:>20}  {:>20}\n", "", "today's fleet", "what if");
   const auto line = [&](const std::string& what, const std::string& now, const std::string& then) {

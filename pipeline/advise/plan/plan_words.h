@@ -1,6 +1,7 @@
 // A plan as text for the terminal, as a table, and as a calendar.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,17 @@ std::string test_words(const std::vector<TestValue>& tests, const Plan& plan);
 /// values_of_checks(); inspection: of the jobs.
 std::string check_words(const std::optional<std::vector<CheckValue>>& checks, const Inspection& inspection, const Fleet& fleet,
                         const Plan& plan);
+
+/// By when a mode that no test validates has ended 1 of 10 dresspacks under a duty [h of operation], and its name.
+struct AgeLimit {
+  std::string mode;
+  double hours = 0;
+};
+/// Dresspacks that reach such an age before they are replaced, or before the end of the plan: a line for each mode, those that are
+/// past it today first. limits: (name of the duty) its modes. week_hours: (name of the duty) hours per week where the fleet gives none.
+/// Empty: none does.
+std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::string, std::vector<AgeLimit>>& limits,
+                      const std::map<std::string, double>& week_hours);
 
 /// A plan beside the one of today's fleet: failures, windows, spare dresspacks, cost, and the dresspacks with another window.
 std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);

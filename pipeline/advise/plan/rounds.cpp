@@ -99,7 +99,7 @@ JointCourse course_of(const OrderedProgram& program, const std::vector<RankingRo
     throw InputError(
         program.where,
         fmt::format("job '{}' has no result{}", program.job, row == rows.end() ? "" : ": " + row->failure),
-        "mend the job and run again");
+        "correct the job and run again");
   const std::filesystem::path strain = row->life_file.parent_path() / "strain.h5";
   if (kind_of(strain) != FileKind::file)
     throw InputError(
@@ -163,7 +163,7 @@ Study study_of_rounds(const DutyFile& file, const Study& study, const std::vecto
     if (first == study.jobs.end() || !first->job)
       throw InputError(duty.order.front().where,
                        fmt::format("job '{}' cannot be made", duty.order.front().job),
-                       "mend it: dresslife status STUDY gives the reason");
+                       "correct it: dresslife status STUDY gives the reason");
     Job job = *first->job;
     if (!job.robot.external_axes.empty())
       throw InputError(duty.order.front().where, "an order is not evaluated for a robot with external axes",

@@ -594,7 +594,7 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
     const auto number = values_.index(label);
     const auto& labels = routine().listing->labels;
     const auto found = number && number->number ? labels.find(whole(*number->number)) : labels.end();
-    if (found == labels.end()) return complain("jumps to a label that is not there", "mend the label");
+    if (found == labels.end()) return complain("jumps to a label that is not there", "correct the label");
     jump_to(found->second, false);
   }
   if (lower_case(statement().text).find("spot[") == std::string::npos) return;

@@ -184,7 +184,7 @@ std::optional<bool> FanucRun::assumed(int line) const {
 
 void FanucRun::call(const FanucListing& listing, std::vector<FanucValues::Argument> arguments) {
   if (static_cast<int>(routines_.size()) >= ImportLimits::calls) {
-    complain(fmt::format("calls {} programs deep (without end?)", ImportLimits::calls), "mend the recursion");
+    complain(fmt::format("calls {} programs deep (without end?)", ImportLimits::calls), "correct the recursion");
     throw Stop{};
   }
   if (const Problems& parsing = around_.parsing[listing.file]; !parsing.empty()) {
@@ -364,7 +364,7 @@ void FanucRun::block(const std::string& word) {
 }
 
 void FanucRun::jump(FanucCursor& at, bool certain) {
-  if (!at.take("LBL")) return complain("jumps to no LBL[n]", "mend the statement");
+  if (!at.take("LBL")) return complain("jumps to no LBL[n]", "correct the statement");
   const auto label = values_.index(at);
   const auto& labels = routine().listing->labels;
   if (!label || !label->number) {
@@ -375,7 +375,7 @@ void FanucRun::jump(FanucCursor& at, bool certain) {
   }
   const auto found = labels.find(whole(*label->number));
   if (found == labels.end())
-    return complain(fmt::format("jumps to LBL[{}], which is not there", *label->number), "mend the label");
+    return complain(fmt::format("jumps to LBL[{}], which is not there", *label->number), "correct the label");
   jump_to(found->second, certain);
 }
 
@@ -389,7 +389,7 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
     for (auto d = routine().decided.lower_bound(target); d != routine().decided.end() && *d <= here; ++d)
       exit |= outlook_.leads_out(*routine().listing, *d, target, here);
     if (!exit && !goes_on(target)) {
-      note("repeats without end: the motion is that until it repeats itself");
+      note("repeats without end: the motion ends where it repeats itself");
       throw Stop{};
     }
   }
@@ -714,7 +714,7 @@ void FanucRun::if_statement(FanucCursor& at) {
     return;
   }
   const std::string rest = fanuc_action(s.text);
-  if (rest.empty()) return complain("is no IF condition,action", "mend the statement");
+  if (rest.empty()) return complain("is no IF condition,action", "correct the statement");
   if (!decision) decision = undecided(rest);
   if (!decision || !*decision) return;
   FanucCursor jumping(rest);

@@ -239,7 +239,7 @@ class Inform final : public Dialect {
       Matrix3 axes;
       axes << x, z.cross(x), z;
       if (!axes.allFinite())
-        return run.complain(statement.place, "sets a frame by points that lie on a line", "mend the points");
+        return run.complain(statement.place, "sets a frame by points that lie on a line", "correct the points");
       numbers = fanuc_values_of({millimetre * at(0), Quaternion(axes)});
     }
     Value value = run.evaluate(given[1]);
@@ -497,7 +497,7 @@ class Inform final : public Dialect {
                false;
     }
     if (number && !(*number > 0))
-      return run_->complain(statement.place, "has a speed that is not above 0", "mend the speed"), false;
+      return run_->complain(statement.place, "has a speed that is not above 0", "correct the speed"), false;
     if (axes) move.speed.axis_percent = std::min(*number, 100.0);
     if (!axes && number) move.speed.tool = *number * unit_of_v(statement.place);
     if (turn && *turn > 0) move.speed.orientation = *turn * degree;
@@ -524,7 +524,7 @@ class Inform final : public Dialect {
     constexpr double highest = std::size(position_levels) - 1;
     if (level && !(*level >= 0 && *level <= highest))
       return run_->complain(statement.place, fmt::format("has PL={} (0 .. 8)", *level),
-                            "mend the position level"),
+                            "correct the position level"),
              false;
     if (radius)
       move.zone.distance = std::max(0.0, *radius) * millimetre;

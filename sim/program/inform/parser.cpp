@@ -62,7 +62,7 @@ class Words {
     skip_blanks();
     return text_.substr(at_);
   }
-  [[noreturn]] void fail(const std::string& what) { throw SyntaxError{place(), what, "mend the line"}; }
+  [[noreturn]] void fail(const std::string& what) { throw SyntaxError{place(), what, "correct the line"}; }
 
   /// The next word, up to a character that no name has: "MOVJ", "IN#", "R1_HAND-OFF" where dashes are allowed.
   std::string_view peek_word(bool dashes = false) {

@@ -214,7 +214,7 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
     if (within_itself_->by_motion() > 0) end_within_itself(*started_);  // its data count, its motion repeats
     complain(place,
              fmt::format("calls {} {} routines deep (without end?)", routine.written, ImportLimits::calls),
-             "mend the recursion");
+             "correct the recursion");
     throw Stop{};
   }
   for (const Problem& problem : routine.problems)
@@ -227,7 +227,7 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
     if (argument.if_present && !present(argument)) continue;
     const Parameter* parameter = parameter_of(routine, argument, position);
     if (!parameter) {
-      complain(argument.place, fmt::format("is no argument that {} takes", routine.written), "mend the call");
+      complain(argument.place, fmt::format("is no argument that {} takes", routine.written), "correct the call");
       continue;
     }
     Variable& variable = variables[parameter->name];
@@ -273,7 +273,7 @@ void Interpreter::call_within_itself(const Routine& routine) {
 void Interpreter::end_within_itself(const Routine& routine) {
   const std::size_t kept = within_itself_->kept(static_cast<std::size_t>(options_.passes));
   program_.instructions.resize(within_itself_->end(kept));
-  note(routine.place, fmt::format("{} is called within itself without end; the motion is {}", routine.written,
+  note(routine.place, fmt::format("{} calls itself without end; the motion is {}", routine.written,
                                   passes_text(static_cast<long>(kept))));
   throw Stop{};
 }

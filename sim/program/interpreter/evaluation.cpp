@@ -340,7 +340,7 @@ Value* Interpreter::locate(const Expression& expression) {
     const auto count = static_cast<double>(whole->items.size());
     if (!(index >= 1 && index <= count) || index != std::trunc(index)) {
       complain(expression.place, fmt::format("has the index {} of a list of {}", index - 1 + dialect_.first_index(), count),
-               "mend the index (the controller stops here)");
+               "correct the index (the controller stops here)");
       return nullptr;
     }
     whole = &whole->items[static_cast<std::size_t>(index) - 1];
@@ -461,7 +461,7 @@ bool Interpreter::shape(Value& value, const RecordType* type) const {
 void Interpreter::assign(const Expression& target, Value value) {
   charge(value.weight());
   if (value.depth() + target.depth > value_depth || value.weight() > ImportLimits::values) {
-    complain(target.place, "grows without end", "mend the assignment");
+    complain(target.place, "grows without end", "correct the assignment");
     value = {};
   }
   Value* place = locate(target);
@@ -487,7 +487,7 @@ void Interpreter::assign(const Expression& target, Value value) {
   const std::string path = path_of(target);
   if (path.empty()) return assign_somewhere(target);
   if (globals_.size() >= ImportLimits::values) {
-    complain(target.place, "is one variable too many", "mend the loop that makes them");
+    complain(target.place, "is one variable too many", "correct the loop that makes them");
     throw Stop{};
   }
   Scope& scope = scope_of(path);
@@ -696,7 +696,7 @@ Value Interpreter::aggregate(const Expression& expression) {
   }
   Value value = list_value(std::move(items), type);
   if (value.depth() <= value_depth) return value;
-  complain(expression.place, "grows without end", "mend the assignment");
+  complain(expression.place, "grows without end", "correct the assignment");
   return {};
 }
 
@@ -858,7 +858,7 @@ Value Interpreter::binary(const Expression& expression) {
     return a.kind == Value::Kind::truth ? truth_value(a.number != b.number) : Value{};
   if (a.kind == Value::Kind::text && op == "+") return text_value((a.text + b.text).substr(0, text_length));
   if (b.is_number() && b.number == 0 && (op == "/" || op == "div" || op == "mod")) {
-    complain(expression.place, "divides by zero", "mend the line (the controller stops here)");
+    complain(expression.place, "divides by zero", "correct the line (the controller stops here)");
     return {};
   }
   if (const Value relation = compared(op, a, b); relation.known()) return relation;

@@ -202,7 +202,7 @@ Interpreter::Flow Interpreter::execute_routine(const Routine& routine) {
   const Flow flow = execute(routine.body);
   if (flow != Flow::jump) return flow;
   complain(jump_->place, fmt::format("jumps to '{}', which is no label in a block around it", jump_->name),
-           "mend the label, or write a loop");
+           "correct the label, or write a loop");
   throw Stop{};
 }
 

@@ -82,16 +82,16 @@ bool Cursor::take_sign(std::string_view sign) {
 
 std::string Cursor::word(const char* what) {
   if (peek().kind != Token::Kind::word)
-    fail(fmt::format("has {} where {} is expected", seen(), what), "mend the line");
+    fail(fmt::format("has {} where {} is expected", seen(), what), "correct the line");
   return lower_case(next().text);
 }
 
 void Cursor::need_word(std::string_view word) {
-  if (!take_word(word)) fail(fmt::format("has {} where {} is expected", seen(), word), "mend the line");
+  if (!take_word(word)) fail(fmt::format("has {} where {} is expected", seen(), word), "correct the line");
 }
 
 void Cursor::need_sign(std::string_view sign) {
-  if (!take_sign(sign)) fail(fmt::format("has {} where '{}' is expected", seen(), sign), "mend the line");
+  if (!take_sign(sign)) fail(fmt::format("has {} where '{}' is expected", seen(), sign), "correct the line");
 }
 
 Place Cursor::place(int ahead) const { return {file_, peek(ahead).line, peek(ahead).column}; }
@@ -191,7 +191,7 @@ Expression Cursor::primary() {
   }
   if (at_sign("[") && !krl_) return aggregate_in_order();
   if (at_sign("{") && krl_) return aggregate_with_names();
-  fail(fmt::format("has {} where a value is expected", seen()), "mend the line");
+  fail(fmt::format("has {} where a value is expected", seen()), "correct the line");
 }
 
 Expression Cursor::aggregate_in_order() {
@@ -312,7 +312,7 @@ std::vector<Expression> Cursor::arguments(std::string_view close) {
       continue;
     }
     if (!comma)
-      fail(fmt::format("has {} where ',' or the end of the statement is expected", seen()), "mend the line");
+      fail(fmt::format("has {} where ',' or the end of the statement is expected", seen()), "correct the line");
     if (grammar_ == Grammar::urscript && peek().kind == Token::Kind::word && at_sign("=", 1)) {  // a=1.2
       const std::string option = word("the name of an argument");
       next();

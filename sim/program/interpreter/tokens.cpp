@@ -159,7 +159,7 @@ class Cutter {
       at_ = close + 1;
       return;
     }
-    complain(begin, "opens no number of the form 'H1F' or 'B0110'", "mend or remove it");
+    complain(begin, "opens no number of the form 'H1F' or 'B0110'", "correct or remove it");
     ++at_;
   }
 

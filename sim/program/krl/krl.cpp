@@ -532,7 +532,7 @@ void Krl::go_round(const Statement& statement, const Expression* whole_angle,
     run.complain(
         statement.place,
         arc ? "goes round by more than ten turns" : "has no circle: its points lie on a line, or two are one",
-        "mend the points");
+        "correct the points");
   } else if (!turning && from.orientation.angularDistance(to.orientation) > taught_alike) {
     run.complain(statement.place, "turns the tool while it goes round by CA (KUKA's law is not public)",
                  "write the end of the arc as the target, without CA");

@@ -98,7 +98,7 @@ class KrlParser : StatementParser {
   bool line_done() const { return at_.at_end() || at_.peek().kind == Token::Kind::line_end; }
   void need_line_end() {
     if (!line_done())
-      at_.fail(fmt::format("has {} behind the end of the statement", at_.seen()), "mend the line");
+      at_.fail(fmt::format("has {} behind the end of the statement", at_.seen()), "correct the line");
     skip_line_ends();
   }
 
@@ -232,7 +232,7 @@ class KrlParser : StatementParser {
     for (const char* name : living_names)
       if (at_.at_word(name)) return left_out(s, into);
     if (at_.peek().kind != Token::Kind::word)
-      at_.fail(fmt::format("has {} where a statement is expected", at_.seen()), "mend the line");
+      at_.fail(fmt::format("has {} where a statement is expected", at_.seen()), "correct the line");
     if (at_.take_word("if"))
       if_statement(s);
     else if (at_.take_word("for"))
@@ -543,7 +543,7 @@ class KrlParser : StatementParser {
       return;
     }
     if (target.kind != Expression::Kind::call && target.kind != Expression::Kind::name)
-      at_.fail("is neither an assignment nor a call", "mend the line");
+      at_.fail("is neither an assignment nor a call", "correct the line");
     s.name = target.text;
     s.text = target.text;
     if (target.kind == Expression::Kind::call) s.arguments = std::move(target.items);

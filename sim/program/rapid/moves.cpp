@@ -115,7 +115,7 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
   const RecordType* record = code_.record(type);
   if (value.type == record || (!value.type && value.kind == Value::Kind::list && run.shape(value, record)))
     return value;
-  run.complain(written.place, fmt::format("has no {} where {} is expected", type, what), "mend the argument");
+  run.complain(written.place, fmt::format("has no {} where {} is expected", type, what), "correct the argument");
   return {};
 }
 
@@ -445,7 +445,7 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
   displacement_ = Frame{};
   if (!programmed || !tool) {
     run.complain(statement.place, "has a PDispOn without the programmed point or the tool",
-                 "mend the instruction");
+                 "correct the instruction");
     return;
   }
   Expression world;  // without \WObj

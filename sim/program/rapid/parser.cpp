@@ -74,7 +74,7 @@ class RapidParser : StatementParser {
       return;
     }
     at_.fail(fmt::format("has {} where a declaration or a routine is expected", at_.seen()),
-             "mend the module");
+             "correct the module");
   }
 
   void record() {

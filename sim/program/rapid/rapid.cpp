@@ -182,7 +182,7 @@ bool Rapid::arithmetic(const Statement& statement, Interpreter& run) {
   if (!one && name != "add") return false;
   if (statement.arguments.size() != (one ? 1 : 2)) {
     run.complain(statement.place, fmt::format("gives {} another number of arguments", statement.text),
-                 "mend the line");
+                 "correct the line");
     return true;
   }
   const Expression& target = statement.arguments[0];

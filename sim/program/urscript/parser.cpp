@@ -118,7 +118,7 @@ class ScriptParser : StatementParser {
       call(s);
     }
     if (!line_done() && at_.peek().kind != Token::Kind::word)  // one line may hold several statements
-      at_.fail(fmt::format("has {} behind the end of the statement", at_.seen()), "mend the line");
+      at_.fail(fmt::format("has {} behind the end of the statement", at_.seen()), "correct the line");
     into.push_back(std::move(s));
   }
 
@@ -135,7 +135,7 @@ class ScriptParser : StatementParser {
     const Expression* base = &target;
     while (base->kind == Expression::Kind::field || base->kind == Expression::Kind::element)
       base = &base->items[0];
-    if (base->kind != Expression::Kind::name) at_.fail("assigns to what is no variable", "mend the line");
+    if (base->kind != Expression::Kind::name) at_.fail("assigns to what is no variable", "correct the line");
     if (global || routines_here_.empty())
       globals_.insert(base->text);
     else if (local)
@@ -174,7 +174,7 @@ class ScriptParser : StatementParser {
       }
     Expression target = at_.reference();
     if (target.kind != Expression::Kind::call && target.kind != Expression::Kind::name)
-      at_.fail("is neither an assignment nor a call", "mend the line");
+      at_.fail("is neither an assignment nor a call", "correct the line");
     s.name = target.text;
     s.text = target.text;
     if (target.kind == Expression::Kind::call) s.arguments = std::move(target.items);

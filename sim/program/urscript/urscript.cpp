@@ -280,7 +280,7 @@ class Script final : public Dialect {
     const Value value = run_->answered(*written);
     if (value.is_number() && value.number >= 0) return value.number;
     if (value.known())
-      run_->complain(written->place, fmt::format("has no number from 0 on as {}", name), "mend it");
+      run_->complain(written->place, fmt::format("has no number from 0 on as {}", name), "correct it");
     else
       run_->ask_for(value, written->place,
                     fmt::format("has a value of {} that is known only while the robot runs", name), "",
@@ -310,7 +310,7 @@ class Script final : public Dialect {
     } else {
       if (value.known())
         run_->complain(written.place, "moves to what is neither a pose nor a list of joint angles",
-                       "mend the target");
+                       "correct the target");
       else
         run_->ask_for(value, written.place, "moves to a place that is known only while the robot runs", "",
                       "p[x, y, z, rx, ry, rz] in m and rad, or joint angles [a, b, c, d, e, f] in rad");

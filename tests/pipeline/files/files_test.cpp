@@ -604,7 +604,7 @@ TEST_CASE("files: attributes of the wrong kind are refused") {
         file + ": error: attribute 'job' is missing" + remedy);
 }
 
-TEST_CASE("files: a place that cannot be written is the user's to mend") {
+TEST_CASE("files: a place that cannot be written is the user's to correct") {
   const Scratch scratch;
   const fs::path file = scratch / "no folder/f.h5";
   CHECK(

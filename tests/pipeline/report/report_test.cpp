@@ -92,6 +92,34 @@ TEST_CASE("report: which joint and which clamp cost the life, and the hose besid
   CHECK(old.find("<dt>hose's wall") == std::string::npos);
 }
 
+TEST_CASE("report: a wall's life that is not credible has no number, and the legend of * names the modes that may come first") {
+  const Scratch scratch;
+  UnvalidatedMode wall{UnvalidatedMode::wall, "", {UnvalidatedMode::unknown, 157.25, UnvalidatedMode::unknown}};
+  wall.bends_at_limit = 2980, wall.place = "hose 6", wall.segment_from_tool = 1;
+  UnvalidatedMode jacket{UnvalidatedMode::jacket, "", {200, 5000, 90000}};
+  jacket.place = "power cable 1";
+  SampleLife life;
+  life.unvalidated = unvalidated_text({jacket, wall});
+  write_sample_life(scratch / "one.h5", life);
+  const auto rows = read_ranking({{"one", scratch / "one.h5", ""}});
+  const std::string page = report_page("wall", rows), csv = ranking_csv(rows);
+  const std::string table = std::regex_replace(ranking_table(rows), std::regex("\n +"), " ");
+  for (const std::string& text : {page, table}) CHECK(text.find("157 h") == std::string::npos);
+  CHECK(csv.find(",157.25,") == std::string::npos);
+  for (const std::string& text : {page, table})
+    CHECK(text.find("The life of the hose") != std::string::npos);
+  CHECK(table.find("The life of the hose's wall is not predicted.") != std::string::npos);
+  CHECK(page.find("confirms their laws: jacket wear, hose") != std::string::npos);
+  CHECK(page.find("* marks jobs in which one of them may come first: jacket wear in 1 job.") != std::string::npos);
+  // With a law that agrees with the test the number stands everywhere.
+  wall.bends_at_limit = 2e7;
+  life.unvalidated = unvalidated_text({jacket, wall});
+  write_sample_life(scratch / "two.h5", life);
+  const auto known = read_ranking({{"two", scratch / "two.h5", ""}});
+  CHECK(report_page("wall", known).find("157 h") != std::string::npos);
+  CHECK(ranking_csv(known).find(",157.25,") != std::string::npos);
+}
+
 TEST_CASE("report: of several dresspacks each has its shortest life and the worst one is named") {
   const Scratch scratch;
   SampleLife life;

@@ -298,7 +298,7 @@ TEST_CASE("job: joints that follow and external axes") {
     CHECK_THAT(message_of([&] { job_of_text(text); }), Catch::Contains(words));
   };
   refused(with("{name: track, lower_mm: 5, upper_mm: 5, speed_mm_per_s: 1, acceleration_mm_per_s2: 1}"),
-          "limits of track are empty (lower >= upper); mend them");
+          "limits of track are empty (lower >= upper); correct them");
   refused(with("{name: track, lower_mm: 0, upper_mm: 5, speed_mm_per_s: 0, acceleration_mm_per_s2: 1}"),
           "speed_mm_per_s is 0 (must be > 0 mm/s)");
   refused(with("{name: track, lower_mm: 0, upper_mm: 5, speed_mm_per_s: 1, acceleration_mm_per_s2: 1, axis: "
@@ -406,7 +406,7 @@ TEST_CASE("job: a dresspack may have limits of its maker") {
 
 TEST_CASE("job: what contradicts itself is refused") {
   check_case({"lower_deg: -60.1", "lower_deg: 90", "{name: axis_2",
-              "limits of axis_2 are empty (lower >= upper); mend them"});
+              "limits of axis_2 are empty (lower >= upper); correct them"});
   check_case(
       {"axis: [0, 1, 0]", "axis: [0, 0, 0]", "{name: axis_2", "axis of axis_2 is zero; give its direction"});
   check_case({"{dwell_s: 0.5}", "{dwell_s: 0.5, joints_deg: [0, 0]}", "{dwell_s",

@@ -103,7 +103,7 @@ TEST_CASE(
 
 TEST_CASE("document: a stray comma at the start is refused") {
   // The library's own loop over documents never ends on it.
-  CHECK(refusal(",").find("is not YAML (no value begins like this); mend the line") != std::string::npos);
+  CHECK(refusal(",").find("is not YAML (no value begins like this); correct the line") != std::string::npos);
   CHECK(refusal("# remark\n, a: 1\n").starts_with("f.yaml:2:1: error: is not YAML"));
 }
 

@@ -74,8 +74,8 @@ TEST_CASE("problems: one is told as it ever was, the same line once, and no more
   Problems problems;
   CHECK_NOTHROW(problems.finish());
   const Where here{"a.yaml", 3, 1};
-  for (int i = 0; i < 2; ++i) problems.add(here, "is wrong", "mend it", "a.b");
-  CHECK(message_of([&] { problems.finish("a.yaml"); }) == "a.yaml:3:1: error: is wrong; mend it");
+  for (int i = 0; i < 2; ++i) problems.add(here, "is wrong", "correct it", "a.b");
+  CHECK(message_of([&] { problems.finish("a.yaml"); }) == "a.yaml:3:1: error: is wrong; correct it");
   CHECK(problems.touch("a"));
   CHECK(problems.touch("a.b"));
   CHECK(problems.touch("a.b[2].c"));
@@ -85,7 +85,7 @@ TEST_CASE("problems: one is told as it ever was, the same line once, and no more
   problems.add({"a.yaml", 2, 1}, "beyond what is kept", "");
   const std::vector<std::string> lines = problem_lines(message_of([&] { problems.finish("a.yaml"); }));
   CHECK(lines.size() == 101);
-  CHECK(lines.front() == "a.yaml:3:1: error: is wrong; mend it");
+  CHECK(lines.front() == "a.yaml:3:1: error: is wrong; correct it");
   CHECK(lines.back() == "a.yaml: error: only the first 100 problems are shown; correct them first");
 }
 

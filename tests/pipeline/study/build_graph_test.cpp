@@ -481,11 +481,11 @@ TEST_CASE("build graph: a failed stage stops its job only, is told with its reas
   const Study study = bench.study({{"bad", "simulation.segments=20"}, {"good", "simulation.segments=40"}});
   bench.report_stage("bad", "fail-strain");
   bench.run(study);
-  CHECK(bench.states()[0].failure == "job.yaml:1:1: error: strain broke; mend it");
+  CHECK(bench.states()[0].failure == "job.yaml:1:1: error: strain broke; correct it");
   CHECK(bench.states()[1].done());
   CHECK(bench.calls("bad") == "sim strain ");
   CHECK(bench.calls("good") == "sim strain fatigue ");
-  CHECK(bench.words(study) == Words{"failed   job.yaml:1:1: error: strain broke; mend it", "done"});
+  CHECK(bench.words(study) == Words{"failed   job.yaml:1:1: error: strain broke; correct it", "done"});
   const Study other = bench.study({{"bad", "simulation.segments=21"}, {"good", "simulation.segments=40"}});
   CHECK(bench.words(other) == Words{"stale", "done"});  // those settings have not failed
   CHECK(
@@ -573,7 +573,7 @@ TEST_CASE("build graph: when ninja dies, what it did not reach is not done and s
   }
   // Two stages run at a time; the third that waits still has the receipt of its old settings.
   CHECK(reasons ==
-        std::multiset<std::string>{"job.yaml:1:1: error: sim broke; mend it",
+        std::multiset<std::string>{"job.yaml:1:1: error: sim broke; correct it",
                                    "dresslife-sim was broken off: ninja was ended by signal 9; run again",
                                    "dresslife-sim was broken off: ninja was ended by signal 9; run again",
                                    "it was not reached: ninja was ended by signal 9; run again"});

@@ -50,17 +50,17 @@ TEST_CASE("changes: a search ends when a file that its jobs read changes, goes o
     }
     return "";
   };
-  const std::string mend = " during the search; let nothing change it meanwhile, then run again";
+  const std::string correct = " during the search; let nothing change it meanwhile, then run again";
   scratch.write("other.src", "DEF other()\nEND\n");  // which it does not call
   CHECK(ended().empty());
   scratch.write("grip.src", "DEF grip()\nEND\n");
-  CHECK(ended() == (scratch / "grip.src").string() + ": error: came beside the program" + mend);
+  CHECK(ended() == (scratch / "grip.src").string() + ": error: came beside the program" + correct);
   fs::remove(scratch / "grip.src");
   CHECK(ended().empty());
   scratch.write("weld.dat", "DEFDAT weld\n;other\nENDDAT\n");
-  CHECK(ended() == (scratch / "weld.dat").string() + ": error: has changed" + mend);
+  CHECK(ended() == (scratch / "weld.dat").string() + ": error: has changed" + correct);
   fs::remove(scratch / "weld.dat");
-  CHECK(ended() == (scratch / "weld.dat").string() + ": error: was removed" + mend);
+  CHECK(ended() == (scratch / "weld.dat").string() + ": error: was removed" + correct);
 }
 
 }  // namespace

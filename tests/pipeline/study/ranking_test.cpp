@@ -731,7 +731,7 @@ TEST_CASE("ranking: of one job the first words say what to do, forces that canno
   SampleLife life = living(20000);
   life.planned_hours = 1300, life.life_response = response_of(4);
   auto rows = read_ranking({job_with(scratch, "one", life)});
-  CHECK(ranking_table(rows).starts_with("Plan a replacement after 1,300 h (3.74 months).\n"));
+  CHECK(ranking_table(rows).starts_with("Plan a replacement after 1,300 h of motion (3.74 months).\n"));
   rows[0].warnings = std::vector<Warning>{{WarningKind::force, "", "cables pull"}};
   CHECK(ranking_table(rows).starts_with("Do not plan with 1,300 h: forces (see the warnings).\n"));
 }
@@ -775,7 +775,7 @@ TEST_CASE("ranking: a life beyond the robot's own is shown as such, with its hou
   const std::string table = ranking_table(long_lived, 200);
   CHECK_THAT(table, Catch::StartsWith("The evaluated parts last longer than the robot (40,000 h)."));
   CHECK_THAT(table, Catch::Contains("over 40,000  over 9.6 years      over 40,000      over 40,000          5,000 .. over 40,000"));
-  CHECK_THAT(table, Catch::Contains("1 of 10 such dresspacks has failed after 50,000 h (12 years), half after 75,000 h, 90 % after 125,000 h"));
+  CHECK_THAT(table, Catch::Contains("1 of 10 such dresspacks has failed after 50,000 h of motion (12 years), half after 75,000 h, 90 % after 125,000 h"));
   CHECK_THAT(ranking_csv(long_lived), Catch::Contains("50000"));
   CHECK_THAT(ranking_table(last_within, 200), Catch::StartsWith("Plan a replacement after 40,000 h"));
   CHECK_THAT(ranking_table(short_lived, 200), !Catch::Contains("over 40,000") && !Catch::Contains("By the model"));

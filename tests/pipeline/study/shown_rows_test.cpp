@@ -16,7 +16,7 @@ std::vector<RankingRow> ranking(int done, int failed) {
     RankingRow& row = rows.emplace_back();
     row.job = fmt::format("job_{}", k + 1);
     row.life_hours = 1e6 - k;
-    if (k >= done) row.failure = "job.yaml: error: no; mend it";
+    if (k >= done) row.failure = "job.yaml: error: no; correct it";
   }
   return rows;
 }

@@ -212,8 +212,8 @@ TEST_CASE("urdf: what is wrong is told with its line") {
   const auto refused = [&](const std::string& from, const std::string& to, const std::string& needle,
                            const std::string& words) { told(changed(from, to), needle, words, request()); };
   refused("</collision></link>\n  <link name=\"turret\"/>", "</link>\n  <link name=\"turret\"/>",
-          "</link>\n  <link name=\"turret", "</link> closes nothing that is open; mend the XML");
-  refused("</robot>", "", "<robot", "<robot> is not closed; mend the XML");
+          "</link>\n  <link name=\"turret", "</link> closes nothing that is open; correct the XML");
+  refused("</robot>", "", "<robot", "<robot> is not closed; correct the XML");
   refused("made-up palletizer -->", "made-up palletizer", "<!--", "a comment is not closed");
   refused("lower=\"-1\" upper=\"1.5\"", "lower=\"abc\" upper=\"1.5\"", "",
           "is no URDF that can be read (urdfdom: ");

@@ -181,7 +181,7 @@ TEST_CASE("krl: jumps over moves and back to a label, and an endless one is one 
   REQUIRE(endless.program.skipped.size() == 1);
   CHECK(endless.program.skipped[0].what == "an endless loop; the motion is one pass");
   CHECK(run(start + "GOTO nowhere").problem() ==
-        "cell.src:6:6: error: jumps to 'nowhere', which is no label in a block around it; mend the label, or "
+        "cell.src:6:6: error: jumps to 'nowhere', which is no label in a block around it; correct the label, or "
         "write a loop");
   const Reading asked = run(start + "IF $IN[1] THEN\n GOTO done\nENDIF\nLIN {X 1}\ndone:\nLIN {X 2}");
   CHECK(asked.problems.size() == 1);

@@ -242,11 +242,11 @@ TEST_CASE("cures: ten diameters count where no bend radius is given, and the war
              Catch::Contains("dresspack.least_bend_radius_mm is not given, so that ten diameters count"));
 }
 
-TEST_CASE("cures: a hose that is drawn taut is cured by its length, one that its weight pulls by its limit") {
+TEST_CASE("cures: a hose that is pulled tight is cured by its length, one that its weight pulls by its limit") {
   pipeline::Job job = swinging_job(0.952);
   job.dresspacks[0].dresspack.most_tension = 20;
   const std::string words = words_of(job, pipeline::WarningKind::tension);
-  CHECK_THAT(words, Catch::Contains("it is drawn taut"));
+  CHECK_THAT(words, Catch::Contains("it is pulled tight"));
   CHECK(value_of(words, "routing.free_length_m") > 0.96);
   job.dresspacks[0].routing.free_length = 1.2;
   job.dresspacks[0].dresspack.bending_stiffness = 0.02;  // it hangs: a stiffer one stands on its clamps
@@ -307,7 +307,7 @@ TEST_CASE("cures: remedies that are applied end within three rounds without a wa
     CAPTURE(name, job.dresspacks[0].routing.free_length);
     std::string words = of_length_and_bend(job), all = words;
     const bool warned = !words.empty();
-    taut += words.find("is drawn taut") != std::string::npos;
+    taut += words.find("is pulled tight") != std::string::npos;
     const auto gives_up = [&] {
       return words.find("no length and no direction of these two clamps") != std::string::npos &&
              words.find("`dresslife route`") != std::string::npos;
@@ -339,7 +339,7 @@ TEST_CASE("cures: a job that the simulation refuses as taut runs with the length
   };
   const auto refused = refusal();
   REQUIRE(refused);
-  CHECK_THAT(refused->problem, Catch::Contains("is drawn taut"));
+  CHECK_THAT(refused->problem, Catch::Contains("is pulled tight"));
   const std::string remedy = refusal_remedy(job, *refused);
   INFO(remedy);
   job = remedied(job, "Remedy: " + remedy);

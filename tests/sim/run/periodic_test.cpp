@@ -115,7 +115,7 @@ TEST_CASE("periodic: what the lead-in cannot do is told by the motion itself") {
   job.simulation.floor = false;
   const Simulation simulation(job);
   CHECK_THROWS_WITH(simulation.run({[](const Sample&) {}}),
-                    Catch::Contains("drawn taut") && Catch::Contains("wind up"));
+                    Catch::Contains("pulled tight") && Catch::Contains("wind up"));
 }
 
 TEST_CASE("periodic: the repeat that leads in leaves the result that exact repeats give") {

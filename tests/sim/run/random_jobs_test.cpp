@@ -115,7 +115,7 @@ std::string outcome(unsigned seed) {
     CHECK(highest - at_rest < 0.1 + 0.01 * elastic);
     return "ended";
   } catch (const pipeline::InputError& error) {
-    for (const char* kind : {"is drawn taut", "mm too short", "mm deep through", "does not come to rest",
+    for (const char* kind : {"is pulled tight", "mm too short", "mm deep through", "does not come to rest",
                              "finds no equilibrium"})
       if (std::string(error.what()).find(kind) != std::string::npos) return kind;
     return error.what();

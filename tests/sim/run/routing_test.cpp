@@ -138,7 +138,7 @@ TEST_CASE("routing: a clamp in the middle is held where the job says and parts t
   CHECK(apart < alike);
 }
 
-TEST_CASE("routing: a span that is too short or drawn taut is named") {
+TEST_CASE("routing: a span that is too short or pulled tight is named") {
   const std::string short_span = message_of(job_text(
       ends +
       "  clamps: [{link: spindle, position_m: [0.5, 0, 0], direction: [1, 0, 0], at_length_m: 0.45}]\n"));

@@ -211,7 +211,7 @@ TEST_CASE("simulate: a dresspack that winds itself taut stops the run") {
   const Simulation simulation(job);
   int samples = 0;
   CHECK_THROWS_WITH(simulation.run({[&](const Sample&) { ++samples; }}),
-                    Catch::Contains("job.yaml:8:3: error: dresspack is drawn taut at ") &&
+                    Catch::Contains("job.yaml:8:3: error: dresspack is pulled tight at ") &&
                         Catch::Contains("program step 2 'wind up': ") &&
                         Catch::Contains("mm are missing"));
   CHECK(samples > 10);

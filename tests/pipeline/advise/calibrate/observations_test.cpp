@@ -157,7 +157,7 @@ TEST_CASE("observations: a prediction misses where its whole range is on the wro
   CHECK(judged_at(5, ObservedEnd::broken).factor == 2);
   CHECK(judged_at(200, ObservedEnd::rating).factor == 2);
   CHECK(words_of(judged_at(200, ObservedEnd::rating)) == "MISS: too short by 2.0");
-  CHECK(words_of({Agreement::too_long, endless}) == "MISS: too long, without end");
+  CHECK(words_of({Agreement::too_long, endless}) == "MISS: too long, no failure predicted");
   Observation observation;
   observation.hours = 460;
   CHECK(observed_text(observation) == "460 h");

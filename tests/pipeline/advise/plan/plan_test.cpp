@@ -49,6 +49,33 @@ std::vector<int> many(std::size_t count, int age) { return std::vector<int>(coun
 
 }  // namespace
 
+TEST_CASE("a plan names the dresspacks that reach the age of a mode without validation") {
+  // Ages 5, 40 and 60 weeks of 70 h: 350, 2,800 and 4,200 h. The plan ends 24 weeks from today, by its two windows.
+  Fleet fleet = fleet_of({5, 40, 60});
+  Plan plan = plan_of(fleet, {{"d", weibull(3, {1e6})}}, windows_in({4, 14}), start, {0.2, false});
+  REQUIRE((plan.end - plan.today).count() == 24 * 7);
+  const auto words = [&](double hours) {
+    std::string text = age_words(fleet, plan, {{"d", {{"jacket wear", hours}}}}, {{"d", week}});
+    std::replace(text.begin(), text.end(), '\n', ' ');  // in one line
+    return text;
+  };
+  CHECK(words(2900).find("jacket wear") != std::string::npos);
+  CHECK(words(2900).find("Inspect now: r2.") != std::string::npos);
+  CHECK(words(2900).find("before they are replaced: r1.") != std::string::npos);  // 2,800 + 24 weeks of 70 h
+  CHECK(words(100).find("Inspect now: r0, r1, r2.") != std::string::npos);
+  CHECK(words(4200 + 24 * week + 1).empty());
+  CHECK(age_words(fleet, plan, {}, {}).empty());
+  // Replaced in the first window it grows no older than 4 weeks more.
+  for (RowPlan& row : plan.rows) row.window = 0;
+  CHECK(words(2800 + 4 * week + 1).find("r1") == std::string::npos);
+  CHECK(words(2800 + 4 * week - 1).find("replaced: r1.") != std::string::npos);
+  // Its own hours count.
+  fleet.rows[1].hours_per_week = 10;
+  plan.rows[1].window.reset();
+  CHECK(words(2800 + 24 * 10 + 1).find("r1") == std::string::npos);
+  CHECK(words(2800 + 24 * 10 - 1).find("r1") != std::string::npos);
+}
+
 TEST_CASE("with frequent windows a dresspack is replaced at the best age of a Weibull life") {
   constexpr double shape = 3, scale = 5000, planned = 1, unplanned = 6;
   // The age with the least cost per hour, by brute force over ages of an hour.
