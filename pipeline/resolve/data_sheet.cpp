@@ -423,7 +423,7 @@ void expand(Node& component, LeftOut& left_out) {
   if (const std::string estimates = expansion.estimates(); !estimates.empty())
     left_out.by_rules.push_back(fmt::format("{} {}", name, estimates));
   std::string estimated = expansion.estimated_keys();
-  if (!keys.find("material")) estimated += (estimated.empty() ? "" : ", ") + ("wires of soft copper (material " + sheet.material + ")");
+  if (!keys.find("material")) estimated += (estimated.empty() ? "" : ", ") + ("material " + sheet.material);
   if (!sheet.unused.empty()) estimated += (estimated.empty() ? "" : ", ") + ("without effect: " + sheet.unused);
   if (!estimated.empty()) left_out.keys.push_back(fmt::format("data_sheet of {}: {}", name, estimated));
   Node made = echo_fields(Layers{expansion.components(), component.find("jacket") ? std::nullopt : expansion.jacket()});
