@@ -134,7 +134,7 @@ std::optional<Quaternion> Rapid::checked(const Value& orient, const char* what, 
           name.empty() ? "" : fmt::format(" '{}'", name), q.w(), q.x(), q.y(), q.z(), q.norm(),
           declared.line > 0 ? fmt::format(" in {}", run.short_place(declared)) : ""),
       fmt::format(
-          "write [{:.6f},{:.6f},{:.6f},{:.6f}] for the same direction, or mend the number that is mistyped",
+          "write [{:.6f},{:.6f},{:.6f},{:.6f}] for the same direction, or correct the number that is mistyped",
           unit.w(), unit.x(), unit.y(), unit.z()));
   return unit;
 }
