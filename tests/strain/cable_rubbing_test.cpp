@@ -49,10 +49,10 @@ struct Run {
   std::size_t segments;
   CablePaths paths;
 
-  Run(const Dresspack& dresspack, std::size_t segments, std::size_t samples, const Motion& motion,
+  Run(const Dresspack& dresspack, std::size_t pieces, std::size_t samples, const Motion& motion,
       std::size_t rehearsals = 1)
       : construction(dresspack, Kinematics::exact),
-        segments(segments),
+        segments(pieces),
         paths(construction, plan_slip(construction, {Slip::friction, Slip::free}, length), {.rub = true},
               std::vector<double>(segments, length / static_cast<double>(segments)), arcs(), samples) {
     DeformationHistory history(segments, samples);

@@ -94,9 +94,10 @@ TEST_CASE("report: which joint and which clamp cost the life, and the hose besid
 
 TEST_CASE("report: a wall's life that is not credible has no number, and the legend of * names the modes that may come first") {
   const Scratch scratch;
-  UnvalidatedMode wall{UnvalidatedMode::wall, "", {UnvalidatedMode::unknown, 157.25, UnvalidatedMode::unknown}};
+  UnvalidatedMode wall, jacket;
+  wall.mode = UnvalidatedMode::wall, wall.hours = {UnvalidatedMode::unknown, 157.25, UnvalidatedMode::unknown};
   wall.bends_at_limit = 2980, wall.place = "hose 6", wall.segment_from_tool = 1;
-  UnvalidatedMode jacket{UnvalidatedMode::jacket, "", {200, 5000, 90000}};
+  jacket.mode = UnvalidatedMode::jacket, jacket.hours = {200, 5000, 90000};
   jacket.place = "power cable 1";
   SampleLife life;
   life.unvalidated = unvalidated_text({jacket, wall});
