@@ -281,6 +281,6 @@ TEST_CASE("the README's first job, copied as it stands, has the numbers of the R
   CHECK(page.find("\n    " + std::regex_replace(action, std::regex("\n"), "\n    ") + "\n") != std::string::npos);
   // "the model says 18 years for `spot_robot_1`"
   std::smatch years;
-  REQUIRE(std::regex_search(outcome.out, years, std::regex("has\\s+failed\\s+after\\s+[0-9,]+\\s+h\\s+\\(([0-9]+)\\s+years\\)")));
+  REQUIRE(std::regex_search(outcome.out, years, std::regex("has\\s+failed\\s+after\\s+[0-9,]+\\s+h\\s+of\\s+motion\\s+\\(([0-9]+)\\s+years\\)")));
   CHECK(page.find("the model says " + years[1].str() + " years for `spot_robot_1`") != std::string::npos);
 }
