@@ -89,9 +89,9 @@ TEST_CASE("new and check say of a dresspack what no routing cures, and list what
 TEST_CASE("new: clamps of which none runs are left to be filled in, without a place in a file that is gone") {
   Scratch scratch;
   scratch.write("hose.yaml",
-                "name: hose\nsource: a guess\ndiameter_mm: 150\nmass_kg_per_m: 10\nbending_stiffness_Nm2: 400\n"
+                "name: hose\nsource: a guess\ndiameter_mm: 190\nmass_kg_per_m: 40\nbending_stiffness_Nm2: 400\n"
                 "torsional_stiffness_Nm2: 400\naxial_stiffness_N: 1e5\ndamping_time_ms: 20\ndamping_source: a guess\n");
-  // An arm of bare cylinders with the lengths of a KR 16: a hose of 150 mm finds no way past its wrist.
+  // An arm of bare cylinders with the lengths of a KR 16: a hose of 190 mm finds no way past its wrist.
   struct Axis {
     const char *name, *place, *axis;
     double limit, speed;
