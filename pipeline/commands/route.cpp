@@ -351,6 +351,7 @@ int route(const Options& options) {
   check_replaceable(page);
   const StudyPlaces places{fs::path(options.out) / (draft.name + "_route"), program_folder()};
   const FolderLock lock(places.folder);
+  const std::vector<double> factors = factors_of(options);
   // 45 s for the default numbers, measured on a busy machine with a job of 64 segments.
   if (!options.quiet)
     tell(fmt::format("Checks {} routings by geometry and the best of them in {} short runs, for each size. This takes about a minute. "
@@ -359,7 +360,7 @@ int route(const Options& options) {
   const FilesAtStart files({std::make_shared<const Job>(draft.job)});
   std::optional<Trial> chosen, nearest;
   std::string ended;
-  for (const double factor : factors_of(options)) {
+  for (const double factor : factors) {
     Trial trial = tried(draft, options, factor, places, files);
     const bool feasible = trial.feasible();
     ended = trial.ended;
