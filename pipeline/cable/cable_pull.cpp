@@ -6,6 +6,7 @@
 
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/plain_properties.h"
+#include "pipeline/cable/shares.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -22,12 +23,20 @@ Straight along(const Component& part, const Straight& parent) {
   return {cosine * std::hypot(turning, parent.stretch), cosine * cosine * turning / part.helix_radius};
 }
 
+/// (W31) Share of a part's strain that the bed of its helix leaves, as in the strain stage.
+double left_by_bed(const Dresspack& dresspack, const Component& part) {
+  if (part.helix_radius == 0 || !part.radial_stiffness) return 1;
+  return helices::radial_share(axial_stiffness(dresspack, part), part.lay_angle, part.helix_radius, *part.radial_stiffness);
+}
+
 /// Pull along the parent.
 double pull_of(const std::vector<Component>& components, const Dresspack& dresspack, const Straight& now,
                const Straight& rest) {
   double sum = 0;
   for (const Component& part : components) {
-    const Straight here = along(part, now), before = along(part, rest);
+    const Straight before = along(part, rest);
+    Straight here = along(part, now);
+    here.stretch = before.stretch + left_by_bed(dresspack, part) * (here.stretch - before.stretch);
     double own = 0;
     if (part.components.empty()) {
       const Material* material = find_material(dresspack, part.material);

@@ -2,8 +2,8 @@
 // W5 and W6) for a parent without curvature, where nothing depends on the angle:
 //     V^2 = (R sigma)^2 + lambda^2,   sigma = tan(alpha)/R + twist,
 //     stretch = cos(alpha) V,   twist of the part = sigma cos^2(alpha).
-// Wires are elastic and slide where they must, so that all are strained alike; jacket and insulation carry
-// nothing.
+// A soft bed leaves a share of stretch - 1 (W31). Wires are elastic and slide where they must, so that all are
+// strained alike; jacket and insulation carry nothing.
 #pragma once
 
 #include <vector>

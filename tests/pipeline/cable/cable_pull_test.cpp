@@ -61,6 +61,17 @@ TEST_CASE("cable pull: a layer's wires strain as unrolled helices do, and each l
     }
   CHECK(pull_of_wires(dresspack, {part(12, r, R, a), part(12, r, R, a, Hand::left)}, elongation, 4) ==
         Approx(sum).epsilon(rounding));
+  // On a soft bed a helix keeps 1 / (1 + E A sin^4(a) / (R^2 k)) of its strain (W31), whatever strains it. A part on the axis has no bed.
+  Component soft = part(12, r, R, a), straight = part(1, r, 0, 0);
+  soft.radial_stiffness = straight.radial_stiffness = 2e5;
+  const double left = 1 / (1 + modulus * area * std::pow(std::sin(a), 4) / (R * R * 2e5));
+  REQUIRE(left < 0.8);
+  for (const double twist : {-4.0, 0.0, 4.0})
+    CHECK(pull_of_wires(dresspack, {soft}, elongation, twist) ==
+          Approx(left * pull_of_wires(dresspack, {part(12, r, R, a)}, elongation, twist)).epsilon(1e-9));
+  CHECK(pull_of_wires(dresspack, {straight}, elongation, 4) == Approx(modulus * area * elongation));
+  // So it shortens a cable less that is twisted about a straight wire.
+  CHECK(-elongation_under(dresspack, {straight, soft}, 0, 4) < -0.9 * elongation_under(dresspack, {straight, part(12, r, R, a)}, 0, 4));
   CHECK(pull_of_wires(dresspack, {part(1, r, 0, 0)}, elongation, 4) == Approx(modulus * area * elongation));
   Component unknown = part(1, r, 0, 0);
   unknown.material = "polymer without a name";
