@@ -36,6 +36,7 @@
 #include "pipeline/study/folder_source.h"
 #include "pipeline/study/job_folder.h"
 #include "pipeline/study/row_warnings.h"
+#include "pipeline/study/mode_table.h"
 #include "pipeline/study/row_words.h"
 #include "pipeline/study/stage_program.h"
 
@@ -328,9 +329,9 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
   text += comparison_words(trial) + tolerance_words(trial.nudges, tolerance);
   const RankingRow& row = trial.rows[*trial.best];
   for (const std::string& words :
-       {action_words(row), uncertainty_words(row), failure_words(row), unvalidated_words(row)})
+       {action_words(row), uncertainty_words(row), failure_words(row)})
     text += words + (words.empty() ? "" : "\n");
-  return text;
+  return text + mode_table(row, 120, "");
 }
 
 /// Removes the runs of a search but that of its winner.

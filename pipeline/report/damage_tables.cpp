@@ -7,6 +7,7 @@
 
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/plot.h"
+#include "pipeline/study/mode_table.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -174,6 +175,25 @@ std::string place_remark(const LifeSummary& life) {
 std::string chart_section(const std::string& heading, const std::string& remark, const std::string& chart) {
   if (chart.empty()) return "";
   return fmt::format("<h3>{}</h3>\n<p class=\"soft\">{}</p>\n{}", heading, remark, chart_in_page(chart));
+}
+
+std::string failure_table(const RankingRow& row) {
+  if (row.unvalidated.empty()) return "";
+  std::string rows;
+  for (const ModeLine& line : mode_lines(row)) {
+    rows += "<tr><td>" + escaped(line.mode) + "</td>";
+    const auto& [tenth, half, most] = line.hours;
+    for (const std::string& number : {tenth, half, most, line.before_wires, line.with_it, line.from_tool, line.time})
+      rows += "<td class=\"number\">" + escaped(number) + "</td>";
+    rows += fmt::format("<td>{}{}<span class=\"soft\">{}</span></td></tr>\n", escaped(line.step), line.step.empty() ? "" : "<br>",
+                        escaped(line.note));
+  }
+  return "<div class=\"wide\"><table class=\"modes\">\n<thead><tr><th>fails by</th><th class=\"number\">10 % [h]</th>"
+         "<th class=\"number\">half [h]</th><th class=\"number\">90 % [h]</th><th class=\"number\">before the wires</th><th class=\"number\">replace after, with it [h]</th>"
+         "<th class=\"number\">from tool [m]</th><th class=\"number\">at [s]</th><th>during</th></tr></thead>\n<tbody>\n" +
+         rows +
+         "</tbody></table></div>\n<p class=\"soft\">* No test confirms the law of this mode: 'replace after' leaves it out. h: hours of "
+         "motion until so many of such dresspacks have failed by it.</p>\n";
 }
 
 std::string damage_along(const LifeSummary& life, const RankingRow& row) {

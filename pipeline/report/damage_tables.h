@@ -9,6 +9,9 @@
 
 namespace dresslife::pipeline {
 
+/// The ways in which the dresspack fails: lives, place and moment of each, with its legend. Empty: only the wires are known.
+std::string failure_table(const RankingRow& row);
+
 /// A chart below its heading and a remark; empty without a chart.
 std::string chart_section(const std::string& heading, const std::string& remark, const std::string& chart);
 

@@ -59,31 +59,33 @@ std::string paragraph(const std::string& words) {
   return words.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(words));
 }
 
-/// What to do, the distribution behind it, and what fails.
+/// What to do, and each mode of failure.
 std::string headline(const RankingRow& row) {
+  const std::string action = action_words(row);
+  const bool named = action.find(row.not_evaluated) != std::string::npos;  // also if there is nothing to name
+  return fmt::format("<h1>{}</h1>\n<p><b>{}</b></p>\n", escaped(row.job), escaped(action)) + failure_table(row) +
+         (named ? "" : paragraph(fmt::format("Not evaluated: {}.", row.not_evaluated)));
+}
+
+/// The distribution behind the headline, what would narrow it, and the worst wire.
+std::string lives(const RankingRow& row) {
   const double hours = row.headline_hours();
-  std::string text = fmt::format("<h1>{}</h1>\n<p><b>{}</b> {}</p>\n", escaped(row.job), escaped(action_words(row)),
-                                 escaped(uncertainty_words(row)));
-  std::string lives;
+  std::string words;
   if (std::isfinite(hours))
-    lives += fmt::format("{} of motion, {} repeats of {:.1f} s: by then {}. ", printed_hours(hours),
+    words += fmt::format("{} of motion, {} repeats of {:.1f} s: by then {}. ", printed_hours(hours),
                          printed(row.headline_repeats()), row.repeat_seconds,
                          row.planned() ? "10 % of such dresspacks have a conductor that has lost its share of wires at one place"
                                        : "the worst wire breaks (median)");
   if (row.planned() && std::isfinite(row.planned_hours[2]))
-    lives += fmt::format("Half have failed after {}, 90 % after {}. ", printed_hours(row.planned_hours[1]),
+    words += fmt::format("Half have failed after {}, 90 % after {}. ", printed_hours(row.planned_hours[1]),
                          printed_hours(row.planned_hours[2]));
   if (!std::isnan(row.glued_hours[0]))
-    lives += fmt::format("10 % would have failed after {} if everything inside the cables were glued, after {} if it slipped "
+    words += fmt::format("10 % would have failed after {} if everything inside the cables were glued, after {} if it slipped "
                          "without friction. ",
                          printed_hours(row.glued_hours[0]), printed_hours(row.free_hours[0]));
-  if (const std::string own = own_values_words(row); !own.empty()) lives += own + " ";
-  lives += fmt::format("The median of the worst wire is {}.", printed_hours(row.life_hours));
-  text += fmt::format("<p>{}</p>\n", lives);
-  for (const UnvalidatedMode& mode : row.unvalidated) text += paragraph(unvalidated_words(mode));
-  if (!row.not_evaluated.empty()) text += paragraph(fmt::format("Not evaluated: {}.", row.not_evaluated));
-  if (damaged(row)) text += paragraph(failure_words(row));
-  return text;
+  if (const std::string own = own_values_words(row); !own.empty()) words += own + " ";
+  words += fmt::format("The median of the worst wire is {}.", printed_hours(row.life_hours));
+  return paragraph(words) + paragraph(uncertainty_words(row)) + (damaged(row) ? paragraph(failure_words(row)) : "");
 }
 
 /// "E I 25 N m2, G J 20 N m2, E A 1e+05 N" of each dresspack as it was simulated; empty where an older file
@@ -224,7 +226,8 @@ class Page {
     for (const std::string& note : notes_) text += fmt::format("<p class=\"failed\">{}</p>\n", escaped(note));
     text +=
         "<div id=\"view\"></div>\n<div class=\"beside\"><div id=\"timeline\"></div>\n<div id=\"place\"></div></div>\n"
-        "<div id=\"section\"></div>\n<div id=\"wire\"></div>\n";
+        "<div id=\"section\"></div>\n<div id=\"wire\"></div>\n<h2>Lives of the wires</h2>\n" +
+        lives(row_);
     if (damaged(row_)) {
       const LifeSummary life = read_life(files_.life());
       text += "<h2>Where the damage comes from</h2>\n" + damage_along(life, row_) + damage_tables(life, row_);

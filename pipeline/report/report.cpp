@@ -132,9 +132,7 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
             ? ""
             : fmt::format("{} ({:.0f} %)<br>", escaped(row.failing_mode), 100 * row.failing_mode_share);
     const std::string unvalidated =
-        row.unvalidated.empty()
-            ? ""
-            : fmt::format("<br><span class=\"soft\">{}</span>", escaped(unvalidated_words(row)));
+        !earlier_unvalidated(row) ? "" : fmt::format("<br><span class=\"soft\">not validated: {}</span>", escaped(earlier_words(row)));
     const bool planned = !std::isnan(row.glued_hours[0]);
     const auto bounds =
         std::pair(planned ? row.glued_hours[0] : row.hours_of(row.life_repeats_all_stick),
@@ -293,7 +291,6 @@ std::string facts(const RankingRow& row) {
          fmt::format("{} in 10 %, {} in half, {} in 90 % of such dresspacks, all else as the job has it",
                      printed_hours(row.scatter_hours[0]), printed_hours(row.scatter_hours[1]),
                      printed_hours(row.scatter_hours[2])));
-  if (const std::string words = uncertainty_words(row); !words.empty()) fact("uncertainty", escaped(words));
   if (!row.life_shares.empty()) fact("its causes", escaped(row.life_shares));
   if (const std::string words = order_words(row); !words.empty()) fact("beside the next job", escaped(words));
   if (!row.failing_mode.empty())
@@ -342,31 +339,6 @@ std::string facts(const RankingRow& row) {
   };
   scatter("first broken wire", row.first_wire_hours);
   scatter("share of a conductor broken anywhere in it", row.conductor_hours);
-  const auto with_and_without = [&](const UnvalidatedMode& mode) {
-    if (std::isnan(mode.together_p10) || !row.planned()) return std::string();
-    return fmt::format(" (1 of 10 has failed after {} with this mode, after {} without)", printed_hours(mode.together_p10),
-                       printed_hours(row.planned_hours[0]));
-  };
-  for (const UnvalidatedMode& mode : row.unvalidated) {
-    const std::string of = mode.dresspack.empty() ? "" : " of " + escaped(mode.dresspack);
-    const bool wall = mode.mode == UnvalidatedMode::wall;
-    if (mode.mode == UnvalidatedMode::rating || mode.mode == UnvalidatedMode::corkscrew || mode.mode == UnvalidatedMode::kink ||
-        !is_credible(mode)) {
-      fact(mode.mode + of + ", unvalidated", escaped(unvalidated_words(mode)) + with_and_without(mode));
-      continue;
-    }
-    const std::string life =
-        wall ? fmt::format("{} of motion until it cracks, {}", unvalidated_life(mode.hours[1]), escaped(mode.place))
-             : fmt::format("{} of motion until it is worn through (10 .. 90 %), {} {}", range_text(mode.hours[0], mode.hours[2]),
-                           mode.mode == UnvalidatedMode::jacket ? "of" : "on", escaped(mode.place));
-    fact(mode.mode + of + ", unvalidated",
-         std::isinf(mode.hours[1])
-             ? "not damaged"
-             : fmt::format("{}, segment {} from the tool ({:.2f} m){}{}", life, mode.segment_from_tool, mode.position_from_tool,
-                           mode.step.empty() ? "" : ", worst during '" + escaped(mode.step) + "'",
-                           mode.note.empty() ? "" : ". " + escaped(mode.note)) +
-                   with_and_without(mode));
-  }
   if (!row.not_evaluated.empty()) fact("not evaluated", escaped(row.not_evaluated));
   if (damaged(row)) {
     fact("breaks first",
@@ -379,7 +351,7 @@ std::string facts(const RankingRow& row) {
                              row.worst_step.empty() ? "outside any program line"
                                                     : "during '" + escaped(row.worst_step) + "'"));
   }
-  return "<dl>\n" + list + "</dl>\n";
+  return failure_table(row) + "<dl>\n" + list + "</dl>\n";
 }
 
 std::string charts(const RankingRow& row) {

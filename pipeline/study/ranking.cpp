@@ -20,10 +20,12 @@
 #include "pipeline/life/first_failure.h"
 #include "pipeline/settings/units.h"
 #include "pipeline/study/ranking_columns.h"
+#include "pipeline/study/mode_table.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/row_words.h"
 #include "pipeline/study/shown_rows.h"
 #include "pipeline/study/study_problems.h"
+#include "pipeline/study/text_column.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -277,22 +279,6 @@ std::vector<RankingRow> sorted_rows(const std::vector<JobResult>& results) {
   return rows;
 }
 
-/// One column of the terminal's table, as wide as its widest cell.
-struct Column {
-  std::string title;
-  bool to_the_right;
-  std::vector<std::string> cells;
-  std::size_t width() const {
-    std::size_t widest = columns_of(title);
-    for (const std::string& cell : cells) widest = std::max(widest, columns_of(cell));
-    return widest;
-  }
-  std::string padded(const std::string& cell) const {
-    const std::string space(width() - columns_of(cell), ' ');
-    return to_the_right ? space + cell : cell + space;
-  }
-};
-
 std::string bounds_text(const RankingRow& row) {
   const bool planned = !std::isnan(row.glued_hours[0]);
   return shown_range(row, planned ? row.glued_hours[0] : row.hours_of(row.life_repeats_all_stick),
@@ -318,7 +304,6 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
   all.push_back(uncertainty_words(row));
   all.push_back(failure_words(row));
   all.push_back(own_values_words(row));
-  for (const UnvalidatedMode& mode : row.unvalidated) all.push_back(unvalidated_words(mode));
   if (!row.not_evaluated.empty() && action_words(row).find(row.not_evaluated) == std::string::npos)
     all.push_back(fmt::format("Not evaluated: {}.", row.not_evaluated));
   if (row.done() && row.relative) all.push_back(relative_words(*row.relative));
@@ -345,13 +330,6 @@ const UnvalidatedMode* RankingRow::unvalidated_mode(std::string_view mode) const
   for (const UnvalidatedMode& one : unvalidated)
     if (one.mode == mode && (!first || one.hours[1] < first->hours[1])) first = &one;
   return first;
-}
-
-std::string unvalidated_life(double hours) {
-  constexpr double beyond_all_plans = 1e6;
-  if (std::isinf(hours)) return "not damaged";
-  return hours > beyond_all_plans ? "more than " + readable(beyond_all_plans, 1) + " h"
-                                  : readable(hours) + " h";
 }
 
 std::string relative_words(const RelativeLife& relative) {
@@ -490,10 +468,11 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     std::string words;
     if (const std::string action = action_words(row); rows.size() > 1 && row.done() && !action.starts_with("Plan"))
       words += below(action);
+    if (const std::string modes = row.has_result() ? mode_table(row, width, indent) : ""; !modes.empty()) words += modes + '\n';
     for (const std::string& paragraph : paragraphs(row)) words += below(paragraph);
     if (!words.empty()) details += '\n' + (rows.size() > 1 ? one_line(row.job) + '\n' : "") + words;
   }
-  if (const std::string note = unvalidated_note(rows); !note.empty()) text += wrapped(one_line(note), width, indent);
+  if (const std::string note = rows.size() > 1 ? unvalidated_note(rows) : ""; !note.empty()) text += wrapped(one_line(note), width, indent);
   text += wrapped("h: hours of motion. glued .. free: 'replace after' if the parts inside the cables cannot slide, and if they slide "
                   "without friction.", width, indent);
   text += details;

@@ -153,9 +153,6 @@ std::string ranking_csv(const std::vector<RankingRow>& rows);
 /// "stale: since this result routing.free_length_m 2.035 -> 2.1", and why a job failed with the present settings.
 std::string stale_words(const RankingRow& row);
 
-/// "3,400 h", "more than 1,000,000 h" beyond all plans, "not damaged".
-std::string unvalidated_life(double hours);
-
 /// "one hour does the damage of 1,200 rated cycles of lead; 5,000,000 rated: 4,200 h (torsion: ..)"
 std::string relative_words(const RelativeLife& relative);
 

@@ -64,14 +64,6 @@ std::string joined_words(const std::vector<std::string>& sentences) {
 
 namespace {
 
-/// Of a wall whose life is not credible.
-std::string too_short_wall(const UnvalidatedMode& mode) {
-  return fmt::format("The only known law gives {} bends from straight to the limit of the bend radius, and a published hose endured {} "
-                     "without damage. Keep the maker's bend radius. A bending test by the maker, as strain_life_table of the material "
-                     "of the wall, would give a life.",
-                     readable(mode.bends_at_limit), readable(published_wall_bends));
-}
-
 /// ", abrasion: from 25,000 h": the modes after earlier_unvalidated() that also come before the headline and the robot's life, the
 /// earliest first. Empty: none do.
 std::string further_unvalidated(const RankingRow& row) {
@@ -122,36 +114,6 @@ std::string inspection_words(const RankingRow& row) {
                        further.empty() ? "" : fmt::format("Inspect also for: {}.", further.substr(2))});
 }
 
-std::string rating_words(const UnvalidatedMode& mode, const std::string& of) {
-  const std::string until = std::isinf(mode.hours[0])
-                                ? "the whole life in more than 9 of 10 cases"
-                                : fmt::format("{} (10 .. 90 %), {:.2f} m from the tool, most at {:.1f} s{}",
-                                              range_text(mode.hours[0], mode.hours[2]), mode.position_from_tool, mode.time,
-                                              mode.step.empty() ? "" : ", during '" + mode.step + "'");
-  return fmt::format("The maker's rating of {}{} is a lower bound of its life, is not validated and not in the hours above. It "
-                     "covers {}.", mode.place, of, until);
-}
-
-std::string corkscrew_words(const UnvalidatedMode& mode, const std::string& of) {
-  const std::string life = std::isinf(mode.hours[0]) ? "None occurs." : fmt::format("It occurs after {} (10 .. 90 %).",
-                                                                                     range_text(mode.hours[0], mode.hours[2]));
-  return joined_words({fmt::format("Corkscrew{} is not validated and not in the hours above. {} Nearest to it is {}, {:.2f} m from the "
-                                   "tool, at {:.1f} s{}.",
-                                   of, life, mode.place, mode.position_from_tool, mode.time,
-                                   mode.step.empty() ? "" : ", during '" + mode.step + "'"),
-                       mode.note});
-}
-
-std::string kink_words(const UnvalidatedMode& mode, const std::string& of) {
-  if (!std::isfinite(mode.margin)) return fmt::format("Kinks{}: nothing bends.", of);
-  const std::string life = mode.first_share > 0 ? fmt::format("{:.0f} % of such tubes kink.", 100 * mode.first_share) : "None kinks.";
-  return joined_words({fmt::format("Kinks{} of smooth tubes are not in the hours above. {} Nearest to it is {}, {:.2f} m from the tool, at "
-                                   "{:.1f} s{}, with {} times the radius of a kink.",
-                                   of, life, mode.place, mode.position_from_tool, mode.time,
-                                   mode.step.empty() ? "" : ", during '" + mode.step + "'", readable(mode.margin, 2)),
-                       mode.note});
-}
-
 }  // namespace
 
 const UnvalidatedMode* earlier_unvalidated(const RankingRow& row) {
@@ -178,12 +140,16 @@ std::string unvalidated_legend(const std::vector<RankingRow>& rows) {
                      counts.empty() ? "" : fmt::format(" * marks jobs in which one of them may come first: {}.", fmt::join(counts, ", ")));
 }
 
+std::string earlier_words(const RankingRow& row) {
+  const UnvalidatedMode* const mode = earlier_unvalidated(row);
+  return mode ? fmt::format("{}: from {}{}", mode->mode, hours_text(mode->early_hours()), further_unvalidated(row)) : "";
+}
+
 std::string unvalidated_note(const std::vector<RankingRow>& rows) {
   std::vector<std::string> jobs;
   for (const RankingRow& row : rows)
-    if (const UnvalidatedMode* const mode = row.has_result() ? earlier_unvalidated(row) : nullptr)
-      jobs.push_back(fmt::format("{}{}: from {}{}", rows.size() > 1 ? row.job + ", " : "", mode->mode, hours_text(mode->early_hours()),
-                                 further_unvalidated(row)));
+    if (const std::string words = row.has_result() ? earlier_words(row) : ""; !words.empty())
+      jobs.push_back((rows.size() > 1 ? row.job + ", " : "") + words);
   return jobs.empty() ? "" : fmt::format("* Plan with this number, and inspect for modes that are not validated. {}.", fmt::join(jobs, "; "));
 }
 
@@ -291,40 +257,6 @@ std::string joint_words(const RankingRow& row) {
           : fmt::format("The strain of this wire follows {} most.", row.worst_joint);
   return moved + " That is a correlation, no cause. Try what an axis costs: dresslife run JOB -o held --set motion.hold_joint=" +
          (row.worst_joint == "carrying" ? "AXIS" : row.worst_joint);
-}
-
-std::string unvalidated_words(const UnvalidatedMode& mode) {
-  const std::string of = mode.dresspack.empty() ? "" : " of " + mode.dresspack;
-  if (!is_credible(mode))
-    return fmt::format("The life of the hose's wall{} is not predicted. {}", of, too_short_wall(mode));
-  if (mode.mode == UnvalidatedMode::wall)
-    return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.", of,
-                       unvalidated_life(mode.hours[1]));
-  if (mode.mode == UnvalidatedMode::rating) return joined_words({rating_words(mode, of), mode.note});
-  if (mode.mode == UnvalidatedMode::corkscrew) return corkscrew_words(mode, of);
-  if (mode.mode == UnvalidatedMode::kink) return kink_words(mode, of);
-  const bool jacket = mode.mode == UnvalidatedMode::jacket;
-  if (mode.place.empty())
-    return jacket ? fmt::format("Jacket wear{}: no cable rubs in the hose.", of)
-                  : fmt::format("Abrasion{}: nothing rubs on the dresspack.", of);
-  const std::string when = std::isinf(mode.hours[0])
-                               ? "in fewer than 1 of 10 dresspacks"
-                               : fmt::format("after {} (10 .. 90 %)", range_text(mode.hours[0], mode.hours[2]));
-  const std::string what = jacket ? fmt::format("Jacket wear{} is not validated and not in the hours above. By the model the jacket of {} "
-                                                "wears through in the hose {}", of, mode.place, when)
-                                  : fmt::format("Abrasion{} is not validated and not in the hours above. By the model it wears through "
-                                                "{}, on {}", of, when, mode.place);
-  std::string text = fmt::format("{}, {:.2f} m from the tool, most at {:.1f} s{}.", what, mode.position_from_tool, mode.time,
-                                 mode.step.empty() ? "" : ", during '" + mode.step + "'");
-  if (mode.first_share >= 0.01)
-    text += fmt::format(" It comes before the wires in {:.0f} % of the samples.", 100 * mode.first_share);
-  return joined_words({text, mode.note});
-}
-
-std::string unvalidated_words(const RankingRow& row) {
-  std::vector<std::string> all;
-  for (const UnvalidatedMode& mode : row.unvalidated) all.push_back(unvalidated_words(mode));
-  return joined_words(all);
 }
 
 std::string repeat_words(const RankingRow& row) {

@@ -19,6 +19,8 @@ std::string action_words(const RankingRow& row);
 /// no test validates are not in the headline, and a reader must not take it alone. Of the wall the median counts, unless
 /// its law contradicts a published test. Null: none.
 const UnvalidatedMode* earlier_unvalidated(const RankingRow& row);
+/// "abrasion: from 1,080 h, jacket wear: from 6,870 h": these modes, the earliest first. Empty: none.
+std::string earlier_words(const RankingRow& row);
 /// "* Plan with this number, and inspect for modes that are not validated. hard, abrasion: from 1,080 h." Of the rows that are marked with * in a
 /// table. Empty: none.
 std::string unvalidated_note(const std::vector<RankingRow>& rows);
@@ -49,11 +51,6 @@ std::string own_values_words(const RankingRow& row);
 
 /// "The strain of this wire follows joint_6 most.", that this is no cause, and the command that tries it. Empty: not known.
 std::string joint_words(const RankingRow& row);
-
-/// "The life of the hose's wall is not validated .. By the model it is 3,400 h."; of abrasion also what rubs where and when.
-std::string unvalidated_words(const UnvalidatedMode& mode);
-/// Of all modes of a row. Empty: none was evaluated.
-std::string unvalidated_words(const RankingRow& row);
 
 /// "One repeat of the motion takes 13.8 s: 1 of 10 has failed after 108,000 repeats." Empty: none foreseen in the robot's life.
 std::string repeat_words(const RankingRow& row);

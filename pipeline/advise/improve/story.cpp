@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "pipeline/base/readable.h"
+#include "pipeline/study/mode_table.h"
 #include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
@@ -194,10 +195,11 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   }
   text += "T" + of_best + story.gain + (story.gain.empty() ? "" : "\n") + judged +
           refused_words(found, trial.worst);
-  if (const RankingRow* const row = finals.worst_row(best))
-    for (const std::string& words :
-         {action_words(*row), uncertainty_words(*row), failure_words(*row), unvalidated_words(*row)})
+  if (const RankingRow* const row = finals.worst_row(best)) {
+    for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");
+    text += mode_table(*row, 120, "");
+  }
   text += change_lines(trial);
   for (const std::string& job : best.jobs)
     text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());

@@ -76,20 +76,19 @@ TEST_CASE("report: which joint and which clamp cost the life, and the hose besid
   CHECK(page.find("-10.0 %: moves against the others, relieves") != std::string::npos);
   CHECK(page.find("<td>joint_5 80 %, carrying 30 %</td>") != std::string::npos);
   CHECK(page.find(" By the nearest clamp: base clamp 25 %; tool clamp 75 %.") != std::string::npos);
-  CHECK(page.find("<dt>hose's wall, unvalidated</dt><dd>3,400 h of motion") != std::string::npos);
+  CHECK(page.find("<td>hose&#39;s wall*</td><td class=\"number\">-</td><td class=\"number\">3,400</td>") != std::string::npos);
   CHECK(page.find("<td>weld spot") != std::string::npos);
   CHECK(page.find("The strain of this wire follows joint_5 most. That is a correlation, no cause.") != std::string::npos);
-  CHECK(page.find("hose 5, segment 2 from the tool (0.07 m)") != std::string::npos);
   const std::string table = std::regex_replace(ranking_table(rows), std::regex("\n +"), " ");
   CHECK(table.find("The strain of this wire follows joint_5 most. That is a correlation, no cause.") != std::string::npos);
-  CHECK(table.find("The life of the hose's wall is not validated and not in the hours above. By the model it is 3,400 h") != std::string::npos);
+  CHECK_THAT(table, Catch::Contains("hose's wall*") && Catch::Contains(" 3,400 "));
   CHECK(ranking_csv(rows).find(",joint_5,0.8,,,,,") != std::string::npos);
   life.causes = false;
   life.hose_hours = 0;
   write_sample_life(scratch / "old.h5", life);
   const std::string old = report_page("old", read_ranking({{"old", scratch / "old.h5", ""}}));
   CHECK(old.find("What moved") == std::string::npos);
-  CHECK(old.find("<dt>hose's wall") == std::string::npos);
+  CHECK(old.find("wall*") == std::string::npos);
 }
 
 TEST_CASE("report: a wall's life that is not credible has no number, and the legend of * names the modes that may come first") {
@@ -105,11 +104,12 @@ TEST_CASE("report: a wall's life that is not credible has no number, and the leg
   const auto rows = read_ranking({{"one", scratch / "one.h5", ""}});
   const std::string page = report_page("wall", rows), csv = ranking_csv(rows);
   const std::string table = std::regex_replace(ranking_table(rows), std::regex("\n +"), " ");
-  for (const std::string& text : {page, table}) CHECK(text.find("157 h") == std::string::npos);
+  CHECK(page.find(">157<") == std::string::npos);
+  CHECK(table.find("157") == std::string::npos);
   CHECK(csv.find(",157.25,") == std::string::npos);
   for (const std::string& text : {page, table})
-    CHECK(text.find("The life of the hose") != std::string::npos);
-  CHECK(table.find("The life of the hose's wall is not predicted.") != std::string::npos);
+    CHECK(text.find("wall*") != std::string::npos);
+  CHECK(page.find("Not predicted: the only known law") != std::string::npos);
   CHECK(page.find("confirms their laws: jacket wear, hose") != std::string::npos);
   CHECK(page.find("* marks jobs in which one of them may come first: jacket wear in 1 job.") != std::string::npos);
   // With a law that agrees with the test the number stands everywhere.
@@ -117,7 +117,7 @@ TEST_CASE("report: a wall's life that is not credible has no number, and the leg
   life.unvalidated = unvalidated_text({jacket, wall});
   write_sample_life(scratch / "two.h5", life);
   const auto known = read_ranking({{"two", scratch / "two.h5", ""}});
-  CHECK(report_page("wall", known).find("157 h") != std::string::npos);
+  CHECK(report_page("wall", known).find(">157</td>") != std::string::npos);
   CHECK(ranking_csv(known).find(",157.25,") != std::string::npos);
 }
 

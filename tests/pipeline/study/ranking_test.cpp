@@ -1,6 +1,7 @@
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/ranking_columns.h"
 #include "pipeline/study/row_warnings.h"
+#include "pipeline/study/mode_table.h"
 #include "pipeline/study/row_words.h"
 
 #include <algorithm>
@@ -95,9 +96,6 @@ TEST_CASE("ranking: of several unvalidated modes of one name the first to fail c
   CHECK(row.unvalidated_mode("abrasion") == &row.unvalidated[2]);
   CHECK(row.unvalidated_mode("wall") == &row.unvalidated[1]);
   CHECK(row.unvalidated_mode("kinks") == nullptr);
-  CHECK(unvalidated_life(infinity) == "not damaged");
-  CHECK(unvalidated_life(1.1e6) == "more than 1,000,000 h");
-  CHECK(unvalidated_life(9.9e5) == "990,000 h");
   CHECK(force_words(row).empty());
   for (const double share : {0.19, 0.21, 3.0})
     for (const bool pull : {true, false}) {
@@ -303,27 +301,37 @@ TEST_CASE("ranking: the hose's wall has columns and a line of its own and does n
   CHECK(std::stod(table[1][22]) == rows[0].unvalidated[0].position_from_tool);
   CHECK(table[2][20] == "inf");
   const std::string text = ranking_table(rows);
-  CHECK(text.find("By the model it is 2.50 h.") != std::string::npos);
-  CHECK(text.find("By the model it is not damaged.") != std::string::npos);
-  CHECK(unvalidated_life(5.7e10) == "more than 1,000,000 h");
+  CHECK_THAT(text, Catch::Contains("hose's wall*") && Catch::Contains(" 2.50 ") && Catch::Contains(" no damage "));
+}
+
+/// In a job of wires without damage on a robot that lasts 40,000 h.
+ModeLine line_of(const UnvalidatedMode& mode) {
+  RankingRow row;
+  row.robot_life_hours = 40000;
+  row.planned_hours.fill(1e5);
+  row.unvalidated = {mode};
+  return mode_lines(row).back();
 }
 
 TEST_CASE("ranking: a wall's life by a law that contradicts the published test is not stated") {
   UnvalidatedMode wall;
   wall.mode = UnvalidatedMode::wall;
   wall.hours[1] = 0.37;
-  const auto words = [&](double bends, double hours) {
+  const auto line = [&](double bends, double hours) {
     wall.bends_at_limit = bends, wall.hours[1] = hours;
-    return unvalidated_words(unvalidated_from(unvalidated_text({wall}))[0]);
+    return line_of(unvalidated_from(unvalidated_text({wall}))[0]);
   };
-  CHECK_THAT(words(1.08e6, 0.37),
-             Catch::StartsWith("The life of the hose's wall is not predicted. The only known law gives 1,080,000 bends from straight to the "
-                               "limit of the bend radius, and a published hose endured 16,000,000 without damage. Keep the maker's bend "
-                               "radius.") && !Catch::Contains("0.37"));
-  for (const auto& [bends, hours] : {std::pair{17e6, 0.37},  // the law agrees with the test
-                                     {0.0, 0.37},            // not known, as in older files
-                                     {1.08e6, 2e5}})
-    CHECK_THAT(words(bends, hours), Catch::Contains("By the model it is ") && !Catch::Contains("not predicted"));
+  CHECK(line(1.08e6, 0.37).hours == std::array<std::string, 3>{"-", "-", "-"});
+  CHECK(!line(1.08e6, 0.37).early);
+  CHECK_THAT(line(1.08e6, 0.37).note,
+             Catch::StartsWith("Not predicted: the only known law gives 1,080,000 bends from straight to the limit of the bend radius, and a "
+                               "published hose endured 16,000,000 without damage. Keep the maker's bend radius."));
+  for (const auto& [bends, hours, shown] : {std::tuple{17e6, 0.37, "0.370"},  // the law agrees with the test
+                                            {0.0, 0.37, "0.370"},             // not known, as in older files
+                                            {1.08e6, 2e5, "over 40,000"}}) {
+    CHECK(line(bends, hours).hours == std::array<std::string, 3>{"-", shown, "-"});
+    CHECK(line(bends, hours).note.empty());
+  }
 }
 
 TEST_CASE("ranking: abrasion has words and columns, and the first action names it where it may come first") {
@@ -358,14 +366,19 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
         "51,000 h (10 .. 90 %, not validated): inspect it there. Not evaluated: water hose, kinks.");
   const std::string both = ranking_table(rows, 200);
   CHECK_THAT(both, Catch::Contains("*over 40,000") && Catch::Contains("* Plan with this number, and inspect for modes that are not validated. rubs, abrasion: from 300 h."));
-  CHECK(std::count(both.begin(), both.end(), '*') == 2);  // of the row that rubs, and of the note
+  CHECK(both.find("*over 40,000") == both.rfind("*over 40,000"));  // the row that rubs, alone
   CHECK(action_words(rows[1]) ==
         "The evaluated parts last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
-  CHECK(unvalidated_words(rows[0]) ==
-        "Abrasion is not validated and not in the hours above. By the model it wears through after 300 .. 51,000 h (10 .. 90 %), on "
-        "link_4, 0.13 m from the tool, most at 2.5 s, during 'weld spot'. It comes before the wires in 43 % of the samples. "
-        "A check finds it.");
-  CHECK(unvalidated_words(rows[1]) == "Abrasion: nothing rubs on the dresspack.");
+  const std::vector<ModeLine> lines = mode_lines(rows[0]);
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0].hours[0] == "over 40,000");
+  CHECK(lines[1].mode == "abrasion* on link_4");
+  CHECK(lines[1].hours == std::array<std::string, 3>{"300", "2,400", "over 40,000"});
+  CHECK(lines[1].before_wires == "43 %");
+  CHECK(lines[1].with_it == "280");
+  CHECK(lines[1].from_tool + " " + lines[1].time + " " + lines[1].step == "0.13 2.5 weld spot");
+  CHECK_THAT(ranking_table({rows[0]}), Catch::Contains("abrasion: A check finds it.") && !Catch::Contains("Plan with this number"));
+  CHECK(mode_lines(rows[1])[1].mode == "abrasion*: nothing rubs");
   const auto table = read_csv(ranking_csv(rows));
   const auto column = [&](const std::string& name) {
     return static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), name) - table[0].begin());
@@ -405,11 +418,9 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
                                                       "25,000 h. Not evaluated"));
   CHECK(unvalidated_note(listed) ==
         "* Plan with this number, and inspect for modes that are not validated. jacket wear: from 300 h, abrasion: from 25,000 h.");
-  CHECK(unvalidated_words(rows[0]) ==
-        "Jacket wear is not validated and not in the hours above. By the model the jacket of signal cable 3 wears through in the "
-        "hose after 300 .. 51,000 h (10 .. 90 %), 0.13 m from the tool, most at 2.5 s, during 'weld'. It comes before the wires in "
-        "43 % of the samples.");
-  CHECK(unvalidated_words(still) == "Jacket wear: no cable rubs in the hose.");
+  CHECK(line_of(worn).mode == "jacket wear* of signal cable 3");
+  CHECK(line_of(worn).hours[0] == "300");
+  CHECK(line_of(still).mode == "jacket wear*: nothing rubs");
   const auto table = read_csv(ranking_csv(rows));
   const auto cell = [&](const std::string& name) {
     return table[1].at(static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), name) - table[0].begin()));
@@ -430,15 +441,16 @@ TEST_CASE("ranking: a corkscrew has words and columns, also if none occurs") {
   const auto rows = read_ranking({job_with(scratch, "coiled", life)});
   CHECK_THAT(action_words(rows[0]), Catch::Contains("Twist may wind signal cable 2 into a corkscrew in the hose, 0.40 m from the tool, "
                                                     "after 300 .. 1,200 h (not validated): inspect it there."));
-  CHECK(unvalidated_words(rows[0]) ==
-        "Corkscrew is not validated and not in the hours above. It occurs after 300 .. 1,200 h (10 .. 90 %). Nearest to it is signal "
-        "cable 2, 0.40 m from the tool, at 2.0 s. A repeat leaves 10 degrees of twist.");
+  CHECK(line_of(coil).mode == "corkscrew* of signal cable 2");
+  CHECK(line_of(coil).hours == std::array<std::string, 3>{"300", "600", "1,200"});
+  CHECK(line_of(coil).note == "A repeat leaves 10 degrees of twist.");
   const auto table = read_csv(ranking_csv(rows));
   const auto column = std::find(table[0].begin(), table[0].end(), "corkscrew_life_hours_p10");
   REQUIRE(column != table[0].end());
   CHECK(table[1].at(static_cast<std::size_t>(column - table[0].begin())) == "300");
   coil.hours.fill(infinity), coil.note = "Forces and twist 10 times as large would wind it.";
-  CHECK_THAT(unvalidated_words(coil), Catch::Contains(". None occurs. Nearest to it is signal cable 2") && Catch::EndsWith(coil.note));
+  CHECK(line_of(coil).mode == "corkscrew*, nearest: signal cable 2");
+  CHECK(line_of(coil).hours == std::array<std::string, 3>{"none", "none", "none"});
 }
 
 TEST_CASE("ranking: a kink has words and columns, also if none occurs") {
@@ -451,17 +463,18 @@ TEST_CASE("ranking: a kink has words and columns, also if none occurs") {
   life.planned_hours = 1e5, life.robot_life_hours = 40000, life.unvalidated = unvalidated_text({kink});
   const auto rows = read_ranking({job_with(scratch, "kinked", life)});
   CHECK_THAT(action_words(rows[0]), Catch::Contains("air hose may kink in the hose, 0.40 m from the tool. Its tightest bend has"));
-  CHECK(unvalidated_words(rows[0]) ==
-        "Kinks of smooth tubes are not in the hours above. 70 % of such tubes kink. Nearest to it is air hose, 0.40 m from the tool, at "
-        "2.0 s, with 0.88 times the radius of a kink. " + kink.note);
+  CHECK(line_of(kink).mode == "kink* of air hose");
+  CHECK(line_of(kink).hours == std::array<std::string, 3>{"0.0100", "0.0100", "none"});
+  CHECK(line_of(kink).note == "The tightest bend has 0.88 times the radius of a kink. " + kink.note);
   const auto table = read_csv(ranking_csv(rows));
   const auto column = std::find(table[0].begin(), table[0].end(), "kink_margin");
   REQUIRE(column != table[0].end());
   CHECK(table[1].at(static_cast<std::size_t>(column - table[0].begin())) == "0.88");
   kink.first_share = 0, kink.margin = 8;
-  CHECK_THAT(unvalidated_words(kink), Catch::Contains("None kinks.") && Catch::Contains("with 8.0 times the radius"));
+  CHECK_THAT(line_of(kink).note, Catch::StartsWith("The tightest bend has 8.0 times the radius"));
   kink.margin = infinity, kink.note.clear();
-  CHECK(unvalidated_words(kink) == "Kinks: nothing bends.");
+  CHECK(line_of(kink).mode == "kink*: nothing bends");
+  CHECK(line_of(kink).note.empty());
 }
 
 TEST_CASE("ranking: ratings have words and columns, and the first action names a rating that may end first") {
@@ -477,9 +490,8 @@ TEST_CASE("ranking: ratings have words and columns, and the first action names a
   CHECK(action_words(rows[0]) ==
         "The wires last longer than the robot (40,000 h). The maker's rating of power cable covers only 5,000 .. 16,000 h (10 .. 90 %, not "
         "validated): test or replace it by then. Not evaluated: water hose, kinks.");
-  CHECK(unvalidated_words(rows[0]) ==
-        "The maker's rating of power cable is a lower bound of its life, is not validated and not in the hours above. It covers 5,000 "
-        ".. 16,000 h (10 .. 90 %), 0.40 m from the tool, most at 3.0 s. 20 % of that is twist.");
+  CHECK(mode_lines(rows[0])[1].mode == "maker's rating* of power cable");
+  CHECK(mode_lines(rows[0])[1].note == "A lower bound of its life. 20 % of that is twist.");
   const auto table = read_csv(ranking_csv(rows));
   const auto cell = [&](const std::string& name) {
     return table[1].at(static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), name) - table[0].begin()));
@@ -487,10 +499,8 @@ TEST_CASE("ranking: ratings have words and columns, and the first action names a
   CHECK(cell("rating_hours_p50") == "9000");
   CHECK(cell("rating_of") == "power cable");
   CHECK(cell("abrasion_life_hours_p50").empty());
-  rated.hours.fill(infinity), rated.note = "";
-  CHECK(unvalidated_words(rated) ==
-        "The maker's rating of power cable is a lower bound of its life, is not validated and not in the hours above. It covers the "
-        "whole life in more than 9 of 10 cases.");
+  rated.hours.fill(infinity);
+  CHECK(line_of(rated).hours[0] == "over 40,000");
 }
 
 TEST_CASE("ranking: the relative life of a rated cable has columns and words, empty without a rating") {

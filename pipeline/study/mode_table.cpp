@@ -1,0 +1,107 @@
+#include "pipeline/study/mode_table.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "pipeline/study/row_words.h"
+#include "pipeline/study/text_column.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+bool is_buckling(const UnvalidatedMode& mode) {
+  return mode.mode == UnvalidatedMode::corkscrew || mode.mode == UnvalidatedMode::kink;
+}
+
+/// A life by a mode; of a corkscrew and a kink, which occur or not, "none".
+std::string mode_life(const RankingRow& row, const UnvalidatedMode& mode, double hours) {
+  if (std::isnan(hours) || !is_credible(mode)) return "-";
+  return std::isinf(hours) && is_buckling(mode) ? "none" : shown_life(row, hours);
+}
+
+/// "abrasion* on link_4"
+std::string mode_name(const UnvalidatedMode& mode) {
+  const std::string name = mode.mode + "*" + (mode.dresspack.empty() ? "" : " (" + mode.dresspack + ")");
+  if (mode.mode == UnvalidatedMode::wall) return name;
+  if (mode.mode == UnvalidatedMode::kink && !std::isfinite(mode.margin)) return name + ": nothing bends";
+  if (mode.place.empty()) return name + ": nothing rubs";
+  if (mode.mode == UnvalidatedMode::abrasion) return name + " on " + mode.place;
+  return name + (is_buckling(mode) && std::isinf(mode.hours[0]) ? ", nearest: " : " of ") + mode.place;
+}
+
+std::string mode_note(const UnvalidatedMode& mode) {
+  if (!is_credible(mode))
+    return fmt::format("Not predicted: the only known law gives {} bends from straight to the limit of the bend radius, and a published "
+                       "hose endured {} without damage. Keep the maker's bend radius. A bending test by the maker, as strain_life_table "
+                       "of the material of the wall, would give a life.",
+                       readable(mode.bends_at_limit), readable(published_wall_bends));
+  const std::string what = mode.mode == UnvalidatedMode::rating ? "A lower bound of its life. "
+                           : mode.mode == UnvalidatedMode::kink && std::isfinite(mode.margin)
+                               ? fmt::format("The tightest bend has {} times the radius of a kink. ", readable(mode.margin, 2))
+                               : "";
+  const std::string words = what + mode.note;
+  return words.substr(0, words.find_last_not_of(' ') + 1);
+}
+
+ModeLine line_of(const RankingRow& row, const UnvalidatedMode& mode) {
+  ModeLine line;
+  line.mode = mode_name(mode);
+  for (std::size_t i = 0; i < line.hours.size(); ++i) line.hours[i] = mode_life(row, mode, mode.hours[i]);
+  line.note = mode_note(mode);
+  if (mode.place.empty()) return line;
+  if (!std::isnan(mode.first_share)) line.before_wires = fmt::format("{:.0f} %", 100 * mode.first_share);
+  if (!std::isnan(mode.together_p10)) line.with_it = shown_life(row, mode.together_p10);
+  line.from_tool = fmt::format("{:.2f}", mode.position_from_tool);
+  if (mode.mode != UnvalidatedMode::wall) line.time = fmt::format("{:.1f}", mode.time);
+  line.step = mode.step;
+  line.early = is_credible(mode) && mode.early_hours() < row.robot_life_hours;
+  return line;
+}
+
+}  // namespace
+
+std::vector<ModeLine> mode_lines(const RankingRow& row) {
+  std::vector<ModeLine> lines;
+  if (row.planned()) {
+    ModeLine wires;
+    wires.mode = "wires" + (row.failing_conductor.empty() ? "" : " of " + row.failing_conductor);
+    for (std::size_t i = 0; i < wires.hours.size(); ++i) wires.hours[i] = shown_life(row, row.planned_hours[i]);
+    wires.with_it = wires.hours[0];
+    if (!row.failing_conductor.empty()) wires.from_tool = fmt::format("{:.2f}", row.failing_position_from_tool);
+    lines.push_back(wires);
+  }
+  for (const UnvalidatedMode& mode : row.unvalidated) lines.push_back(line_of(row, mode));
+  return lines;
+}
+
+std::string mode_table(const RankingRow& row, std::size_t width, const std::string& indent) {
+  const std::vector<ModeLine> lines = mode_lines(row);
+  if (lines.empty() || row.unvalidated.empty()) return "";
+  std::array<Column, 7> columns{{{"fails by", false, {}},
+                                 {"10 % [h]", true, {}},
+                                 {"half [h]", true, {}},
+                                 {"90 % [h]", true, {}},
+                                 {"before wires", true, {}},
+                                 {"from tool [m]", true, {}},
+                                 {"at [s]", true, {}}}};
+  for (const ModeLine& line : lines) {
+    const std::array cells{line.mode, line.hours[0], line.hours[1], line.hours[2], line.before_wires, line.from_tool, line.time};
+    for (std::size_t i = 0; i < cells.size(); ++i) columns[i].cells.push_back(cells[i]);
+  }
+  std::string text;
+  const auto add_line = [&](auto cell_of) {
+    std::string cells = indent;
+    for (const Column& column : columns) cells += column.padded(cell_of(column)) + "  ";
+    text += cells.substr(0, cells.find_last_not_of(' ') + 1) + '\n';
+  };
+  add_line([](const Column& column) { return column.title; });
+  for (std::size_t k = 0; k < lines.size(); ++k) add_line([k](const Column& column) { return column.cells[k]; });
+  const auto below = [&](const std::string& words) { text += wrapped(words, width, indent); };
+  below("* No test confirms the law of this mode: 'replace after' leaves it out.");
+  for (const ModeLine& line : lines)
+    if (line.early && !line.note.empty()) below(fmt::format("{}: {}", line.mode.substr(0, line.mode.find('*')), line.note));
+  return text;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,28 @@
+// A column of a table on the terminal, as wide as its widest cell.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "pipeline/base/readable.h"
+
+namespace dresslife::pipeline {
+
+struct Column {
+  std::string title;
+  bool to_the_right = false;
+  std::vector<std::string> cells;
+
+  std::size_t width() const {
+    std::size_t widest = columns_of(title);
+    for (const std::string& cell : cells) widest = std::max(widest, columns_of(cell));
+    return widest;
+  }
+  std::string padded(const std::string& cell) const {
+    const std::string space(width() - columns_of(cell), ' ');
+    return to_the_right ? space + cell : cell + space;
+  }
+};
+
+}  // namespace dresslife::pipeline
