@@ -99,6 +99,9 @@ void describe(Fields& f, Motion& motion) {
   f.text("source", motion.source, Need::optional, "The author of the program.");
   f.number("speed_percent", motion.speed_percent, Need::optional, between(0.1, 100),
            "The speed of moves without a speed of their own.");
+  f.number("override_percent", motion.override_percent, Need::optional, between(1, 100),
+           "The speed override of the controller. It multiplies all speeds of the program and of the axes, and divides the times of "
+           "moves that have times. Accelerations and waits stay.");
   f.number("acceleration_percent", motion.acceleration_percent, Need::optional, between(1, 100),
            "The acceleration of all moves, as a share of the highest one of each axis.");
   f.number("ramp_percent", motion.ramp_percent, Need::optional, between(1, 50),

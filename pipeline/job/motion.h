@@ -90,6 +90,7 @@ struct ProgramFile {
 struct Motion {
   std::string name, source;
   double speed_percent = 100;  ///< default of the moves [%]
+  double override_percent = 100;  ///< of the controller: all speeds are multiplied by it [%]
   double acceleration_percent = 100;
   double ramp_percent = 25;      ///< of a joint move's change of speed: the acceleration builds up [%]
   double path_smoothing = 0.015; ///< of tool paths: the acceleration builds up within twice this time [s]

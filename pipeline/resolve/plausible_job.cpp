@@ -99,6 +99,7 @@ struct Seen {
   int untimed = 0;           ///< joint targets without durations
   int moves = 0;
   bool all_joints = true;
+  bool default_speed = false;  ///< a move has none of its own
   bool only_timed = true;    ///< all moves by joints, and all but the first with durations
 };
 
@@ -113,6 +114,8 @@ void look_at(const std::vector<MotionStep>& steps, Seen& seen) {
     if (step.dwell > longest_dwell) seen.waits.add(step);
     seen.moves += step.is_move();
     if (step.is_move() && step.joints.empty()) seen.all_joints = false;
+    if (step.is_move() && !step.speed && !step.speed_percent && !step.tool_speed && !step.turn_speed && !step.duration)
+      seen.default_speed = true;
     if (step.is_move() && (step.joints.empty() || (seen.first && !step.duration))) seen.only_timed = false;
     if (step.joints.empty()) continue;
     for (std::size_t k = 0; step.duration && k < std::min(seen.last.size(), step.joints.size()); ++k)
@@ -249,6 +252,11 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         seen.waits.warning(fmt::format("dwell_s is {:g} (limit {:g} or less)", step->dwell, longest_dwell),
                            "milliseconds instead of seconds",
                            fmt::format("dwell_s: {:g} if that was milliseconds", step->dwell / 1000)));
+  if (motion.speed_percent != 100 && seen.moves > 0 && !seen.default_speed)
+    warnings.push_back(warning_of(WarningKind::motion, motion.where.text(),
+                                  fmt::format("speed_percent {:g} has no effect (limit: moves without a speed of their own)", motion.speed_percent),
+                                  "each move of the program has its own speed",
+                                  fmt::format("motion.override_percent: {:g} for the speed override of the controller", motion.speed_percent)));
   doubt_single_targets(motion.steps, warnings);
   doubt_frames(motion.tools, "tool", motion.where, warnings);
   doubt_frames(motion.work_objects, "work object", motion.where, warnings);

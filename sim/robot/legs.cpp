@@ -355,7 +355,7 @@ class Layout {
     const double way = tool_way(move);
     const double brake = axis_limit(move.to - move.from, accelerations_) * way;
     const double speed =
-        std::min(step.tool_speed.value_or(INFINITY), axis_limit(move.to - move.from, speeds(step)) * way);
+        overridden() * std::min(step.tool_speed.value_or(INFINITY), axis_limit(move.to - move.from, speeds(step)) * way);
     return *step.stop_zone / 100 * speed * speed / (2 * brake);
   }
 
@@ -373,6 +373,9 @@ class Layout {
       if (way[i] != 0) rate = std::min(rate, limits[i] / std::abs(way[i]));
     return rate;
   }
+
+  /// By the controller's speed override, which scales speeds and leaves accelerations and waits.
+  double overridden() const { return motion_.override_percent / 100; }
 
   VectorXd speeds(const MotionStep& step) const {
     VectorXd limits(static_cast<long>(axes_.size()));
@@ -449,6 +452,7 @@ class Layout {
     if (step.tool_speed && distance > 0)
       leg.cruise = std::min(leg.cruise, length * *step.tool_speed / distance);
     if (step.turn_speed && turn > 0) leg.cruise = std::min(leg.cruise, length * *step.turn_speed / turn);
+    leg.cruise *= overridden();
     if (duration > 0) leg.cruise = std::min(leg.cruise, length / duration);
     made_.legs.push_back(std::move(leg));
   }
@@ -482,7 +486,7 @@ class Layout {
   void lay_path(const Move& move) {
     const double end = 1 - move.cut_behind, span = std::max(end - move.cut_before, 1e-12);
     double u = move.cut_before;
-    const double duration = move.step->duration.value_or(0);
+    const double duration = move.step->duration.value_or(0) / overridden();
     while (u < end) {
       const auto next = advance(move, u, end, last_);
       if (!next) return;
@@ -511,7 +515,7 @@ class Layout {
         before = now;
       }
     }
-    double duration = step.duration.value_or(0);
+    double duration = step.duration.value_or(0) / overridden();
     if (duration > 0 && stops(k) && (k == 0 || stops(k - 1))) duration = cruise_time(end - begin, duration);
     last_ = end;
     const std::size_t before = made_.legs.size();

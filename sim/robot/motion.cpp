@@ -235,7 +235,7 @@ std::vector<MotionPiece> spline_pieces(const pipeline::Motion& motion, const std
     if (!step.duration || step.path != pipeline::PathKind::joint || step.dwell > 0)
       throw pipeline::InputError(step.where, "is no joint move with a duration (motion.rows: spline needs all moves to be)",
                                  "give joint angles with times, or leave out motion.rows");
-    times.push_back(times.back() + *step.duration);
+    times.push_back(times.back() + *step.duration * 100 / motion.override_percent);
   }
   std::vector<MotionPiece> pieces;
   const auto add = [&](std::size_t row, const VectorXd& velocity, const VectorXd& acceleration, const VectorXd& jerk) {
@@ -272,11 +272,11 @@ double smoothing_of(const pipeline::Motion& motion, const std::vector<Leg>& legs
   return most > 0 ? std::max(shortest, most / (2 * *motion.path_jerk)) : motion.path_smoothing;
 }
 
-AxisLimits limits_of(const pipeline::Robot& robot) {
+AxisLimits limits_of(const pipeline::Robot& robot, double override_percent) {
   const std::vector<Axis> axes = axes_of(robot);
   AxisLimits limits{VectorXd(static_cast<long>(axes.size())), VectorXd(static_cast<long>(axes.size()))};
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    limits.speed[static_cast<long>(i)] = axes[i].speed;
+    limits.speed[static_cast<long>(i)] = axes[i].speed * override_percent / 100;
     limits.acceleration[static_cast<long>(i)] = axes[i].acceleration;
   }
   return limits;
@@ -288,7 +288,7 @@ JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& 
   const VectorXd accelerations = mean_accelerations(motion, robot);
   Legs program = legs_of(motion, robot, accelerations);
   if (motion.rows == pipeline::RecordedRows::spline) program.legs.clear();
-  const AxisLimits limits = limits_of(robot);
+  const AxisLimits limits = limits_of(robot, motion.override_percent);
   const VectorXd jerks = motion.jerk ? jerk_limits(motion, robot) : VectorXd();
   const VectorXd full = limits.acceleration * (motion.acceleration_percent / 100);
   Pieces laid;

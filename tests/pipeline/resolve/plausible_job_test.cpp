@@ -28,6 +28,17 @@ std::size_t doubts(std::vector<MotionStep> steps) {
 
 }  // namespace
 
+TEST_CASE("plausible job: a speed for moves that all have their own has no effect, and the override is named") {
+  Motion motion;
+  motion.steps.resize(2);
+  motion.steps[0].joints = {0}, motion.steps[1].joints = {1};
+  motion.speed_percent = 50;
+  CHECK(plausibility_of_steps(motion).empty());
+  for (MotionStep& step : motion.steps) step.tool_speed = 0.5;
+  REQUIRE(plausibility_of_steps(motion).size() == 1);
+  CHECK(plausibility_of_steps(motion)[0].words.find("motion.override_percent: 50") != std::string::npos);
+}
+
 TEST_CASE("plausible steps: angles that are all below a turn in radians and yet move") {
   CHECK(doubts({}) == 0);
   CHECK(doubts({move_to({1, 2}), move_to({1.2, 2})}) == 1);

@@ -223,6 +223,21 @@ TEST_CASE("motion: speed is a percentage of the axes' or that of the fastest axi
   CHECK(JointMotion(motion, robot).velocity(1)[0] == Approx(2).epsilon(rounding));
 }
 
+TEST_CASE("motion: the controller's override multiplies each kind of speed and leaves accelerations and dwells") {
+  const pipeline::Robot robot = robot_with({2}, {4});
+  const auto time = [&](auto set) {
+    pipeline::Motion motion = motion_of({move_to({0}), move_to({3}), dwell(0.8)});
+    motion.override_percent = 50;
+    set(motion.steps[1]);
+    return JointMotion(motion, robot).duration();
+  };
+  const auto law = [](double speed) { return 3 / speed + speed / (mean_share * 4) + 0.8; };
+  CHECK(time([](auto&) {}) == Approx(law(1)).epsilon(rounding));
+  CHECK(time([](auto& step) { step.speed_percent = 50; }) == Approx(law(0.5)).epsilon(rounding));
+  CHECK(time([](auto& step) { step.speed = 1.5; }) == Approx(law(0.75)).epsilon(rounding));
+  CHECK(time([](auto& step) { step.duration = 10; }) == Approx(20 + 0.8).epsilon(rounding));
+}
+
 TEST_CASE("motion: a smaller share of acceleration takes the closed form's time") {
   pipeline::Motion motion = motion_of({move_to({0}), move_to({6})});
   motion.acceleration_percent = 40;
