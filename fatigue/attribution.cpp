@@ -5,8 +5,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <numeric>
 
 #include "pipeline/job/setup.h"
 

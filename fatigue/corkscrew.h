@@ -23,7 +23,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "pipeline/files/files.h"

@@ -1,7 +1,6 @@
 #include "fatigue/damage.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>

@@ -6,7 +6,6 @@
 // mode: its law has not been compared with a test.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>

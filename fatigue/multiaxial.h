@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "fatigue/damage.h"
-#include "pipeline/job/fatigue.h"
 #include "pipeline/job/material.h"
 
 namespace dresslife::fatigue {

@@ -10,7 +10,6 @@
 // common factor (F25) is given.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 

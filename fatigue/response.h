@@ -3,7 +3,6 @@
 // (F27).
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "fatigue/scatter.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>

@@ -27,7 +27,6 @@
 // Not contained: wear of the obstacle, a patch that grows along the hose, heat of friction, dirt, cuts, running-in.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>

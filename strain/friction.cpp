@@ -1,7 +1,6 @@
 #include "strain/friction.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace dresslife::strain {

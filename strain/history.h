@@ -2,7 +2,6 @@
 // channel.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "strain/deformation.h"

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <cstring>
 #include <initializer_list>
-#include <new>
 #include <stdexcept>
 
 namespace dresslife::pipeline {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <sstream>
 
 #include "pipeline/base/installation.h"

@@ -1,6 +1,5 @@
 #include "pipeline/commands/command.h"
 
-#include <filesystem>
 #include <memory>
 
 #include "pipeline/commands/as_json.h"

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <type_traits>
 
 #include "pipeline/base/whole_file.h"

@@ -5,7 +5,6 @@
 #include <hdf5.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <utility>
 

@@ -4,8 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <cmath>
 
 #include "pipeline/base/readable.h"
 #include "pipeline/settings/fields.h"

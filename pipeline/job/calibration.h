@@ -8,7 +8,6 @@
 // stand in the keys: what a file of results depends on is all in it.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>

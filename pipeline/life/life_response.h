@@ -14,7 +14,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "pipeline/base/readable.h"
 #include "pipeline/report/plot.h"

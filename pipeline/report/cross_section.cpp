@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/plain_properties.h"

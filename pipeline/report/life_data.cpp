@@ -1,7 +1,5 @@
 #include "pipeline/report/life_data.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,7 +1,5 @@
 #include "pipeline/report/motion_data.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <numeric>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"

@@ -1,7 +1,5 @@
 #include "pipeline/report/section_data.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,8 +1,6 @@
 // Which kind of file a document is, for one that is given where another belongs.
 #pragma once
 
-#include <string>
-
 #include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {

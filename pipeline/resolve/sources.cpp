@@ -1,7 +1,5 @@
 #include "pipeline/resolve/sources.h"
 
-#include <fmt/format.h>
-
 #include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/program_files.h"

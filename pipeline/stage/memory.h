@@ -7,7 +7,6 @@
 // are of the size of the rest, so an estimate is good within `memory_factor`, either way.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>

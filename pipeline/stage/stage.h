@@ -9,7 +9,6 @@
 #include <future>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "pipeline/base/limits.h"

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <system_error>
 #include <unordered_map>
-#include <utility>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/ownership.h"

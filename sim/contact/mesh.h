@@ -7,7 +7,6 @@
 // outside: an overlap of a radius. An axis that crosses the surface is reported as deep as a diameter.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "pipeline/base/mesh_file.h"

@@ -1,7 +1,6 @@
 #include "sim/contact/ring.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

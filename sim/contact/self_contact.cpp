@@ -1,7 +1,6 @@
 #include "sim/contact/self_contact.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 

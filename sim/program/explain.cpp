@@ -1,6 +1,5 @@
 #include "sim/program/explain.h"
 
-#include <cmath>
 #include <filesystem>
 #include <numbers>
 

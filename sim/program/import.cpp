@@ -1,7 +1,6 @@
 #include "sim/program/import.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "pipeline/base/plain_file.h"

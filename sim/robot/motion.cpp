@@ -1,10 +1,8 @@
 #include "sim/robot/motion.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <iterator>
-#include <span>
 
 #include "sim/robot/legs.h"
 #include "sim/robot/path_motion.h"

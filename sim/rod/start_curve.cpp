@@ -1,7 +1,6 @@
 #include "sim/rod/start_curve.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace dresslife::sim {
 namespace {

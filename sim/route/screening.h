@@ -21,7 +21,6 @@
 #include <array>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string_view>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "sim/run/clamp_path.h"
 
 #include <algorithm>
-#include <cassert>
 #include <numbers>
 
 #include "pipeline/base/warning_words.h"

@@ -5,7 +5,6 @@
 // falls (Levenberg-Marquardt). The result is therefore a stable equilibrium. (S11), (S12) in sim/rod/theory.md.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 

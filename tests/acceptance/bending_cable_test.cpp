@@ -1,7 +1,6 @@
 // The thesis' bending test (3.4.1, figures 13 to 15), from the job file to the wire: what a cable between two
 // blocks must show when the upper one comes down.
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -3,7 +3,6 @@
 //
 // fatigue_mreversals_per_s: DamageCounter. fatigue_reference_mreversals_per_s: a stack and two comparisons
 // per reversal, ranges summed, nothing else; what counting alone costs.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>

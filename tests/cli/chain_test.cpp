@@ -1,6 +1,5 @@
 // The stages as a user runs them: one after the other from the command line, twice, and through a study.
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 
 #include "pipeline/files/files.h"

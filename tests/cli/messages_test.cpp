@@ -1,7 +1,6 @@
 // What a user can do wrong at the command line: one line with place, reason and remedy, exit status 1,
 // nothing left behind. (Every message of the job reader is checked in tests/pipeline.)
 #include <algorithm>
-#include <cmath>
 
 #include "tests/catch.h"
 #include "tests/cli/process.h"

@@ -1,6 +1,5 @@
 // The pages of the project: every YAML example is read by the real reader, every command runs, and the README's
 // first job has the README's numbers.
-#include <fmt/format.h>
 
 #include "tests/catch.h"
 #include <map>

@@ -1,5 +1,4 @@
 // `dresslife rate` and `dresslife validate`, as a user runs them.
-#include <cmath>
 #include <sstream>
 
 #include "tests/catch.h"

@@ -1,6 +1,5 @@
 // What one hour of a program does beside the test in which its cable is rated, as a user runs it.
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "tests/catch.h"

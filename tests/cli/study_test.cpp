@@ -1,5 +1,4 @@
 // Studies: what runs, what does not run again, what a failed job does to the others.
-#include <cmath>
 
 #include "tests/catch.h"
 #include "tests/cli/process.h"

@@ -1,7 +1,6 @@
 // What a stage says that its job will take, against what it takes, and what becomes of jobs that do not fit.
 #include <sys/resource.h>
 
-#include <chrono>
 #include <iostream>
 
 #include "pipeline/stage/memory.h"

@@ -1,7 +1,6 @@
 // What a stage leaves behind when the disk, the memory or another writer fails it: its file whole, or none.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <iostream>
 #include <map>
 #include <random>

@@ -1,6 +1,5 @@
 // The bounds hold the wires that live shortest, not only those with the largest range.
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 

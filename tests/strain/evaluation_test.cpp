@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <random>
 
 #include "pipeline/base/errors.h"
 #include "tests/catch.h"

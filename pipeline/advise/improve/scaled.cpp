@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <initializer_list>
 
 namespace dresslife::pipeline {

@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <string_view>
-#include <tuple>
 #include <unordered_map>
 
 #include "pipeline/base/digest.h"

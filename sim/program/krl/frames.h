@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "sim/program/interpreter/interpreter.h"
 

@@ -2,8 +2,6 @@
 // them, moves.cpp contains those that move.
 #pragma once
 
-#include <cmath>
-
 #include "sim/program/interpreter/interpreter.h"
 
 namespace dresslife::sim {

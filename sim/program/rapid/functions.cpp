@@ -1,9 +1,7 @@
 #include "sim/program/rapid/functions.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "sim/program/interpreter/tokens.h"

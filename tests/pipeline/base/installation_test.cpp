@@ -1,7 +1,6 @@
 #include "pipeline/base/installation.h"
 
 #include <cstdlib>
-#include <fstream>
 
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"

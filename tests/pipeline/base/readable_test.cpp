@@ -1,7 +1,6 @@
 // Numbers and texts as people read them.
 #include "pipeline/base/readable.h"
 
-#include <cmath>
 #include <limits>
 
 #include "tests/catch.h"

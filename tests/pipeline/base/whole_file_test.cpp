@@ -4,7 +4,6 @@
 #include <sys/file.h>
 
 #include <chrono>
-#include <cmath>
 #include <thread>
 
 #include "pipeline/base/limits.h"

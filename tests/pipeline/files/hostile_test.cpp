@@ -2,7 +2,6 @@
 // file is read.
 #include <hdf5.h>
 
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <vector>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 
 #include "tests/catch.h"
 #include "tests/pipeline/life/straight_response.h"

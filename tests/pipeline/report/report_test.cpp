@@ -1,7 +1,6 @@
 #include "pipeline/report/report.h"
 
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <regex>
 #include <set>

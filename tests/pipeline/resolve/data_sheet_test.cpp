@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>

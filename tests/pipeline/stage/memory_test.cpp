@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <csignal>
 #include "pipeline/base/progress.h"
 #include "pipeline/files/files.h"
 #include "pipeline/stage/stage.h"

@@ -1,7 +1,6 @@
 // Any bytes as a program of any language: the reader must come back, with problems that have a place.
 #pragma once
 
-#include <cstdlib>
 #include <string>
 
 #include "pipeline/job/robot.h"

@@ -1,6 +1,5 @@
 #include "sim/reprogram/program_ways.h"
 
-#include <filesystem>
 #include <map>
 #include <set>
 

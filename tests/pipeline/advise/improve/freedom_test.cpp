@@ -5,7 +5,6 @@
 #include "pipeline/advise/improve/improvement.h"
 #include "pipeline/advise/improve/obstacle.h"
 #include "pipeline/base/errors.h"
-#include "pipeline/files/check_names.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
