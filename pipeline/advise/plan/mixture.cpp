@@ -74,6 +74,9 @@ std::vector<double> worst_places(const WireDamage& wires, const std::vector<doub
 /// Standard deviation of ln of a number with this relative deviation.
 double log_deviation(double percent) { return std::sqrt(std::log1p(percent * percent / 1e4)); }
 
+/// R of (D1). sum, largest: of c r / L over the programs.
+double at_least_alone(double sum, double largest, double c) { return c > 0 ? std::max(sum, largest / c) : sum; }
+
 double log10_life(double damage) { return damage > 0 ? -std::log10(damage) : infinity; }
 
 }  // namespace
@@ -132,9 +135,9 @@ WireDamage wire_damage(const std::filesystem::path& life_file, const FailureMode
 }
 
 double DutyDamage::in_mode(std::size_t mode, std::size_t sample) const {
-  double sum = 0;
-  for (const auto& program : of_program) sum += program[mode][sample];
-  return sum;
+  double sum = 0, largest = 0;
+  for (const auto& program : of_program) sum += program[mode][sample], largest = std::max(largest, program[mode][sample]);
+  return at_least_alone(sum, largest, same_place[mode]);
 }
 
 SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDamage* round)
@@ -228,19 +231,24 @@ std::vector<double> first_mode_damage(
     const std::vector<double>& share,
     const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
     const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of) {
-  RepeatDamage sums;
+  RepeatDamage sums, largest;
   for (std::size_t k = 0; k < programs.size(); ++k) {
     const std::vector<double>& factors = factors_of(programs[k], rates[k].deviation_percent);
     const RepeatDamage& damage = of_repeat(programs[k]);
-    if (k == 0) sums.assign(damage.size(), std::vector<double>(factors.size(), 0.0));
+    if (k == 0) sums = largest = RepeatDamage(damage.size(), std::vector<double>(factors.size(), 0.0));
     for (std::size_t m = 0; m < damage.size(); ++m) {
       const double repeats = share[m] * rates[k].repeats_per_hour;
-      for (std::size_t s = 0; s < factors.size(); ++s) sums[m][s] += damage[m][s] * (repeats * factors[s]);
+      for (std::size_t s = 0; s < factors.size(); ++s) {
+        const double of_program = damage[m][s] * (repeats * factors[s]);
+        sums[m][s] += of_program;
+        largest[m][s] = std::max(largest[m][s], of_program);
+      }
     }
   }
   std::vector<double> worst(sums.front().size(), 0.0);
-  for (const std::vector<double>& of_mode : sums)
-    for (std::size_t s = 0; s < worst.size(); ++s) worst[s] = std::max(worst[s], of_mode[s]);
+  for (std::size_t m = 0; m < sums.size(); ++m)
+    for (std::size_t s = 0; s < worst.size(); ++s)
+      worst[s] = std::max(worst[s], at_least_alone(sums[m][s], largest[m][s], share[m]));
   return worst;
 }
 
@@ -265,7 +273,9 @@ DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& his
     std::size_t first = 0;
     for (std::size_t m = 1; m < duty.modes(); ++m)
       if (duty.in_mode(m, s) > duty.in_mode(first, s)) first = m;
-    for (std::size_t k = 0; k < programs; ++k) lives.share[k] += duty.of_program[k][first][s] / damage[s];
+    double all = 0;
+    for (std::size_t k = 0; k < programs; ++k) all += duty.of_program[k][first][s];
+    for (std::size_t k = 0; k < programs; ++k) lives.share[k] += duty.of_program[k][first][s] / all;
   }
   for (double& share : lives.share) share = damaged > 0 ? share / damaged : 0;
   if (history.empty()) return lives;
@@ -291,9 +301,13 @@ LifePercentiles lives_with(const DutyDamage& duty, const std::vector<double>& ti
   for (std::size_t s = 0; s < duty.samples(); ++s) {
     double worst = 0;
     for (std::size_t m = 0; m < duty.modes(); ++m) {
-      double damage = 0;
-      for (std::size_t k = 0; k < times.size(); ++k) damage += times[k] * duty.of_program[k][m][s];
-      worst = std::max(worst, damage * share[m] / duty.same_place[m]);
+      double sum = 0, largest = 0;
+      for (std::size_t k = 0; k < times.size(); ++k) {
+        const double of_program = times[k] * duty.of_program[k][m][s] * share[m] / duty.same_place[m];
+        sum += of_program;
+        largest = std::max(largest, of_program);
+      }
+      worst = std::max(worst, at_least_alone(sum, largest, share[m]));
     }
     lives.push_back(log10_life(worst));
   }

@@ -2,9 +2,10 @@
 //
 // Damage adds up over programs, wire by wire (Miner). With D_k the damage per repeat of program k, r_k its repeats per
 // hour of operation, the damage of a failure mode m in an hour is, in each sample s of everything that is uncertain,
-//     R(m, s) = c(m) sum over k of r_k(s) / L_k(m, s)                                                        (D1)
+//     R(m, s) = max(c(m) sum over k of r_k(s) / L_k(m, s), max over k of r_k(s) / L_k(m, s))                 (D1)
 // L_k(m, s): repeats until the mode fails under program k alone (life_response.h), over common samples. The programs may
-// wear different places. The sum assumes one place, and c(m) <= 1 corrects it for that by the medians:
+// wear different places. The sum assumes one place, and c(m) <= 1 corrects it for that by the medians. No program can do less
+// damage beside others than alone, which the second term states: so a program more never makes a life longer.
 //     c(m) = max over places p of sum_k r_k D_k(p) / sum_k r_k max over p of D_k(p)                          (D2)
 // Where the programs run in a known order, the numerator counts the changes between them (rounds.h, D8).
 // A place is a conductor at a segment. Its damage is that of the wire whose break is its failure: with n wires of which a
@@ -61,7 +62,7 @@ struct DutyDamage {
 
   std::size_t samples() const { return of_program.front().front().size(); }
   std::size_t modes() const { return of_program.front().size(); }
-  /// (D1)
+  /// R of (D1)
   double in_mode(std::size_t mode, std::size_t sample) const;
   /// (sample) of the mode that fails first.
   std::vector<double> of_first_mode() const;

@@ -86,6 +86,22 @@ TEST_CASE("damage of programs adds up at one place, and not at two") {
   CHECK(damage_under({hard, other_wires}, rates, "", many).same_place[0] == Approx(3.0 / 4).epsilon(rounding));  // 3, 4, 3
 }
 
+TEST_CASE("a program more makes no life longer, also where the samples differ from the medians") {
+  const EvaluatedProgram hard = program("hard", 5, first_place), elsewhere = program("elsewhere", 5, second_place);
+  const std::vector<Rate> rates{{10, 0}, {10, 100}};  // at the medians each does half of the damage, in a sample one does most
+  const std::vector<EvaluatedProgram> both{hard, elsewhere};
+  const SamePlace places(both);
+  const DutyDamage mixed = damage_under(both, rates, "", many);
+  const LifePercentiles lives = lives_under(mixed).percentiles, alone = lives_under(damage_under({hard}, {{10, 0}}, "", many)).percentiles;
+  const LifePercentiles without = lives_with(mixed, {1, 0}, places.at({10, 0})), twice = lives_with(mixed, {1, 2}, places.at({10, 20}));
+  for (std::size_t p = 0; p < 3; ++p) {
+    CHECK(lives[p] <= alone[p] * (1 + rounding));
+    CHECK(without[p] == Approx(alone[p]).epsilon(rounding));
+    CHECK(twice[p] <= lives[p] * (1 + rounding));
+  }
+  CHECK(lives[0] < 0.8 * alone[0]);  // where 'elsewhere' repeats more often it decides
+}
+
 TEST_CASE("the first of two modes decides in each sample, and programs may wear different modes") {
   const auto with_modes = [](const std::string& name, double one, double other) {
     WireDamage wires = wires_of({{1}, {1}});
