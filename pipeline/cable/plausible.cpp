@@ -28,6 +28,7 @@ constexpr double strongest_jacket = 10e6;         // [Pa]: the pressure at which
 constexpr double thinnest = 0.01e-3;              // radius of a wire [m]: the finest strands are 0.03 mm wide
 constexpr double least_lay =
     0.6 * degree;  // a turn in 100 helix diameters and more; lays of cables are 3 to 40 deg, 0.05 to 0.7 rad
+constexpr double longest_lay = 64;  // widths of the layer: cores of flexible cables have 8 to 16, bunched power cables 25
 
 constexpr double widest_hose = 0.2,
                  thinnest_cable = 1e-3;  // [m]: hoses on robots are 15 to 110 mm wide, sensor cables 2
@@ -102,6 +103,14 @@ class Judge {
                 least_lay / degree),
             "radians instead of degrees",
             fmt::format("lay_angle_deg: {:.3g} if that was radians, or 0", of.lay_angle / degree / degree));
+      const double turn = of.lay_angle > least_lay ? 2 * pi * of.helix_radius / std::tan(of.lay_angle) : 0;  // [m]
+      if (const double width = 2 * (of.helix_radius + of.radius); !of.components.empty() && turn > longest_lay * width)
+        add(of.where,
+            fmt::format("the lay length of '{}' is {:.3g} mm, {:.0f} times the width of its layer (limit {:g})", of.name, 1e3 * turn,
+                        turn / width, longest_lay),
+            "a lay length with a digit too many",
+            fmt::format("lay_length_mm: {:.3g} in a data sheet, or lay_angle_deg: {:.3g}", 1e2 * turn,
+                        std::atan(10 * std::tan(of.lay_angle)) / degree));
       if (const double pressure = of.radial_line_load.value_or(0) / (2 * of.radius);
           pressure > strongest_jacket)
         add(of.where,

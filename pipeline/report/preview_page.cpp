@@ -105,16 +105,18 @@ std::string bend_words(const SpanPreview& span, bool bends) {
 std::string words(const SpanPreview& span, bool bends) {
   if (span.hangs())
     return fmt::format("{} hangs {:.3f} m long from its last clamp.", span.subject, span.length);
+  const std::string first_pose = std::abs(span.here[0] - span.program[0]) + std::abs(span.here[1] - span.program[1]) < 0.01
+                                     ? ""
+                                     : fmt::format(" ({:.2f} .. {:.2f} m in its first pose alone)", span.here[0], span.here[1]);
   return fmt::format(
-      "{} is {:.3f} m long. Over the program its clamps are {:.3f} .. {:.3f} m apart: {}. A length fits that is 2 % to a third longer than "
-      "the largest distance of the clamps. For the whole program this is {:.2f} .. {:.2f} m. For the first pose alone it is "
-      "{:.2f} .. {:.2f} m.{}",
+      "{} is {:.3f} m long. Over the program its clamps are {:.3f} .. {:.3f} m apart: {}. Lengths of {:.2f} .. {:.2f} m fit the program{}: 2 % to a "
+      "third longer than the largest distance.{}",
       span.subject, span.length, span.least_way, span.most_way,
       span.works()                    ? "this length fits"
       : span.length < span.most_way   ? "too short"
       : span.length < span.program[0] ? "hardly any slack"
                                       : "long",
-      span.program[0], span.program[1], span.here[0], span.here[1], bend_words(span, bends));
+      span.program[0], span.program[1], first_pose, bend_words(span, bends));
 }
 
 bool warns_of_bends(const FileReader& preview) {

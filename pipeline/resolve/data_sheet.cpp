@@ -537,12 +537,12 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
   // 4 x 2.5 mm2, 4 x (2 x 0.25) mm2, and as shops write it: 3x1.5 qmm, and 4G2.5 with the protective conductor among the four.
   static const std::regex section(
       R"((\d+) *[x*] *(?:\(? *(\d+) *[x*] *)?([\d.]+) *\)? *(?:mm2|mm\^2|mm²|qmm|sqmm))"),
-      with_earth(R"((\d+) *g *([\d.]+) *(?:mm2|mm\^2|mm²|qmm|sqmm)?)"), word_class("class *([1-6])"),
-      length(R"(([a-z][a-z -]*?) *([\d.]+) *mm(?: *[a-z]+)?)");
+      with_earth(R"((\d+) *g *([\d.]+) *(?:mm2|mm\^2|mm²|qmm|sqmm)?)"), word_class("(?:(?:extra |super )?fine(?:ly)?[ -]strand(?:s|ed)? )?class *([1-6])"),
+      length(R"(([a-z][a-z. -]*?) *([\d.]+) *mm(?: *[a-z]+)?)");
   static const std::vector<std::pair<std::regex, const char*>> lengths{
       {std::regex("(single )?wires?( diameter)?"), "wire_diameter_mm"},
-      {std::regex("(outer |outside )?diameter|od"), "outer_diameter_mm"},
-      {std::regex("(jacket|sheath)( [a-z-]+)*"), "jacket_thickness_mm"},
+      {std::regex("(outer |outside |overall )?diameter|od|o\\.d\\.?"), "outer_diameter_mm"},
+      {std::regex("([a-z-]+ )?(jacket|sheath)( [a-z-]+)*"), "jacket_thickness_mm"},
       {std::regex("cores?( diameter)?"), "core_diameter_mm"},
       {std::regex("lay( length)?"), "lay_length_mm"},
       {std::regex("(pair|group) lay( length)?"), "group_lay_length_mm"},

@@ -25,6 +25,8 @@ constexpr double half_turn = 3.15, small_turn = 0.35;  // [deg] that were rad
 constexpr double wide_targets = 15 * degree;
 // One place in metres: 50 mm to 5 m. Places at the origin of a work object are 0 or rounded to 0.01 mm.
 constexpr double least_metres = 0.05e-3, most_metres = 5e-3, far_place = 0.05;  // [m]
+// A place beside the one before: 20 mm to 1 m in metres. Robots repeat a place within 0.05 mm, and no program of a plant steps so little.
+constexpr double least_step = 0.02e-3, most_step = 1e-3;  // [m]
 constexpr double least_percent = 1;    // a hundredth of an axis' speed: no program of a plant runs so
 constexpr double fastest_tool = 10;     // [m/s]: the fastest controllers allow 5 to 7
 constexpr double longest_dwell = 100;  // [s]: the cycles of lines are shorter
@@ -203,6 +205,28 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
   }
 }
 
+/// Few places that lie beside the one before, turned alike, as by Offs in RAPID with an offset in metres.
+void doubt_small_steps(const std::vector<MotionStep>& steps, std::vector<Warning>& warnings) {
+  std::vector<const MotionStep*> joints, places;
+  gather(steps, joints, places);
+  Doubted small;
+  double way = 0;  // [m]
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    const MotionStep &before = *places[k - 1], &now = *places[k];
+    if (before.work_object != now.work_object || before.tool != now.tool || before.quaternion != now.quaternion) continue;
+    double squared = 0;
+    for (std::size_t i = 0; i < std::min(before.position.size(), now.position.size()); ++i)
+      squared += (now.position[i] - before.position[i]) * (now.position[i] - before.position[i]);
+    if (squared < least_step * least_step || squared > most_step * most_step) continue;
+    if (!small.first) way = std::sqrt(squared);
+    small.add(now);
+  }
+  if (!small.first || 3 * (static_cast<std::size_t>(small.more) + 1) > places.size()) return;  // a dense path
+  warnings.push_back(small.warning(
+      fmt::format("this target lies {:.3g} mm from the one before (limit {:g} mm or more)", 1e3 * way, 1e3 * most_step),
+      "an offset in metres instead of millimetres", fmt::format("{:.4g} mm in the program if that was metres", 1e6 * way)));
+}
+
 /// Tools and work objects that lie nearly, but not, where they count from.
 void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Where& where, std::vector<Warning>& warnings) {
   for (const MotionFrame& frame : frames) {
@@ -258,6 +282,7 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
                                   "each move of the program has its own speed",
                                   fmt::format("motion.override_percent: {:g} for the speed override of the controller", motion.speed_percent)));
   doubt_single_targets(motion.steps, warnings);
+  doubt_small_steps(motion.steps, warnings);
   doubt_frames(motion.tools, "tool", motion.where, warnings);
   doubt_frames(motion.work_objects, "work object", motion.where, warnings);
   if (!seen.first) return warnings;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
 #include "pipeline/base/readable.h"
@@ -30,8 +31,11 @@ bool is_damaged(const RankingRow& row) { return !row.worst_component.empty() && 
 std::string cause_words(const RankingRow& row) {
   if (!(row.measure_next_share > 0)) return "";
   const UncertainParameter* const cause = parameter_of(row.measure_next);
-  return fmt::format("{:.0f} % of the uncertainty is {}.", 100 * row.measure_next_share,
-                     cause ? cause->cause : "the scatter from wire to wire");
+  // life_shares is rounded so that its numbers add up to 100 %.
+  const std::size_t listed = ("; " + row.life_shares).find("; " + row.measure_next + " ");
+  const double percent = listed == std::string::npos ? 100 * row.measure_next_share
+                                                     : std::strtod(row.life_shares.c_str() + listed + row.measure_next.size() + 1, nullptr);
+  return fmt::format("{:.0f} % of the uncertainty is {}.", percent, cause ? cause->cause : "the scatter from wire to wire");
 }
 
 std::string test_words(const RankingRow& row) {
@@ -218,17 +222,18 @@ std::string action_words(const RankingRow& row) {
     return fmt::format("Do not plan with {}: {} (see the warnings).", std::isinf(hours) ? "this result" : hours_text(hours),
                        warning_kinds(row));
   if (row.worst_segment_from_tool == 0) return "No wire was evaluated.";
-  const std::string inspection = joined_words({inspection_words(row), bound_words(row)});
+  const std::string inspection = inspection_words(row), bound = bound_words(row);
   const bool may_fail_before = earlier_unvalidated(row);
   if (std::isinf(hours))
-    return joined_words({!may_fail_before ? "No replacement is foreseen:" : "For the wires no replacement is foreseen:",
-                         row.planned() ? "in more than 90 % of the samples no mode fails." : "no wire is damaged.", inspection});
+    return joined_words({inspection, !may_fail_before ? "No replacement is foreseen:" : "For the wires no replacement is foreseen:",
+                         row.planned() ? "in more than 90 % of the samples no mode fails." : "no wire is damaged.", bound});
   if (outlives_robot(row, hours))
-    return joined_words({fmt::format("The {} last longer than the robot ({} h).", may_fail_before ? "wires" : "evaluated parts",
+    return joined_words({inspection,
+                         fmt::format("The {} last longer than the robot ({} h).", may_fail_before ? "wires" : "evaluated parts",
                                      readable(row.robot_life_hours)),
-                         inspection, row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
+                         bound, row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
   return joined_words({fmt::format("Plan a replacement after {} of motion ({}).", hours_text(hours), calendar_text(row.headline_months())),
-                       inspection});
+                       inspection, bound});
 }
 
 std::string uncertainty_words(const RankingRow& row) {

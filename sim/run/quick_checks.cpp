@@ -359,8 +359,8 @@ class QuickChecks {
     return pipeline::warning_of(
         WarningKind::bend_radius, "",
         fmt::format("{} has no shape at rest that was found, {}", pipeline::dresspack_words(setup_, dresspack), moment(time)),
-        "its clamps turn it so far that it snaps, or it is too short for its way around the robot",
-        fmt::format("`dresslife run`, which follows its motion in time; or more {}",
+        "clamps that are exchanged or turned the wrong way, or a length that is too short for the way around the robot",
+        fmt::format("the links, positions and directions of the clamps as they are built; or more {}",
                     setup_.dresspacks.size() > 1 ? "free length" : "routing.free_length_m"));
   }
 

@@ -28,6 +28,24 @@ std::size_t doubts(std::vector<MotionStep> steps) {
 
 }  // namespace
 
+TEST_CASE("plausible steps: a place less than a millimetre beside the one before is an offset in metres, but not in a dense path") {
+  const auto doubts_of = [](const std::vector<double>& heights) {  // [mm]
+    Motion motion;
+    for (const double height : heights) {
+      MotionStep step;
+      step.position = {0.5, 0.1, 1e-3 * height}, step.quaternion = {1, 0, 0, 0}, step.tool_speed = 0.5;
+      motion.steps.push_back(step);
+    }
+    std::string words;
+    for (const Warning& warning : plausibility_of_steps(motion)) words += warning.words;
+    return words;
+  };
+  CHECK(doubts_of({0, 200, 400}).empty());
+  CHECK(doubts_of({0, 200, 200.01, 400}).empty());  // within what a robot repeats
+  CHECK_THAT(doubts_of({0, 200, 200.1, 400}), Catch::Contains("lies 0.1 mm from the one before") && Catch::Contains("100 mm in the program"));
+  CHECK(doubts_of({0, 0.5, 1, 1.5, 2}).empty());
+}
+
 TEST_CASE("plausible job: a speed for moves that all have their own has no effect, and the override is named") {
   Motion motion;
   motion.steps.resize(2);

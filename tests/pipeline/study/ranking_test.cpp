@@ -362,8 +362,8 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
                                   job_with(scratch, "broken", broken)});
   CHECK(rows[2].failure.find("attribute 'unvalidated_modes' is no list of modes") != std::string::npos);
   CHECK(action_words(rows[0]) ==
-        "The wires last longer than the robot (40,000 h). The hose may wear through on link_4, 0.13 m from the tool, after 300 .. "
-        "51,000 h (10 .. 90 %, not validated): inspect it there. Not evaluated: water hose, kinks.");
+        "The hose may wear through on link_4, 0.13 m from the tool, after 300 .. 51,000 h (10 .. 90 %, not validated): inspect it there. "
+        "The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   const std::string both = ranking_table(rows, 200);
   CHECK_THAT(both, Catch::Contains("*over 40,000") && Catch::Contains("* Plan with this number, and inspect for modes that are not validated. rubs, abrasion: from 300 h."));
   CHECK(both.find("*over 40,000") == both.rfind("*over 40,000"));  // the row that rubs, alone
@@ -405,8 +405,8 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   rubs.planned_hours = 1e5, rubs.robot_life_hours = 40000, rubs.unvalidated = unvalidated_text({worn});
   const auto rows = read_ranking({job_with(scratch, "rubs", rubs)});
   CHECK(action_words(rows[0]) ==
-        "The wires last longer than the robot (40,000 h). The jacket of signal cable 3 may wear through in the hose, 0.13 m from the "
-        "tool, after 300 .. 51,000 h (10 .. 90 %, not validated): inspect it there. Not evaluated: water hose, kinks.");
+        "The jacket of signal cable 3 may wear through in the hose, 0.13 m from the tool, after 300 .. 51,000 h (10 .. 90 %, not "
+        "validated): inspect it there. The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   UnvalidatedMode abraded = worn;
   abraded.mode = UnvalidatedMode::abrasion, abraded.place = "link_4", abraded.hours = {25000, 90000, 1e6};
   UnvalidatedMode late = worn;
@@ -415,7 +415,7 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   both.unvalidated = unvalidated_text({abraded, worn, late});
   const auto listed = read_ranking({job_with(scratch, "both", both)});
   CHECK_THAT(action_words(listed[0]), Catch::Contains("51,000 h (10 .. 90 %, not validated): inspect it there. Inspect also for: abrasion: from "
-                                                      "25,000 h. Not evaluated"));
+                                                      "25,000 h. The wires last longer"));
   CHECK(unvalidated_note(listed) ==
         "* Plan with this number, and inspect for modes that are not validated. jacket wear: from 300 h, abrasion: from 25,000 h.");
   CHECK(line_of(worn).mode == "jacket wear* of signal cable 3");
@@ -488,8 +488,8 @@ TEST_CASE("ranking: ratings have words and columns, and the first action names a
   life.unvalidated = unvalidated_text({rated});
   const auto rows = read_ranking({job_with(scratch, "rated", life)});
   CHECK(action_words(rows[0]) ==
-        "The wires last longer than the robot (40,000 h). The maker's rating of power cable covers only 5,000 .. 16,000 h (10 .. 90 %, not "
-        "validated): test or replace it by then. Not evaluated: water hose, kinks.");
+        "The maker's rating of power cable covers only 5,000 .. 16,000 h (10 .. 90 %, not validated): test or replace it by then. The "
+        "wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   CHECK(mode_lines(rows[0])[1].mode == "maker's rating* of power cable");
   CHECK(mode_lines(rows[0])[1].note == "A lower bound of its life. 20 % of that is twist.");
   const auto table = read_csv(ranking_csv(rows));
