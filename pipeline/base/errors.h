@@ -3,7 +3,7 @@
 // `file:line:column: error: what (why); what to do`. Everything else that is thrown is our fault (exit status 3).
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/format.h>  // for those who write messages
 
 #include <stdexcept>
 #include <string>

@@ -1,12 +1,12 @@
 #include "pipeline/cable/plausible.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/stiffness.h"
@@ -189,7 +189,7 @@ class Judge {
             of.name, bore, outer, outer / 2, narrowest_bore * outer, widest_bore * outer, narrowest_bore,
             widest_bore),
         "a radius instead of a diameter or a diameter instead of a radius, or another unit",
-        fmt::format("{}", fmt::join(remedies, "; or ")));
+        joined(remedies, "; or "));
   }
 
   std::vector<Warning>& warnings_;

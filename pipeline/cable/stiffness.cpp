@@ -1,12 +1,13 @@
 #include "pipeline/cable/stiffness.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/cable/cable_bending.h"
@@ -280,11 +281,11 @@ std::optional<Warning> too_little(const Dresspack& dresspack, const std::vector<
                                                 corrugation_line(usual_corrugation(dresspack)));
   return warning_of(
       WarningKind::material, "",
-      fmt::format("too low: {} from the construction{}", fmt::join(taken, ", "), soft),
-      fmt::format("the construction lacks {}", fmt::join(missing, " and ")),
+      fmt::format("too low: {} from the construction{}", joined(taken, ", "), soft),
+      fmt::format("the construction lacks {}", joined(missing, " and ")),
       fmt::format("{}, or measured values of {}",
                   wall ? "hose_material: hose_polyamide (the wall's)" + profile : "the missing keys",
-                  fmt::join(keys, ", ")));
+                  joined(keys, ", ")));
 }
 
 /// A smooth wall that no mechanic bends to its bend radius: the profile of a corrugated hose was left out.
@@ -328,7 +329,7 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
     if (wall) warnings.push_back(*wall);
     return warnings;
   }
-  const std::string without = missing.empty() ? "" : fmt::format(" without {}", fmt::join(missing, " and "));
+  const std::string without = missing.empty() ? "" : fmt::format(" without {}", joined(missing, " and "));
   const Wires wires(dresspack);
   const auto bending = [&](SlipState state) {
     return stiffness_with(wires, dresspack, state, curvature).bending;
@@ -386,7 +387,7 @@ std::string stiffness_text(const Dresspack& dresspack) {
        &HoseStiffness::torsional);
   line("E A", "N", dresspack.axial_stiffness, dresspack.axial_from_construction, &HoseStiffness::axial);
   const auto missing = missing_in_construction(dresspack);
-  return missing.empty() ? text : text + fmt::format("without {}\n", fmt::join(missing, " and "));
+  return missing.empty() ? text : text + fmt::format("without {}\n", joined(missing, " and "));
 }
 
 }  // namespace dresslife::pipeline

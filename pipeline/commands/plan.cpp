@@ -1,7 +1,6 @@
 #include "pipeline/advise/plan/plan.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +15,7 @@
 #include "pipeline/advise/plan/plan_words.h"
 #include "pipeline/advise/plan/value_of_checks.h"
 #include "pipeline/base/exported.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/base/whole_file.h"
@@ -72,7 +72,7 @@ std::vector<std::string> doubts(const std::vector<DutyResult>& duties) {
     if (duty.doubtful.size() > most_named)
       programs.push_back(fmt::format("and {} more", duty.doubtful.size() - most_named));
     lines.push_back(fmt::format("Do not plan with duty '{}': {} (see the warnings).\n", duty.name,
-                                fmt::join(programs, ", ")));
+                                joined(programs, ", ")));
   }
   if (more > 0)
     lines.push_back(fmt::format("Do not plan with {} more duties that have such programs.\n", more));
@@ -139,7 +139,7 @@ std::map<std::string, double> week_hours_of(const std::vector<DutyResult>& dutie
 
 /// The texts one after the other, and an empty line where there are some.
 std::string block(const std::vector<std::string>& texts) {
-  return fmt::format("{}{}", fmt::join(texts, ""), texts.empty() ? "" : "\n");
+  return fmt::format("{}{}", joined(texts, ""), texts.empty() ? "" : "\n");
 }
 
 int plan(const Options& options) {

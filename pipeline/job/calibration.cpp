@@ -1,10 +1,10 @@
 #include "pipeline/job/calibration.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/settings/fields.h"
 
@@ -98,7 +98,7 @@ void check_parameter(const Calibration& calibration, std::size_t i) {
     std::vector<std::string> names;
     for (const UncertainParameter& one : uncertain_parameters()) names.emplace_back(one.name);
     throw InputError(parameter.where, fmt::format("'{}' is no uncertain parameter", parameter.name),
-                     fmt::format("one of: {}", fmt::join(names, ", ")));
+                     fmt::format("one of: {}", joined(names, ", ")));
   }
   for (std::size_t other = 0; other < i; ++other)
     if (calibration.parameters[other].name == parameter.name)

@@ -1,12 +1,12 @@
 #include "pipeline/job/learned_settings.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 
 #include "pipeline/base/digest.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/problems.h"
 
@@ -28,7 +28,7 @@ std::vector<std::string> split(std::string_view text) {
 }
 
 std::string listed(const std::vector<std::string>& parts, std::string_view by = separator) {
-  return fmt::format("{}", fmt::join(parts, by));
+  return joined(parts, by);
 }
 
 template <class T>

@@ -1,10 +1,11 @@
 #include "pipeline/job/motion.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -231,7 +232,7 @@ void check_held_joint(const Motion& motion, const Robot& robot) {
   for (const Joint& joint : robot.joints) names.push_back(joint.name);
   if (std::find(names.begin(), names.end(), motion.hold_joint) == names.end())
     throw InputError(motion.where, fmt::format("hold_joint: the robot has no joint '{}'", motion.hold_joint),
-                     fmt::format("name one of {}", fmt::join(names, ", ")));
+                     fmt::format("name one of {}", joined(names, ", ")));
 }
 
 }  // namespace
@@ -249,7 +250,7 @@ void check_motion(const Motion& motion, const Robot& robot) {
   if (has.size() != 1)
     throw InputError(motion.where,
                      fmt::format("motion must have one of steps, program, clamp_poses, deformation or rig (it has {})",
-                                 has.empty() ? "none" : fmt::format("{}", fmt::join(has, " and "))),
+                                 has.empty() ? "none" : joined(has, " and ")),
                      has.empty() ? "give one of the five" : "keep one of them");
   Problems problems;
   problems.attempt("", motion.where, [&] { check_frames(motion); });

@@ -1,11 +1,12 @@
 #include "pipeline/job/rig.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
 #include <vector>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -123,7 +124,7 @@ void check_rig(Rig& rig) {
     if (given && use == Use::none)
       throw InputError(rig.where,
                        fmt::format("a rig of kind {} has no {} (it has {})", word(rig.kind), parameter.key,
-                                   fmt::join(keys_of(rig.kind), ", ")),
+                                   joined(keys_of(rig.kind), ", ")),
                        "leave it out, or choose another kind");
     if (!given && use == Use::required)
       throw InputError(rig.where, fmt::format("a rig of kind {} needs {}", word(rig.kind), parameter.key),

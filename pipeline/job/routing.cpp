@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -108,7 +109,7 @@ void place_clamp(Clamp& clamp, const Robot& robot) {
   }
   throw InputError(clamp.where, fmt::format("the robot has no mounting point '{}'", clamp.mounting_point),
                    names.empty() ? "give link, position_m and direction of the clamp"
-                                 : fmt::format("one of: {}", fmt::join(names, ", ")));
+                                 : fmt::format("one of: {}", joined(names, ", ")));
 }
 
 /// Of a clamp or a ring.
@@ -128,7 +129,7 @@ void check_place(const Place& place, const std::string& name, const Robot& robot
   if (std::find(names.begin(), names.end(), place.link) == names.end())
     throw InputError(place.where,
                      fmt::format("routing.{}.link '{}' is not a link of the robot", name, place.link),
-                     fmt::format("one of: {}", fmt::join(names, ", ")));
+                     fmt::format("one of: {}", joined(names, ", ")));
 }
 
 void check_clamp(const std::optional<Clamp>& clamp, const std::string& name, const Routing& routing,

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/cable/stiffness.h"
@@ -101,7 +102,7 @@ std::string stiffness_words(const FileReader& motion) {
       words.push_back(fmt::format("{}E I {:.3g} N m2, G J {:.3g} N m2, E A {:.3g} N",
                                   names[d].empty() ? "" : names[d] + ": ", bending[d], torsional[d],
                                   axial[d]));
-  return fmt::format("{}", fmt::join(words, "; "));
+  return joined(words, "; ");
 }
 
 /// Of every dresspack that takes a stiffness from its construction, what it would be otherwise.
@@ -119,7 +120,7 @@ std::string settings_words(const Node& job, const std::string& part) {
   if (const Node* settings = job.find(part); settings && settings->is_map())
     for (const Entry& entry : settings->entries)
       if (entry.value.is_scalar()) words.push_back(entry.key + " " + entry.value.text);
-  return fmt::format("{}", fmt::join(words, ", "));
+  return joined(words, ", ");
 }
 
 /// The settings that decide most, as they were in the end. job: resolved.
@@ -165,7 +166,7 @@ std::string broken_limits(const FileReader& motion) {
     if (warnings[k]) broken.push_back(names[k]);
   return broken.empty()
              ? ""
-             : fmt::format("Limits of the motion are broken: {} (see below)", fmt::join(broken, ", "));
+             : fmt::format("Limits of the motion are broken: {} (see below)", joined(broken, ", "));
 }
 
 /// What lies in each dresspack, in words.

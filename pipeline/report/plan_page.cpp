@@ -1,7 +1,6 @@
 #include "pipeline/report/plan_page.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 #include <numeric>
 
 #include "pipeline/advise/plan/plan_words.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/table_page.h"
@@ -159,7 +159,7 @@ std::string windows_table(const Fleet& fleet, const Plan& plan) {
   for (std::size_t n = 0; n < plan.windows.size(); ++n) {
     const std::vector<std::string> replaced = replaced_in(fleet, plan, n);
     rows += fmt::format("<tr><td style=\"white-space: nowrap\">{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
-                        window_text(plan.windows[n]), replaced.size(), escaped(fmt::format("{}", fmt::join(replaced, ", "))));
+                        window_text(plan.windows[n]), replaced.size(), escaped(joined(replaced, ", ")));
   }
   return "<h3>What to replace</h3>\n<div class=\"wide\"><table>\n<thead><tr><th>window</th><th class=\"number\">dresspacks</th><th>names</th></tr></thead>\n<tbody>\n" +
          rows + "</tbody></table></div>\n";

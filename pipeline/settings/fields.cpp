@@ -4,12 +4,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 namespace {
-
-std::string joined(const Fields::Words& words) { return fmt::format("{}", fmt::join(words, " | ")); }
 
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
@@ -334,7 +333,7 @@ class FieldReader final : public Fields {
       for (std::size_t i = 0; i < words.size(); ++i)
         if (node.text == words[i]) return static_cast<int>(i);
     throw InputError(node.where,
-                     fmt::format("{} is '{}' (must be {})", name_of(key), node.text, joined(words)),
+                     fmt::format("{} is '{}' (must be {})", name_of(key), node.text, joined(words, " | ")),
                      "give " + named(meaning));
   }
 
@@ -363,7 +362,7 @@ class FieldReader final : public Fields {
         return known;
       }
     const std::string nearest = nearest_word(unknown.key, level.known);
-    remedy = nearest.empty() ? fmt::format("keys here: {}", fmt::join(level.known, ", "))
+    remedy = nearest.empty() ? fmt::format("keys here: {}", joined(level.known, ", "))
                              : fmt::format("did you mean '{}'?", nearest);
     return nearest;
   }
@@ -565,11 +564,11 @@ class KeyLister final : public Fields {
 
  protected:
   void choose(Key key, int& index, const Words& words, std::string_view meaning) override {
-    row(key, Need::optional, fmt::format("{}", fmt::join(words, " | ")), std::string(words[index]), meaning);
+    row(key, Need::optional, joined(words, " | "), std::string(words[index]), meaning);
   }
 
   void choose_some(Key key, std::vector<int>& indices, const Words& words, std::string_view meaning) override {
-    row(key, Need::optional, fmt::format("{}; one, or a list", fmt::join(words, " | ")),
+    row(key, Need::optional, fmt::format("{}; one, or a list", joined(words, " | ")),
         indices.empty() ? "none" : std::string(words[indices[0]]), meaning);
   }
 

@@ -1,7 +1,6 @@
 #include "pipeline/stage/command_line.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,6 +10,7 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/stage/program_manual.h"
 #include "pipeline/stage/stage.h"
@@ -142,7 +142,7 @@ Option help_option() { return {"-h,--help", "", "print this help and exit", {}};
 std::vector<Option> last_options(const Command& program) {
   std::vector<Option> options{{"--version", "", "print the version and exit", {}}};
   if (program.commands.empty())
-    options.push_back({"--manual", fmt::format("{}", fmt::join(manual_kinds(), "|")),
+    options.push_back({"--manual", joined(manual_kinds(), "|"),
                        "print this program's man page, or its completion for a shell",
                        std::function<void(const std::string&)>(), {.choices = manual_kinds()}});
   return options;

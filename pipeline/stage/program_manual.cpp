@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "pipeline/base/installation.h"
+#include "pipeline/base/joined.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -63,7 +64,7 @@ std::string man_options(const std::vector<Option>& options) {
     if (!option.value.empty()) names += " \\fI" + troff(option.value) + "\\fR";
     std::string meaning = troff(option.meaning);
     const Words& choices = option.rules.choices;
-    if (!choices.empty()) meaning += fmt::format(" ({})", fmt::join(choices, ", "));
+    if (!choices.empty()) meaning += fmt::format(" ({})", joined(choices, ", "));
     const std::string by_default = default_text(option);
     if (!by_default.empty()) meaning += fmt::format(" (default: {})", troff(by_default));
     text += fmt::format(".TP\n{}\n{}\n", names, meaning);
@@ -133,12 +134,12 @@ void add_bash_cases(const std::string& level, const Command& command, bool is_pr
     for (const std::string& name : names_of(option)) {
       names.push_back(name);
       if (choices.empty()) continue;
-      values += fmt::format("    '{} {}') words='{}' ;;\n", level, name, fmt::join(choices, " "));
+      values += fmt::format("    '{} {}') words='{}' ;;\n", level, name, joined(choices, " "));
     }
   }
   for (const Command& inner : command.commands) words.push_back(inner.name);
-  options += fmt::format("    '{}') options='{}' words='{}' ;;\n", level, fmt::join(names, " "),
-                         fmt::join(words, " "));
+  options += fmt::format("    '{}') options='{}' words='{}' ;;\n", level, joined(names, " "),
+                         joined(words, " "));
 }
 
 std::string function_name(const Command& program) { return "_" + replaced(program.name, '-', "_"); }
@@ -181,7 +182,7 @@ std::string zsh_text(const std::string& text) {
 std::string zsh_value(const Option& option, const std::string& what) {
   const Words& choices = option.rules.choices;
   const std::string action =
-      choices.empty() ? std::string("_files") : fmt::format("({})", fmt::join(choices, " "));
+      choices.empty() ? std::string("_files") : fmt::format("({})", joined(choices, " "));
   return fmt::format(":{}:{}", zsh_text(what), action);
 }
 
@@ -197,7 +198,7 @@ std::string zsh_options(const std::vector<Option>& options, const std::string& i
     const bool repeatable = std::holds_alternative<std::vector<std::string>*>(option.target);
     const std::string value = option.value.empty() ? "" : zsh_value(option, option.value);
     for (const std::string& name : names) {
-      const std::string others = repeatable ? "*" : fmt::format("({})", fmt::join(names, " "));
+      const std::string others = repeatable ? "*" : fmt::format("({})", joined(names, " "));
       text += fmt::format(" \\\n{}'{}{}[{}]{}'", indent, others, name, zsh_text(option.meaning), value);
     }
   }

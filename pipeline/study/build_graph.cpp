@@ -1,7 +1,8 @@
 #include "pipeline/study/build_graph.h"
 
+#include <fmt/format.h>
+
 #include <fcntl.h>
-#include <fmt/ranges.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -16,6 +17,7 @@
 #include <system_error>
 #include <unordered_map>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/resolve/job_text.h"
@@ -122,7 +124,7 @@ void find_last(JobState& state, const fs::path& folder) {
   if (state.has_last) state.results = receipt->results;
 }
 
-std::string failure_key(const JobState& state) { return fmt::format("{}", fmt::join(state.recipes, " ")); }
+std::string failure_key(const JobState& state) { return joined(state.recipes, " "); }
 
 /// The reason of the last attempt, if it was one with these recipes.
 std::string noted_failure(const JobState& state, const fs::path& folder) {

@@ -1,11 +1,11 @@
 #include "pipeline/study/changes.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
@@ -32,7 +32,7 @@ std::string value_words(const Node* value) {
   if (!is_plain(*value)) return fmt::format("{} entries", value->items.size());
   std::vector<std::string> items;
   for (const Node& item : value->items) items.push_back(item.text);
-  const std::string list = fmt::format("[{}]", fmt::join(items, ", "));
+  const std::string list = fmt::format("[{}]", joined(items, ", "));
   return list.size() <= longest ? list : fmt::format("a list of {}", items.size());
 }
 
@@ -116,7 +116,7 @@ std::string words_of(std::vector<std::string> changed) {
                         [](const std::string& change) { return !is_prose(change); });
   const std::size_t more = changed.size() - std::min(changed.size(), named);
   changed.resize(changed.size() - more);
-  return fmt::format("{}{}", fmt::join(changed, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
+  return fmt::format("{}{}", joined(changed, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
 }
 
 }  // namespace

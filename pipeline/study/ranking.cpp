@@ -1,7 +1,6 @@
 #include "pipeline/study/ranking.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,7 @@
 #include <string_view>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/cable/believable.h"
@@ -393,13 +393,13 @@ std::string force_words(const RankingRow& row) {
   if (row.clamp_moment_share.value_or(0) > believable_share)
     parts.push_back(fmt::format("bend the clamps {:.2g} times as much as the hose does",
                                 *row.clamp_moment_share));
-  return fmt::format("{}", fmt::join(parts, " and "));
+  return joined(parts, " and ");
 }
 
 std::string ranking_csv(const std::vector<RankingRow>& rows) {
   std::vector<std::string> names;
   for (const RankingColumn& column : ranking_columns()) names.push_back(column.name);
-  std::string text = fmt::format("{}\n", fmt::join(names, ","));
+  std::string text = fmt::format("{}\n", joined(names, ","));
   for (const RankingRow& row : rows) {
     const std::map<std::string_view, std::string> without_result{
         {"job", row.job},
@@ -413,7 +413,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
                                : given != without_result.end() ? given->second
                                                                : std::string()));
     }
-    text += fmt::format("{}\n", fmt::join(cells, ","));
+    text += fmt::format("{}\n", joined(cells, ","));
   }
   return text;
 }

@@ -1,12 +1,12 @@
 #include "pipeline/study/ranking_columns.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <functional>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
@@ -38,7 +38,7 @@ template <class Value>
 RankingColumn of_mode(std::string name, std::string unit, std::string meaning, const char* mode, Value value) {
   return {std::move(name), std::move(unit), std::move(meaning), [=](const RankingRow& row) {
             const UnvalidatedMode* const found = row.unvalidated_mode(mode);
-            return found ? cell(value(*found)) : std::string();
+            return found ? cell(std::invoke(value, *found)) : std::string();
           }};
 }
 bool has_rating(const RankingRow& row) { return row.relative.has_value(); }
@@ -63,27 +63,27 @@ class Table {
     add_lives("first_wire_life_hours_{}", "by then {} have a broken wire, by the scatter of wires alone",
               [](const RankingRow& row) -> const Lives& { return row.first_wire_hours; });
     add_failure_and_rating();
-    add_lives("scatter_life_hours_{}", "life_hours_{0} with the scatter of wires only: all inputs are exact",
+    add_lives("scatter_life_hours_{}", "life_hours_p10 with the scatter of wires only: all inputs are exact",
               [](const RankingRow& row) -> const Lives& { return row.scatter_hours; });
     add_uncertainty();
     add_warnings();
     add_rank();
-    add_lives("life_hours_{}_all_glued", "life_hours_{0} if everything inside the cables were glued",
+    add_lives("life_hours_{}_all_glued", "life_hours_p10 if everything inside the cables were glued",
               [](const RankingRow& row) -> const Lives& { return row.glued_hours; });
     add_lives("life_hours_{}_all_free",
-              "life_hours_{0} if everything inside the cables slipped without friction",
+              "life_hours_p10 if everything inside the cables slipped without friction",
               [](const RankingRow& row) -> const Lives& { return row.free_hours; });
     add_test();
     add_abrasion();
     add_rating();
     add_inspection();
     add_jacket();
-    for (const auto& [end, i] : {std::pair{"p10", 0u}, std::pair{"p50", 1u}, std::pair{"p90", 2u}})
-      add(where(fmt::format("life_error_{}", end), "1",
-                fmt::format("standard error of life_hours_{}, as a factor: of the number of samples, and of what lies between "
-                            "computed lives", end),
-                [i = i](const RankingRow& row) { return std::isfinite(row.planned_errors[i]); },
-                [i = i](const RankingRow& row) { return row.planned_errors[i]; }));
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      add(where(fmt::format("life_error_{}", ends[i]), "1",
+                i == 0 ? "standard error of life_hours_p10, as a factor: of the number of samples, and of what lies between computed lives"
+                       : fmt::format("the same of life_hours_{}", ends[i]),
+                [i](const RankingRow& row) { return std::isfinite(row.planned_errors[i]); },
+                [i](const RankingRow& row) { return row.planned_errors[i]; }));
     add_corkscrew_and_ends();
     add_kink();
   }
@@ -92,53 +92,53 @@ class Table {
  private:
   void add(RankingColumn column) { columns.push_back(std::move(column)); }
 
+  static constexpr std::array<const char*, 3> ends{"p10", "p50", "p90"}, shares{"10 %", "50 %", "90 %"};
+  /// Of the first column the whole meaning, in which {} is 10 %.
+  static std::string meaning_of(const char* meaning, std::size_t i) {
+    return i == 0 ? fmt::format(fmt::runtime(meaning), shares[i]) : fmt::format("the same for {}", shares[i]);
+  }
+
   template <class Of>
   void add_lives(const char* name, const char* meaning, Of lives) {
-    constexpr std::array<const char*, 3> ends{"p10", "p50", "p90"}, shares{"10 %", "50 %", "90 %"};
-    const bool of_end = std::string_view(meaning).find("{0}") != std::string_view::npos;
     for (std::size_t i = 0; i < ends.size(); ++i)
-      add(where(fmt::format(fmt::runtime(name), ends[i]), "h",
-                fmt::format(fmt::runtime(meaning), of_end ? ends[i] : shares[i]), always,
+      add(where(fmt::format(fmt::runtime(name), ends[i]), "h", meaning_of(meaning, i), always,
                 [lives, i](const RankingRow& row) { return lives(row)[i]; }));
+  }
+  void add_mode_lives(const char* name, const char* meaning, const char* mode) {
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      add(of_mode(fmt::format(fmt::runtime(name), ends[i]), "h", meaning_of(meaning, i), mode,
+                  [i](const UnvalidatedMode& of) { return of.hours[i]; }));
   }
 
   void add_abrasion() {
     constexpr const char* abrasion = UnvalidatedMode::abrasion;
-    for (const auto& [end, share, i] : {std::tuple{"p10", "10", 0u}, std::tuple{"p50", "50", 1u}, std::tuple{"p90", "90", 2u}})
-      add(of_mode(fmt::format("abrasion_life_hours_{}", end), "h",
-                  fmt::format("by then {} % of such dresspacks are worn through by abrasion; not validated", share), abrasion,
-                  [i = i](const UnvalidatedMode& mode) { return mode.hours[i]; }));
+    add_mode_lives("abrasion_life_hours_{}", "by then {} of such dresspacks are worn through by abrasion; not validated", abrasion);
     add(of_mode("abrasion_first_share", "1", "share of the samples in which abrasion comes before the wires", abrasion,
-                [](const UnvalidatedMode& mode) { return mode.first_share; }));
-    add(of_mode("abrasion_together_hours_p10", "h", "life_hours_p10 if abrasion counted", abrasion,
-                [](const UnvalidatedMode& mode) { return mode.together_p10; }));
-    add(of_mode("abrasion_on", "text", "what rubs: a link, ring, floor, dresspack or cell", abrasion,
-                [](const UnvalidatedMode& mode) { return mode.place; }));
+                &UnvalidatedMode::first_share));
+    add(of_mode("abrasion_together_hours_p10", "h", "life_hours_p10 if abrasion counted", abrasion, &UnvalidatedMode::together_p10));
+    add(of_mode("abrasion_on", "text", "what rubs: a link, ring, floor, dresspack or cell", abrasion, &UnvalidatedMode::place));
     add(of_mode("abrasion_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", abrasion,
-                [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
+                &UnvalidatedMode::position_from_tool));
     add(of("not_evaluated", "text", "parts of the dresspack and failure modes without a life", &RankingRow::not_evaluated));
   }
 
   void add_rating() {
     constexpr const char* rating = UnvalidatedMode::rating;
-    constexpr std::array<const char*, 3> ends{"p10", "p50", "p90"};
-    for (std::size_t i = 0; i < ends.size(); ++i)
-      add(of_mode(fmt::format("rating_hours_{}", ends[i]), "h",
-                  "the maker's rating of a cable without described wires covers so much, a lower bound of its life, by the "
-                  "uncertainty of its damage exponent; not validated", rating,
-                  [i](const UnvalidatedMode& mode) { return mode.hours[i]; }));
+    add_mode_lives("rating_hours_{}",
+                   "in {} the maker's rating of a cable without described wires covers less, a lower bound of its life, by the "
+                   "uncertainty of its damage exponent; not validated", rating);
     add(of_mode("rating_first_share", "1", "share of the samples in which the wires of other cables outlive the rating", rating,
-                [](const UnvalidatedMode& mode) { return mode.first_share; }));
-    add(of_mode("rating_of", "text", "that cable", rating, [](const UnvalidatedMode& mode) { return mode.place; }));
+                &UnvalidatedMode::first_share));
+    add(of_mode("rating_of", "text", "that cable", rating, &UnvalidatedMode::place));
   }
 
   void add_inspection() {
     constexpr const char* abrasion = UnvalidatedMode::abrasion;
     add(of_mode("abrasion_found_share", "1",
                 "share of the dresspacks worn through within the robot's life of which a visual check sees the wear before; not validated",
-                abrasion, [](const UnvalidatedMode& mode) { return mode.found_share; }));
+                abrasion, &UnvalidatedMode::found_share));
     add(of_mode("abrasion_unseen_share", "1", "share of all dresspacks that wear through within the robot's life, unseen by checks",
-                abrasion, [](const UnvalidatedMode& mode) { return mode.unseen_share; }));
+                abrasion, &UnvalidatedMode::unseen_share));
   }
 
   void add_corkscrew_and_ends() {
@@ -146,10 +146,9 @@ class Table {
     add(of_mode("corkscrew_life_hours_p10", "h",
                 "by then a cable has wound into a corkscrew in 10 % of such dresspacks; inf: none does; not validated", corkscrew,
                 [](const UnvalidatedMode& mode) { return mode.hours[0]; }));
-    add(of_mode("corkscrew_of", "text", "the cable that is nearest to it", corkscrew,
-                [](const UnvalidatedMode& mode) { return mode.place; }));
+    add(of_mode("corkscrew_of", "text", "the cable that is nearest to it", corkscrew, &UnvalidatedMode::place));
     add(of_mode("corkscrew_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", corkscrew,
-                [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
+                &UnvalidatedMode::position_from_tool));
     add(of("strain_relief_share", "1", "largest pull of a cable at a clamp over what EN 50262 asks a strain relief of type A to hold",
            &RankingRow::strain_relief_share));
   }
@@ -157,26 +156,23 @@ class Table {
   void add_kink() {
     constexpr const char* kink = UnvalidatedMode::kink;
     add(of_mode("kink_margin", "1", "radius of the tightest bend over that at which a tube in the dresspack kinks; below 1 it kinks", kink,
-                [](const UnvalidatedMode& mode) { return mode.margin; }));
-    add(of_mode("kink_share", "1", "share of such tubes that kink", kink, [](const UnvalidatedMode& mode) { return mode.first_share; }));
-    add(of_mode("kink_of", "text", "the tube that is nearest to its kink", kink, [](const UnvalidatedMode& mode) { return mode.place; }));
+                &UnvalidatedMode::margin));
+    add(of_mode("kink_share", "1", "share of such tubes that kink", kink, &UnvalidatedMode::first_share));
+    add(of_mode("kink_of", "text", "the tube that is nearest to its kink", kink, &UnvalidatedMode::place));
     add(of_mode("kink_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", kink,
-                [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
+                &UnvalidatedMode::position_from_tool));
   }
 
   void add_jacket() {
     constexpr const char* jacket = UnvalidatedMode::jacket;
-    for (const auto& [end, share, i] : {std::tuple{"p10", "10", 0u}, std::tuple{"p50", "50", 1u}, std::tuple{"p90", "90", 2u}})
-      add(of_mode(fmt::format("jacket_life_hours_{}", end), "h",
-                  fmt::format("by then a cable's jacket has worn through inside the hose in {} % of such dresspacks; not validated", share),
-                  jacket, [i = i](const UnvalidatedMode& mode) { return mode.hours[i]; }));
+    add_mode_lives("jacket_life_hours_{}",
+                   "by then a cable's jacket has worn through inside the hose in {} of such dresspacks; not validated", jacket);
     add(of_mode("jacket_first_share", "1", "share of the samples in which jacket wear comes before the wires", jacket,
-                [](const UnvalidatedMode& mode) { return mode.first_share; }));
-    add(of_mode("jacket_together_hours_p10", "h", "life_hours_p10 if jacket wear counted", jacket,
-                [](const UnvalidatedMode& mode) { return mode.together_p10; }));
-    add(of_mode("jacket_of", "text", "that cable", jacket, [](const UnvalidatedMode& mode) { return mode.place; }));
+                &UnvalidatedMode::first_share));
+    add(of_mode("jacket_together_hours_p10", "h", "life_hours_p10 if jacket wear counted", jacket, &UnvalidatedMode::together_p10));
+    add(of_mode("jacket_of", "text", "that cable", jacket, &UnvalidatedMode::place));
     add(of_mode("jacket_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", jacket,
-                [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
+                &UnvalidatedMode::position_from_tool));
   }
 
   void add_worst_wire() {
@@ -214,9 +210,9 @@ class Table {
     add(of_mode("hose_life_hours", "h", "hours of motion until the hose's wall cracks; not validated. Empty: the law contradicts a published test", wall,
                 [](const UnvalidatedMode& mode) { return is_credible(mode) ? mode.hours[1] : UnvalidatedMode::unknown; }));
     add(of_mode("hose_segment_from_tool", "1", "segment of the wall's worst place, 1 is nearest to the tool", wall,
-                [](const UnvalidatedMode& mode) { return mode.segment_from_tool; }));
+                &UnvalidatedMode::segment_from_tool));
     add(of_mode("hose_position_from_tool_m", "m", "the same along the dresspack, from the tool clamp", wall,
-                [](const UnvalidatedMode& mode) { return mode.position_from_tool; }));
+                &UnvalidatedMode::position_from_tool));
     add(of("worst_joint", "text",
            "joint whose motion damages the worst wire most; carrying: motion of the dresspack as a whole",
            &RankingRow::worst_joint));
@@ -284,7 +280,7 @@ class Table {
     add(where("warning_words", "text", "all warnings", known, [](const RankingRow& row) {
       std::vector<std::string> words;
       for (const Warning& warning : *row.warnings) words.push_back(warning.text());
-      return fmt::format("{}", fmt::join(words, "; "));
+      return joined(words, "; ");
     }));
     for (int k = 0; k < warning_kinds_count; ++k) {
       const auto kind = static_cast<WarningKind>(k);

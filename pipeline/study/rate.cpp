@@ -1,13 +1,13 @@
 #include "pipeline/study/rate.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
@@ -145,7 +145,7 @@ std::string slip_of_cable(const Node& alone) {
   const bool rubs = tells_friction(cable);
   std::vector<std::string> words{"free"};
   for (int level = 1; level < levels_of(cable); ++level) words.push_back(rubs ? "friction" : "free");
-  return fmt::format("[{}]", fmt::join(words, ", "));
+  return fmt::format("[{}]", joined(words, ", "));
 }
 
 std::string rig_words(const Rig& rig) {
@@ -154,7 +154,7 @@ std::string rig_words(const Rig& rig) {
   for (const Entry& entry : keys.entries)
     if (entry.key != "kind" && entry.key != "cycles_per_minute")
       words.push_back(entry.key + " " + entry.value.text);
-  return fmt::format("{}: {}", word(rig.kind), fmt::join(words, ", "));
+  return fmt::format("{}: {}", word(rig.kind), joined(words, ", "));
 }
 
 RateStudy rate_study(const fs::path& file, const fs::path& rigs, const std::vector<std::string>& sets) {
@@ -220,7 +220,7 @@ std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows
       cells.push_back(done && !std::isnan(value) ? shortest_text(value) : "");
     cells.push_back(test.rated_cycles > 0 ? shortest_text(test.rated_cycles) : "");
     cells.push_back(csv_cell(test.source));
-    text += fmt::format("{}\n", fmt::join(cells, ","));
+    text += fmt::format("{}\n", joined(cells, ","));
   }
   return text;
 }

@@ -1,7 +1,6 @@
 #include "pipeline/study/relative_life.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <string_view>
 
 #include "pipeline/base/digest.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/cable_alone.h"
@@ -30,7 +30,7 @@ std::string slip_alone(const Job& job, const Node& alone, bool is_part, bool was
   slip.resize(levels, slip.back());
   std::vector<std::string> words;
   for (const Slip one : slip) words.emplace_back(word(one));
-  return fmt::format("[{}]", fmt::join(words, ", "));
+  return fmt::format("[{}]", joined(words, ", "));
 }
 
 class Maker {

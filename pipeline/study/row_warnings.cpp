@@ -1,7 +1,8 @@
 #include "pipeline/study/row_warnings.h"
 
+#include "pipeline/base/joined.h"
+
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -48,7 +49,7 @@ std::string warning_kinds(const RankingRow& row) {
     if (const std::size_t count = count_of(warnings, kind); count > 0)
       words.push_back(count == 1 ? std::string(title(kind)) : fmt::format("{} x{}", title(kind), count));
   }
-  return fmt::format("{}", fmt::join(words, ", "));
+  return joined(words, ", ");
 }
 
 std::string warning_lines(const std::vector<RankingRow>& rows) {

@@ -1,7 +1,6 @@
 #include "pipeline/study/row_words.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/study/row_warnings.h"
@@ -140,8 +140,8 @@ std::string unvalidated_legend(const std::vector<RankingRow>& rows) {
   if (modes.empty()) return "";
   std::vector<std::string> counts;
   for (const auto& [mode, jobs] : first) counts.push_back(fmt::format("{} in {} job{}", mode, jobs, jobs == 1 ? "" : "s"));
-  return fmt::format("Not in these hours, because no test confirms their laws: {}.{}", fmt::join(modes, ", "),
-                     counts.empty() ? "" : fmt::format(" * marks jobs in which one of them may come first: {}.", fmt::join(counts, ", ")));
+  return fmt::format("Not in these hours, because no test confirms their laws: {}.{}", joined(modes, ", "),
+                     counts.empty() ? "" : fmt::format(" * marks jobs in which one of them may come first: {}.", joined(counts, ", ")));
 }
 
 std::string earlier_words(const RankingRow& row) {
@@ -154,7 +154,7 @@ std::string unvalidated_note(const std::vector<RankingRow>& rows) {
   for (const RankingRow& row : rows)
     if (const std::string words = row.has_result() ? earlier_words(row) : ""; !words.empty())
       jobs.push_back((rows.size() > 1 ? row.job + ", " : "") + words);
-  return jobs.empty() ? "" : fmt::format("* Plan with this number, and inspect for modes that are not validated. {}.", fmt::join(jobs, "; "));
+  return jobs.empty() ? "" : fmt::format("* Plan with this number, and inspect for modes that are not validated. {}.", joined(jobs, "; "));
 }
 
 bool is_believable(const RankingRow& row) {

@@ -1,12 +1,12 @@
 #include "pipeline/study/study_problems.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <vector>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/settings/problems.h"
 #include "pipeline/study/study.h"
 
@@ -42,7 +42,7 @@ std::string problem_words(const Study& study) {
     text += line;
     if (study.jobs.size() > 1)
       text += fmt::format(" ({}{}{})", jobs.size() > 1 ? fmt::format("{} jobs: ", jobs.size()) : "job ",
-                          fmt::join(first, ", "), jobs.size() > named ? ", ..." : "");
+                          joined(first, ", "), jobs.size() > named ? ", ..." : "");
     text += '\n';
   }
   return text;

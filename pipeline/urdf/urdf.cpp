@@ -1,7 +1,8 @@
 #include "pipeline/urdf/urdf.h"
 
+#include <fmt/format.h>
+
 #include <console_bridge/console.h>
-#include <fmt/ranges.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <Eigen/Geometry>
@@ -12,6 +13,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/resolve/sources.h"
 
 namespace dresslife::pipeline {
@@ -310,13 +312,13 @@ class Chain {
     if (!request_.tip.empty()) {
       if (const auto link = model_.getLink(request_.tip)) return *link;
       fail(file_, fmt::format("has no link '{}' for the tip", request_.tip),
-           fmt::format("one of: {}", fmt::join(names, ", ")));
+           fmt::format("one of: {}", joined(names, ", ")));
     }
     for (const char* usual : {"tool0", "flange"})
       if (const auto link = model_.getLink(usual)) return *link;
     if (ends.size() == 1) return *model_.getLink(ends[0]);
     fail(file_, "has several ends and none is called tool0 or flange",
-         fmt::format("choose one with 'tip': {}", fmt::join(ends, ", ")));
+         fmt::format("choose one with 'tip': {}", joined(ends, ", ")));
   }
 
   void walk() {

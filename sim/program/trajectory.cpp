@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/axis_names.h"
 #include "sim/program/interpreter/tokens.h"
@@ -130,7 +131,7 @@ class Columns {
   /// Which columns are the axes, and in which order.
   void choose(const std::vector<std::string>& axes, const std::vector<std::size_t>& at, bool points) {
     if (points)
-      return refuse(fmt::format("names points or lengths ({})", fmt::join(left_out_, ", ")),
+      return refuse(fmt::format("names points or lengths ({})", pipeline::joined(left_out_, ", ")),
                     "give the angles of the axes, one column each");
     const bool long_form =
         axes.size() == 1 && std::any_of(left_out_.begin(), left_out_.end(), [](const auto& name) {
@@ -145,7 +146,7 @@ class Columns {
     const auto order = order_of_axes(axes, wanted);
     if (!order)
       return refuse(
-          fmt::format("names axes without their order ({})", fmt::join(axes, ", ")),
+          fmt::format("names axes without their order ({})", pipeline::joined(axes, ", ")),
           "number them in their names (joint_1 ...), or give --value joints=NAME,NAME,... in the order of "
           "the robot's axes");
     for (std::size_t axis : *order) axes_.push_back(at[axis]);
@@ -368,7 +369,7 @@ void read_ros_trajectory(const SourceFile& file, const ImportOptions& options, P
   if (!order)
     return problems.add(
         names->where,
-        fmt::format("names joints without their order on the robot ({})", fmt::join(joints, ", ")),
+        fmt::format("names joints without their order on the robot ({})", pipeline::joined(joints, ", ")),
         "give --value joints=NAME,NAME,... in the order of the robot's axes");
   Rows rows(program, problems);
   for (const Node& point : points->items)

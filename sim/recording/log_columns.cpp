@@ -1,12 +1,12 @@
 #include "sim/recording/log_columns.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <numbers>
 
+#include "pipeline/base/joined.h"
 #include "sim/program/axis_names.h"
 
 namespace dresslife::sim {
@@ -58,7 +58,7 @@ std::map<std::string, Group> groups_of(const std::vector<std::string>& titles) {
     if (number == words.rend() || number->size() > 2) continue;
     const int value = std::stoi(*number);
     words.erase(std::next(number).base());
-    Group& group = groups[fmt::format("{}", fmt::join(words, " "))];
+    Group& group = groups[pipeline::joined(words, " ")];
     group.columns.emplace(value, k);
     group.words = words;
     group.score = 0;
@@ -98,7 +98,7 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
   const Group* best = nullptr;
   bool tie = false;
   const auto refuse = [&](const std::string& what) {
-    throw InputError(where, fmt::format("{} (columns: {})", what, fmt::join(titles, ", ")),
+    throw InputError(where, fmt::format("{} (columns: {})", what, pipeline::joined(titles, ", ")),
                      "give --value joints=NAME,NAME,.. in the order of the robot's axes");
   };
   if (!joints.empty()) {

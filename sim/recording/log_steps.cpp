@@ -1,7 +1,8 @@
 #include "sim/recording/log_steps.h"
 
+#include "pipeline/base/joined.h"
+
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +95,7 @@ std::string order_words(const std::vector<AxisOfLog>& axes, const std::vector<do
   }
   return fmt::format(
       "the columns of {} may be exchanged: every column keeps the limits of its axis with --value \"joints={}\"",
-      fmt::join(moved, ", "), fmt::join(columns, ","));
+      pipeline::joined(moved, ", "), pipeline::joined(columns, ","));
 }
 
 }  // namespace dresslife::sim

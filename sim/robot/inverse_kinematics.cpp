@@ -1,5 +1,7 @@
 #include "sim/robot/inverse_kinematics.h"
 
+#include "pipeline/base/joined.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -414,7 +416,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
     reason = "is reached only outside the joint limits: " + least_beyond(reaching);
   else
     reason = fmt::format("is not reached in configuration {} (but in {})", configuration.text(),
-                         fmt::join(others, "; "));
+                         pipeline::joined(others, "; "));
   return {};
 }
 

@@ -1,11 +1,12 @@
 #include "sim/route/preview.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/job/setup.h"
 #include "sim/rod/start_curve.h"
 #include "sim/route/bracket.h"
@@ -59,7 +60,7 @@ class Previewer {
     if (robot_) {
       std::vector<std::string> names;
       for (const pipeline::Link& link : setup_.robot.links) names.push_back(link.name);
-      file.dataset_attribute("/robot/link_pose", "links", fmt::format("{}", fmt::join(names, ",")));
+      file.dataset_attribute("/robot/link_pose", "links", pipeline::joined(names, ","));
     }
     write_spans(file);
     write_scan(file);
@@ -69,7 +70,7 @@ class Previewer {
         quick.notes.push_back(std::move(note));
     write_refusal(quick.warnings, file);
     file.attribute("warnings", pipeline::warnings_text(quick.warnings));
-    file.attribute("notes", fmt::format("{}", fmt::join(quick.notes, "\n")));
+    file.attribute("notes", pipeline::joined(quick.notes, "\n"));
   }
 
  private:

@@ -1,7 +1,6 @@
 #include "sim/run/cures.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/job/line_key.h"
@@ -302,7 +302,7 @@ class RemedySearch {
     const std::string near =
         change.trial.cured ? "" : fmt::format(", the bend radius by little: {}", in_words(change.trial.radius, "m"));
     const std::string until = change.trial.until ? fmt::format(" of the first {:.0f} s", *change.trial.until) : "";
-    return fmt::format("{} (bend radius at rest {}; keeps the limits in a short run{}{})", fmt::join(keys, " and "),
+    return fmt::format("{} (bend radius at rest {}; keeps the limits in a short run{}{})", pipeline::joined(keys, " and "),
                        radius_words(change.curvature), until, near);
   }
 

@@ -1,12 +1,13 @@
 #include "sim/run/deformation_file.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/base/plain_file.h"
 
 namespace dresslife::sim {
@@ -69,7 +70,7 @@ class Reader {
         std::vector<std::string_view> all;
         for (const Column& other : known) all.push_back(other.name);
         fail(cell.column, fmt::format("'{}' is no column of a deformation", cell.text),
-             fmt::format("the first line names the columns, of: {}", fmt::join(all, ", ")));
+             fmt::format("the first line names the columns, of: {}", pipeline::joined(all, ", ")));
       }
       if (!names[column->quantity].empty())
         fail(cell.column,

@@ -1,6 +1,6 @@
 #include "sim/run/motion_file.h"
 
-#include <fmt/ranges.h>
+#include "pipeline/base/joined.h"
 
 #include <array>
 #include <cmath>
@@ -127,7 +127,7 @@ void MotionFile::add_touch_of_motion() {
   file_.set_axis("obstacle", obstacles_.size());
   file_.append("/contact/work", std::span<const double>(work_));
   file_.append("/contact/largest_force", std::span<const double>(largest_force_));
-  file_.dataset_attribute("/contact/work", "obstacles", fmt::format("{}", fmt::join(obstacles_, ",")));
+  file_.dataset_attribute("/contact/work", "obstacles", pipeline::joined(obstacles_, ","));
 }
 
 void MotionFile::add_rubbed(const RunSummary& summary) {
@@ -160,7 +160,7 @@ void MotionFile::add_robot(const Pose& pose) {
   file_.append("/robot/link_pose", std::span<const double>(poses_));
   if (links_named_) return;
   file_.dataset_attribute("/robot/link_pose", "links",
-                          fmt::format("{}", fmt::join(description_.link_names, ",")));
+                          pipeline::joined(description_.link_names, ","));
   links_named_ = true;
 }
 

@@ -1,13 +1,13 @@
 #include "pipeline/advise/calibrate/learned_calibration.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/digest.h"
 #include "pipeline/files/files.h"
@@ -58,7 +58,7 @@ LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJob
     if (*value) **value = to_figures(**value, 4);
   constexpr double degree = std::numbers::pi / 180;  // the unit of the file
   if (within.largest_twist) within.largest_twist = to_figures(*within.largest_twist / degree, 4) * degree;
-  within.materials = fmt::format("{}", fmt::join(materials, ", "));
+  within.materials = joined(materials, ", ");
   return within;
 }
 

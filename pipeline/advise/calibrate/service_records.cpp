@@ -1,7 +1,6 @@
 #include "pipeline/advise/calibrate/service_records.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/exported.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
@@ -154,7 +154,7 @@ class Export {
     std::vector<std::string> words;
     for (std::size_t c = 0; c < column_count; ++c)
       if (at_[c]) words.push_back(fmt::format("{} = '{}'", columns()[c].name, titles_[*at_[c]].text));
-    return fmt::format("{}", fmt::join(words, ", "));
+    return joined(words, ", ");
   }
 
  private:
@@ -187,7 +187,7 @@ class Export {
         throw InputError(
             reader_.where(titles_.front()),
             fmt::format("the table has no column '{}'", columns()[needed].name),
-            fmt::format("name one of its columns so ({})", fmt::join(columns()[needed].titles, ", ")));
+            fmt::format("name one of its columns so ({})", joined(columns()[needed].titles, ", ")));
   }
 
   const CsvCell* cell(const CsvRow& cells, Column column) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/interpreter/encoding.h"
@@ -301,7 +302,7 @@ fs::path folder_of_listings(const fs::path& folder, const std::vector<fs::path>&
       {folder.string()},
       within.empty()
           ? "holds no Fanuc program (.ls with /PROG)"
-          : fmt::format("holds programs of several robots or languages in {}", fmt::join(within, ", ")),
+          : fmt::format("holds programs of several robots or languages in {}", pipeline::joined(within, ", ")),
       within.empty() ? "list the programs on the controller (.ls); .tp files are not read"
                      : "name one of these folders");
 }
@@ -319,7 +320,7 @@ std::string main_of(const FanucFolder& found, const fs::path& folder) {
       names.empty() ? "holds no program that moves the robot"
                     : fmt::format("holds {} programs that no other one calls", found.mains.size()),
       names.empty() ? "name the folder of one that does"
-                    : fmt::format("choose with --routine: {}{}", fmt::join(names, ", "), more ? " ..." : ""));
+                    : fmt::format("choose with --routine: {}{}", pipeline::joined(names, ", "), more ? " ..." : ""));
 }
 
 }  // namespace

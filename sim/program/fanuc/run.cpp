@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "pipeline/base/joined.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
@@ -846,7 +847,7 @@ std::optional<std::size_t> FanucRun::undecided_select(const std::vector<Case>& c
   if (whole_program_no_matter()) return {};
   const int ways = static_cast<int>(cases.size()) + 1;
   return static_cast<std::size_t>(
-      ask("selects by", ways, fmt::format("VALUE ({})", fmt::join(values, ", "))));
+      ask("selects by", ways, fmt::format("VALUE ({})", pipeline::joined(values, ", "))));
 }
 
 void FanucRun::for_statement(FanucCursor& at) {

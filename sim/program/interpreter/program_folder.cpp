@@ -1,7 +1,8 @@
 #include "sim/program/interpreter/program_folder.h"
 
+#include "pipeline/base/joined.h"
+
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -58,7 +59,7 @@ std::string only_start(const fs::path& folder, std::vector<std::string> choices,
   choices.resize(choices.size() - more);
   throw pipeline::InputError({folder.string()}, "holds several programs, and none that calls them",
                              fmt::format("name one with --routine (motion.routine in a job): {}{}",
-                                         fmt::join(choices, ", "), more ? fmt::format(" and {} more", more) : ""));
+                                         pipeline::joined(choices, ", "), more ? fmt::format(" and {} more", more) : ""));
 }
 
 }  // namespace dresslife::sim

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/interpreter/encoding.h"
@@ -72,7 +73,7 @@ void check_one_robot(const fs::path& folder, const std::vector<fs::path>& files)
       robots.insert(robot.string());
   if (robots.size() < 2) return;
   throw pipeline::InputError({folder.string()}, fmt::format("holds the programs of {} robots", robots.size()),
-                             fmt::format("name one of: {}", fmt::join(robots, ", ")));
+                             fmt::format("name one of: {}", pipeline::joined(robots, ", ")));
 }
 
 }  // namespace

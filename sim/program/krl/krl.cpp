@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "pipeline/base/joined.h"
 #include "sim/program/interpreter/arc.h"
 #include "sim/program/interpreter/tokens.h"
 #include "sim/program/krl/dialect.h"
@@ -820,7 +821,7 @@ void run_krl(const Code& code, const ImportOptions& options, const std::vector<N
     else
       problems.add({code.files.empty() ? "" : code.files[0].name(), 1, 1},
                    fmt::format("has no routine '{}'", options.routine),
-                   names.empty() ? "give the .src file too" : fmt::format("name one of: {}", fmt::join(names, ", ")));
+                   names.empty() ? "give the .src file too" : fmt::format("name one of: {}", pipeline::joined(names, ", ")));
     return;
   }
   explore(

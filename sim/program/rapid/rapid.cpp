@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "pipeline/base/joined.h"
 #include "sim/program/interpreter/tokens.h"
 #include "sim/program/rapid/dialect.h"
 #include "sim/program/rapid/functions.h"
@@ -390,7 +391,7 @@ void run_rapid(const Code& code, const ImportOptions& options, const std::vector
         {code.files.empty() ? "" : code.files[0].name(), 1, 1}, fmt::format("has no routine '{}'", start),
         names.empty()
             ? "give the modules that hold its routines (--module, motion.modules)"
-            : fmt::format("name one with --routine (motion.routine in a job): {}", fmt::join(names, ", ")));
+            : fmt::format("name one with --routine (motion.routine in a job): {}", pipeline::joined(names, ", ")));
     return;
   }
   explore(
