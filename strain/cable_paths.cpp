@@ -546,23 +546,30 @@ void CablePaths::finish() {
 }
 
 /// Goes through the motion again and again until it ends as it ended before: what is in memory then is where a
-/// repeat begins.
+/// repeat begins. Mostly the last quarter of the motion (repeat -1) leads there, and repeat 0 closes. Else repeat 1 begins with no
+/// memory at the first sample.
 void CablePaths::slide(Cable& cable) {
   const std::size_t segments = cable.rubs ? lengths_.size() : 1;
   std::vector<double> lengths = lengths_;
   if (!cable.rubs) lengths = {std::accumulate(lengths_.begin(), lengths_.end(), 0.0)};
-  SlidingLine line(lengths, cable.axial_stiffness, cable.base_grip, cable.tool_grip);
+  const SlidingLine at_first(lengths, cable.axial_stiffness, cable.base_grip, cable.tool_grip);
+  SlidingLine line = at_first;
   std::vector<double> unslid(segments), limits(segments), held(segments, 0.0);
   const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
   std::vector<double>& strain = cable.rubs ? cable.along : cable.strain;
   std::vector<double> slid(strain.size()), ended(segments, without_limit);
   double moved = without_limit;
   bool last = false;
-  for (int repeat = 1; !last && !(moved < closed); ++repeat) {
-    last = moved < settled || repeat == most_repeats;
+  for (int repeat = -1; !last && !(moved < closed); ++repeat) {
+    if (repeat == 1) {
+      line = at_first;
+      std::ranges::fill(limits, 0.0);
+      std::ranges::fill(ended, without_limit);
+    }
+    last = repeat > 1 && (moved < settled || repeat == most_repeats);
     const std::array<double, 2> before{line.travel_at_base(), line.travel_at_tool()};
     if (cable.rubbing) cable.rubbing->begin_repeat();
-    for (std::size_t t = 0; t < next_; ++t) {
+    for (std::size_t t = repeat < 0 ? next_ - next_ / 4 : 0; t < next_; ++t) {
       const double by_twist = pulled_by_twist(cable, hose_twist_[t]);
       if (!cable.rubs) {
         unslid[0] = cable.strain[t] + by_twist;

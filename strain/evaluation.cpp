@@ -711,14 +711,17 @@ std::vector<Evaluation::Worst> Evaluation::worst_of_bent(std::size_t segment,
 const std::vector<Evaluation::Site>& Evaluation::likely_of_bent(std::size_t segment,
                                                                 const DeformationHistory& history,
                                                                 std::size_t row) {
+  if (segment < likely_of_bent_.size()) return likely_of_bent_[segment];
   find_likely(of_wires(worst_of_bent(segment, history, row)));
   return likely_;
 }
 
 float Evaluation::damage_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row) {
+  const std::vector<Worst> worst = worst_of_bent(segment, history, row);
+  find_likely(of_wires(worst));
+  likely_of_bent_.push_back(likely_);
   float most = 0;
-  for (const Worst& layer : worst_of_bent(segment, history, row))
-    most = std::max(most, layer.value[Worst::cycles]);
+  for (const Worst& layer : worst) most = std::max(most, layer.value[Worst::cycles]);
   return most;
 }
 

@@ -157,7 +157,8 @@ class Evaluation {
   /// find_bent(). Segments as in varied().
   const std::vector<Site>& likely_of_bent(std::size_t segment, const DeformationHistory& history,
                                           std::size_t row);
-  /// The largest sum over turning points of (range times tensile peak)^3 of these wires: for comparing rests of one job.
+  /// The largest sum over turning points of (range times tensile peak)^3 of these wires: for comparing rests of one job. Segments
+  /// in order; likely_of_bent() gives the wires of this scan.
   float damage_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row);
   /// The wires' site rows and turning points, in the order of `sites`, with friction times each of `factors`,
   /// (factor). Segments as in evaluate(); of an evaluation with other slack, play or grips there is no need
@@ -307,6 +308,7 @@ class Evaluation {
   std::vector<std::pair<double, std::unique_ptr<const ClampMeans>>>
       rubbing_;  ///< with so many times the friction
   std::vector<Site> likely_;
+  std::vector<std::vector<Site>> likely_of_bent_;  ///< (segment), where damage_of_bent() was called
   CablePaths cables_;
   CablePaths::Keeper keeper_;
   /// Of a vector over the samples.

@@ -16,18 +16,23 @@ void hold(const std::vector<double>& deviations, int powers, std::size_t stride,
   const auto deviation = [&](std::size_t t) { return slides * away[t]; };
   const auto cap = [&](std::size_t t) { return cap_at(slip.cap, deviations[t]); };
   Slider slider(settled_slip(samples, deviation, cap));
+  double before = slider.slip();
+  for (std::size_t t = 0; t < samples; ++t) {  // slips alone: each waits for the one before, in a register as long as nothing is called
+    slider.next(deviation(t), cap(t));
+    held[t] = slider.slip();
+  }
   std::vector<std::size_t> slid;  // samples at which it slides
   for (std::size_t t = 0; t < samples; ++t) {
-    const double before = slider.slip();
-    held[t] = slider.next(deviation(t), cap(t)) + slip.elastic * away[t];
-    if (slider.slip() != before) slid.push_back(t);
+    if (held[t] != before) slid.push_back(t);
+    before = held[t];
+    held[t] = deviation(t) - held[t] + slip.elastic * away[t];
   }
   // The slope of the held strain follows the deviation's while the slider sticks. While it slides it is that of the cap,
   // none. The last slide may lie in the first repeat, with the slip at one of its limits.
   std::optional<std::size_t> last;
   if (!slid.empty()) last = slid.back();
-  for (std::size_t t = samples; !last && slider.slip() != 0 && t-- > 0;)
-    if (slider.slip() == deviation(t) - cap(t) || slider.slip() == deviation(t) + cap(t)) last = t;
+  for (std::size_t t = samples; !last && before != 0 && t-- > 0;)
+    if (before == deviation(t) - cap(t) || before == deviation(t) + cap(t)) last = t;
   for (int power = 1; power < powers; ++power) {
     const double* const slope = away + power * stride;
     double* const of_slope = held.data() + power * stride;
