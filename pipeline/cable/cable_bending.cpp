@@ -146,8 +146,14 @@ double axial_stiffness(const Dresspack& dresspack, const Component& part) {
   }
   double sum = 0;
   for (const Component& inner : part.components)
-    sum += inner.count * axial_stiffness(dresspack, inner) * std::pow(std::cos(inner.lay_angle), 3);
+    sum += inner.count * axial_stiffness(dresspack, inner) * std::pow(std::cos(inner.lay_angle), 3) *
+           left_by_bed(dresspack, inner);
   return sum;
+}
+
+double left_by_bed(const Dresspack& dresspack, const Component& part) {
+  if (part.helix_radius == 0 || !part.radial_stiffness) return 1;
+  return helices::radial_share(axial_stiffness(dresspack, part), part.lay_angle, part.helix_radius, *part.radial_stiffness);
 }
 
 CableBending::CableBending(const Dresspack& dresspack, const Component& cable, StraightParts straight) {

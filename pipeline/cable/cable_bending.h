@@ -26,8 +26,11 @@
 namespace dresslife::pipeline {
 
 /// E A of a part along its own axis, of its wires alone [N]. A helix of stiffness E A has E A cos^3(alpha)
-/// along its parent: strain and force are cos^2 and cos of those along the parent.
+/// along its parent: strain and force are cos^2 and cos of those along the parent. A soft bed leaves a share of it.
 double axial_stiffness(const Dresspack& dresspack, const Component& part);
+
+/// (W31) Share of a part's strain that the bed of its helix leaves; 1: a rigid bed.
+double left_by_bed(const Dresspack& dresspack, const Component& part);
 
 /// Straight parts off the axis of straight ones even out over the whole length: how much of a bend's strain
 /// that leaves is a matter of the length and its ends.

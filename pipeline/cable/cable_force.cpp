@@ -26,21 +26,22 @@ CableForce::CableForce(const Dresspack& dresspack, const Component& cable) {
     return;
   }
   bending_ = cable_stiffness(dresspack, cable);
-  for (const Component& inner : cable.components) add(dresspack, inner, 1, 1);
+  for (const Component& inner : cable.components) add(dresspack, inner, 1, 1, 1);
   if (!all_strengths_known_) strength_ = 0;
 }
 
-void CableForce::add(const Dresspack& dresspack, const Component& part, double count, double cosines) {
+void CableForce::add(const Dresspack& dresspack, const Component& part, double count, double cosines, double share) {
   count *= part.count;
   cosines *= std::cos(part.lay_angle);
-  for (const Component& inner : part.components) add(dresspack, inner, count, cosines);
+  share *= left_by_bed(dresspack, part) * std::pow(std::cos(part.lay_angle), 2);
+  for (const Component& inner : part.components) add(dresspack, inner, count, cosines, share);
   if (!part.components.empty()) return;
   const double area = count * pi * part.radius * part.radius;
   const Material* material = find_material(dresspack, part.material);
   all_strengths_known_ &= material && material->tensile_strength;
   if (!material) return;
   strength_ += area * cosines * material->tensile_strength.value_or(0);
-  Wires wires{area * cosines, cosines * cosines, material->youngs_modulus, 0, 1};
+  Wires wires{area * cosines, share, material->youngs_modulus, 0, 1};
   if (material->fatigue_strength > 0) {  // else a polymer's table: elastic
     wires.hardening = hardening_exponent(*material);
     wires.cyclic_strength = cyclic_strength(*material);

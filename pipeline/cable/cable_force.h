@@ -1,8 +1,8 @@
 // The force of a cable from its strain, and what it bears (strain/README.md, W37): the principle is that a
 // strain is believed only with the force that makes it.
 //
-// Wires at lay angles alpha, one for each level in the cable, have of its strain the product of cos^2(alpha),
-// and give it of their force the product of cos(alpha). A metal wire has the stress of its cyclic curve,
+// Wires at lay angles alpha, one for each level in the cable, have of its strain the product of cos^2(alpha) and of what soft
+// beds leave (W31), and give it of their force the product of cos(alpha). A metal wire has the stress of its cyclic curve,
 //     strain = sigma / E + (sigma / K')^(1/n')    (F7 of fatigue/README.md),
 // rising and odd. Insulation counts nothing. A part without wires (plain_part.h) is elastic.
 #pragma once
@@ -34,7 +34,7 @@ class CableForce {
     double modulus, cyclic_strength, hardening;  ///< E, K' [Pa], n'
     double stress(double strain) const;
   };
-  void add(const Dresspack& dresspack, const Component& part, double count, double cosines);
+  void add(const Dresspack& dresspack, const Component& part, double count, double cosines, double share);
 
   std::vector<Wires> wires_;
   double strength_ = 0, mass_ = 0, bending_ = 0;

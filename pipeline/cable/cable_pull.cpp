@@ -6,7 +6,6 @@
 
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/plain_properties.h"
-#include "pipeline/cable/shares.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -21,12 +20,6 @@ Straight along(const Component& part, const Straight& parent) {
   if (part.helix_radius == 0) return parent;
   const double turning = std::tan(lay) + part.helix_radius * parent.twist;  // R sigma
   return {cosine * std::hypot(turning, parent.stretch), cosine * cosine * turning / part.helix_radius};
-}
-
-/// (W31) Share of a part's strain that the bed of its helix leaves, as in the strain stage.
-double left_by_bed(const Dresspack& dresspack, const Component& part) {
-  if (part.helix_radius == 0 || !part.radial_stiffness) return 1;
-  return helices::radial_share(axial_stiffness(dresspack, part), part.lay_angle, part.helix_radius, *part.radial_stiffness);
 }
 
 /// Pull along the parent.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/cable/plain_properties.h"
+#include "pipeline/cable/cable_bending.h"
 #include "pipeline/files/check_names.h"
 #include "sim/run/cures.h"
 #include "sim/run/deformation_file.h"
@@ -157,26 +157,11 @@ PrescribedDeformation deformation_of(const pipeline::Setup& setup) {
   return setup.motion.rig ? rig_deformation(*setup.motion.rig, setup) : read_deformation(setup);
 }
 
-namespace {
-
-double stiffness_of(const std::vector<pipeline::Component>& components, const pipeline::Dresspack& dresspack) {
-  double sum = 0;
-  for (const pipeline::Component& part : components) {
-    const pipeline::Material* material = pipeline::find_material(dresspack, part.material);
-    const double own = part.plain ? pipeline::properties_of(*part.plain, part.radius).axial
-                       : part.components.empty()
-                           ? (material ? material->youngs_modulus : 0) * EIGEN_PI * part.radius * part.radius
-                           : stiffness_of(part.components, dresspack);
-    sum += part.count * std::pow(std::cos(part.lay_angle), 3) * own;
-  }
-  return sum;
-}
-
-}  // namespace
-
 double axial_stiffness(const pipeline::Dresspack& dresspack) {
-  return dresspack.axial_stiffness > 0 ? dresspack.axial_stiffness
-                                       : stiffness_of(dresspack.components, dresspack);
+  if (dresspack.axial_stiffness > 0) return dresspack.axial_stiffness;
+  pipeline::Component whole;
+  whole.components = dresspack.components;
+  return pipeline::axial_stiffness(dresspack, whole);
 }
 
 std::vector<pipeline::Warning> write_prescribed(const pipeline::Setup& setup, pipeline::FileWriter& file,

@@ -96,9 +96,22 @@ class Expansion {
   }
 
   void torsion() {
+    const auto& parts = dresspack_.components;
+    if (!rig_.weight) places();
+    const double wave = 2 * EIGEN_PI / *rig_.length;
+    const double buckling = pipeline::bending_stiffness(dresspack_) * wave * wave;
     to_either_side(fmt::format("{:.4g} deg/m", *rig_.twist * degrees), "", [&](double level) {
       const double twist = level * *rig_.twist;
-      return std::vector<State>{{{0, 0, twist}, rig_.weight ? pull_elongation(twist) : 0}};
+      if (rig_.weight) return std::vector<State>{{{0, 0, twist}, pull_elongation(twist)}};
+      const bool bows = pipeline::pull_of_wires(dresspack_, parts, 0, twist) < -buckling;
+      const double elongation = bows ? pipeline::elongation_under(dresspack_, parts, -buckling, twist) : 0;
+      const double most = 2 * wave * std::sqrt(std::max(0.0, elongation));
+      std::vector<State> states;
+      for (const double position : result_.positions) {
+        const double bend = most * std::cos(wave * position), turned = twist * position;
+        states.push_back({{bend * std::sin(turned), bend * std::cos(turned), twist}, elongation});
+      }
+      return states;
     });
   }
 

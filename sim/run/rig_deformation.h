@@ -1,6 +1,9 @@
 // What the test rigs of pipeline/job/rig.h do to a cable, one cycle each, as a prescribed deformation.
 //
-// (D3) torsion: twist 0, +phi, 0, -phi, 0 along the whole length. Held at both ends: no elongation. With a
+// (D3) torsion: twist 0, +phi, 0, -phi, 0 along the whole length. Held at both ends L apart: no elongation e,
+//      unless the twist presses the wires with more than Euler's load E I (2 pi/L)^2 of a clamped rod. Then the
+//      cable lengthens until they press with that load, and bows in a plane: y = (a/2) (1 - cos 2 pi x/L) is
+//      longer than L by (pi a/L)^2/4 = e, so the curvature is (4 pi/L) sqrt(e) cos(2 pi x/L). With a
 //      weight the elongation e is that at which the wires carry it, sum of E A strain(e, twist) x lay cosines
 //      = g m: a cable whose layers have one hand shortens and lengthens as it is twisted, and its wires are
 //      strained less (pipeline/cable/cable_pull.h).
