@@ -55,12 +55,12 @@ class Doubts {
                       least_shift, most_shift),
           duty.shift_hours > most_shift ? "hours of a week" : "a share of a day", "shift_hours: 8");
     for (const PastDuty& past : duty.history)
-      if (past.hours > longest_history)
+      if (past.hours.value_or(0) > longest_history)
         add(past.where,
-            fmt::format("hours of the history are {:g} (limit {:g}: 20 years day and night)", past.hours,
+            fmt::format("hours of the history are {:g} (limit {:g}: 20 years day and night)", *past.hours,
                         longest_history),
             "minutes or seconds instead of hours",
-            fmt::format("hours: {:.6g} if that was minutes", past.hours / 60));
+            fmt::format("hours: {:.6g} if that was minutes", *past.hours / 60));
   }
   void of(const Fleet& fleet, Day today) {
     std::map<std::string, const Installed*> names;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "pipeline/base/exported.h"
 #include "pipeline/resolve/document_kind.h"
 #include "pipeline/settings/fields.h"
 
@@ -78,7 +79,10 @@ void describe(Fields& f, OrderedProgram& program) {
 void describe(Fields& f, PastDuty& past) {
   f.place(past.where);
   f.text("duty", past.duty, Need::required, "The name of a duty in this file.");
-  f.number("hours", past.hours, Need::required, at_least(0), "The hours of operation under it.");
+  f.maybe_number("hours", past.hours, at_least(0), "The hours of operation under it.");
+  f.text("from", past.from, Need::optional,
+         "In place of `hours`: the first day under it, as in 2026-01-05. Each week counts as `hours_per_week` of that duty.");
+  f.text("to", past.to, Need::optional, "The last day under it.");
 }
 
 void describe(Fields& f, Duty& duty) {
@@ -106,6 +110,44 @@ void describe(Fields& f, DutyFile& file) {
 
 }  // namespace
 
+std::array<Day, 2> PastDuty::days(Day today) const {
+  const auto day_of = [&](const char* key, const std::string& text) {
+    if (const std::optional<Day> day = exported_day(text)) return *day;
+    throw InputError(where, text.empty() ? fmt::format("the history has no '{}'", key) : fmt::format("{} '{}' is no date", key, text),
+                     day_remedy(text));
+  };
+  const std::array<Day, 2> days{day_of("from", from), day_of("to", to)};
+  if (days[1] < days[0]) throw InputError(where, fmt::format("the history ends on {}, before it begins", to), "exchange the two dates");
+  if (days[1] > today)
+    throw InputError(where, fmt::format("the history ends after today, {}", day_text(today)), "give days that are past");
+  return days;
+}
+
+namespace {
+
+/// Converts days to hours.
+void fill_hours(const DutyFile& file, std::vector<PastDuty>& history, Day today, Problems& problems) {
+  std::vector<std::pair<std::array<Day, 2>, const PastDuty*>> periods;
+  for (PastDuty& past : history)
+    problems.attempt("", past.where, [&] {
+      const Duty& duty = duty_named(file, past.duty, past.where);
+      const bool dated = !past.from.empty() || !past.to.empty();
+      if (dated == past.hours.has_value())
+        throw InputError(past.where, dated ? "the history has both hours and dates" : "the history has neither hours nor dates",
+                         "give hours, or from and to");
+      if (!dated) return;
+      const std::array<Day, 2> days = past.days(today);
+      past.hours = (days_between(days[0], days[1]) + 1) / 7 * duty.hours_per_week;
+      for (const auto& [other, same] : periods)
+        if (days[0] <= other[1] && other[0] <= days[1])
+          throw InputError(past.where, fmt::format("the days {} .. {} overlap those of line {}", past.from, past.to, same->where.line),
+                           "one dresspack has one duty at a time; give a duty of both programs");
+      periods.emplace_back(days, &past);
+    });
+}
+
+}  // namespace
+
 double DutyProgram::rate(double repeat_seconds, double shift_hours, std::optional<double> all_repeats) const {
   if (repeats_per_hour) return *repeats_per_hour;
   if (repeats_per_shift) return *repeats_per_shift / shift_hours;
@@ -113,7 +155,7 @@ double DutyProgram::rate(double repeat_seconds, double shift_hours, std::optiona
   return percent_of_time.value_or(0) / 100 * 3600 / repeat_seconds;
 }
 
-DutyFile read_duties(const std::filesystem::path& name) {
+DutyFile read_duties(const std::filesystem::path& name, Day today) {
   const Node document = read_yaml(name);
   if (document.is_map() && !document.find("duties")) refuse_other_kind(document, DocumentKind::duties);
   DutyFile file;
@@ -127,8 +169,7 @@ DutyFile read_duties(const std::filesystem::path& name) {
     check(duty, fmt::format("duties[{}]", k + 1), problems);
     if (!unique.insert(duty.name).second)
       problems.add(duty.where, fmt::format("two duties are named '{}'", duty.name), "give each another name");
-    for (const PastDuty& past : duty.history)
-      problems.attempt("", past.where, [&] { duty_named(file, past.duty, past.where); });
+    fill_hours(file, file.duties[k].history, today, problems);
   }
   problems.finish(name.string());
   return file;

@@ -12,13 +12,16 @@
 //         - {job: hard, repeats: 1}            once; then again the first
 //       history:
 //         - {duty: night, hours: 2000}   what the dresspack has done before
+//         - {duty: day, from: 2026-01-05, to: 2026-06-30}   the same by dates, both days included
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "pipeline/base/days.h"
 #include "pipeline/base/errors.h"
 
 namespace dresslife::pipeline {
@@ -37,11 +40,14 @@ struct DutyProgram {
   double rate(double repeat_seconds, double shift_hours, std::optional<double> all_repeats_per_hour) const;
 };
 
-/// Hours under a duty in the past.
+/// Hours under a duty in the past: a number, or days.
 struct PastDuty {
   Where where;
-  std::string duty;
-  double hours = 0;
+  std::string duty, from, to;    ///< dates as they stand in the file; empty: hours are given
+  std::optional<double> hours;  ///< of operation; read_duties() converts days by the duty's hours per week
+
+  /// Of days in full, both included. Errors: InputError for what is no date, ends before it begins, or lies after `today`.
+  std::array<Day, 2> days(Day today) const;
 };
 
 /// Repeats of one program in a row, in the order of a duty.
@@ -69,8 +75,8 @@ struct DutyFile {
 };
 
 /// Errors: InputError with all problems: unknown keys, a program without a number or with several, two duties of one
-/// name, a history that names no duty.
-DutyFile read_duties(const std::filesystem::path& file);
+/// name, a history that names no duty, or whose dates overlap.
+DutyFile read_duties(const std::filesystem::path& file, Day today = dresslife::pipeline::today());
 
 /// The duty of this name. Errors: InputError at `named_at`.
 const Duty& duty_named(const DutyFile& file, const std::string& name, const Where& named_at);

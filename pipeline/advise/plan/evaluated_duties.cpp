@@ -489,8 +489,8 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study,
             past.where,
             fmt::format("duties '{}' and '{}' are of different dresspacks", past.duty, file.duties[d].name),
             "give a duty with the same dresspack");
-      history.push_back({&before.damage, past.hours});
-      results[d].past_hours += past.hours;
+      history.push_back({&before.damage, past.hours.value_or(0)});
+      results[d].past_hours += past.hours.value_or(0);
     }
     if (results[d].past_hours >= results[d].robot_life_hours)
       throw InputError(

@@ -119,6 +119,42 @@ TEST_CASE("a duty of several programs without an order names the cycles that it 
   CHECK(mixture_words(duty).empty());
 }
 
+TEST_CASE("a history by dates has the hours of its days, each at the week of its duty") {
+  const auto with = [](const std::string& entries) {
+    return "study: s\nduties:\n  - {name: a, hours_per_week: 84, programs: [{job: j, percent_of_time: 5}]}\n"
+           "  - name: b\n    hours_per_week: 168\n    programs: [{job: j, percent_of_time: 5}]\n    history:\n" +
+           entries;
+  };
+  const Day today = day_from("2026-07-01").value();
+  const auto refused = [&](const std::string& entries) {
+    const Scratch scratch;
+    scratch.write("duties.yaml", with(entries));
+    try {
+      read_duties(scratch / "duties.yaml", today);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const Scratch scratch;
+  scratch.write("duties.yaml", with("      - {duty: a, from: 2026-01-05, to: 11.01.2026}\n      - {duty: b, from: 2026-01-12, to: 2026-01-12}\n"
+                                    "      - {duty: a, hours: 5}\n"));
+  const std::vector<PastDuty> history = read_duties(scratch / "duties.yaml", today).duties[1].history;
+  REQUIRE(history.size() == 3);
+  CHECK(history[0].hours.value() == Approx(84));  // seven days
+  CHECK(history[1].hours.value() == Approx(24));  // one
+  CHECK(history[2].hours.value() == 5);
+  CHECK_THAT(refused("      - {duty: a, hours: 5, from: 2026-01-05, to: 2026-01-11}\n"), Catch::Contains("duties.yaml:8:9: error: the history has both"));
+  CHECK_THAT(refused("      - {duty: a}\n"), Catch::Contains("neither hours nor dates"));
+  CHECK_THAT(refused("      - {duty: a, from: 2026-01-05}\n"), Catch::Contains("has no 'to'"));
+  CHECK_THAT(refused("      - {duty: a, from: 1/5/2026, to: 2026-01-11}\n"), Catch::Contains("2026-05-01 if the day comes first"));
+  CHECK_THAT(refused("      - {duty: a, from: 2026-02-30, to: 2026-03-11}\n"), Catch::Contains("'2026-02-30' is no date"));
+  CHECK_THAT(refused("      - {duty: a, from: 2026-01-11, to: 2026-01-05}\n"), Catch::Contains("before it begins; exchange"));
+  CHECK_THAT(refused("      - {duty: a, from: 2026-06-01, to: 2026-07-02}\n"), Catch::Contains("after today, 2026-07-01"));
+  CHECK_THAT(refused("      - {duty: a, from: 2026-01-05, to: 2026-01-11}\n      - {duty: b, from: 2026-01-11, to: 2026-02-01}\n"),
+             Catch::Contains("duties.yaml:9:9: error: the days 2026-01-11 .. 2026-02-01 overlap those of line 8"));
+}
+
 TEST_CASE("a file of duties that contradicts itself is refused at its place") {
   CHECK(refusal(of_programs("      - {job: a}\n")).find("duties.yaml:5:9: error: 'a' has 0 numbers") != std::string::npos);
   CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1, percent_of_time: 2}\n")).find("'a' has 2 numbers") !=
