@@ -1,10 +1,5 @@
 #include "tests/pipeline/scratch.h"
 
-#include <unistd.h>
-
-#include <algorithm>
-#include <cstdlib>
-
 namespace dresslife::pipeline {
 
 Scratch::Scratch() {
