@@ -1,10 +1,5 @@
 #include "tests/cli/process.h"
 
-#include <sys/wait.h>
-
-#include <cmath>
-#include <sstream>
-
 namespace dresslife::tests {
 
 Outcome run_shell(const Scratch& scratch, const std::string& line) {

@@ -1,12 +1,5 @@
 #include "tests/pipeline/scratch.h"
 
-#include <unistd.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
-
 namespace dresslife::pipeline {
 
 Scratch::Scratch() {

@@ -12,6 +12,7 @@
 // Source: HDF5 reference manual, H5Pset_scaleoffset (H5Z_SO_FLOAT_DSCALE), fill value undefined.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -317,7 +317,8 @@ simulation: {segments: 20, sample_rate_Hz: 25}
 )");
   const std::string program = content(scratch / "short.mod");
   const Outcome ways = must_run(
-      scratch, "dresslife", "reprogram job.yaml --quiet --lines 2 --set dresspack.least_bend_radius_mm=100");
+      scratch, "dresslife",
+      "reprogram job.yaml --quiet --lines 2 --set dresspack.least_bend_radius_mm=100 --set uncertainty.enabled=false");
   INFO(ways.out << ways.err);
   CHECK(content(scratch / "short.mod") == program);
   const std::string table = content(scratch / "runs/job_reprogram/as_it_is.csv");

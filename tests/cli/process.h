@@ -1,9 +1,13 @@
 // Runs our programs as a user's shell does and keeps what they say.
 #pragma once
 
+#include <sys/wait.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include "pipeline/base/ownership.h"

@@ -1,8 +1,14 @@
 // A folder that lives as long as its test, the words of an error, and what was printed meanwhile.
 #pragma once
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 #include "pipeline/base/errors.h"

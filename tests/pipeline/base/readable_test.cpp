@@ -1,8 +1,12 @@
 // Numbers and texts as people read them.
 #include "pipeline/base/readable.h"
 
+#include <array>
 #include <limits>
+#include <string>
+#include <vector>
 
+#include "pipeline/base/joined.h"
 #include "tests/catch.h"
 
 using namespace dresslife::pipeline;
@@ -71,4 +75,11 @@ TEST_CASE("readable: text is measured and cut in characters, not bytes") {
   CHECK(wrapped("one Käfig three", 9, "") == "one Käfig\nthree\n");
   CHECK(wrapped("unbreakable", 4, "") == "unbreakable\n");
   CHECK(wrapped("", 4, "") == "");
+}
+
+TEST_CASE("joined words have the text between each two of them, also where a word is empty") {
+  CHECK(joined(std::vector<std::string>{}, ", ").empty());
+  CHECK(joined(std::vector<std::string>{"a"}, ", ") == "a");
+  CHECK(joined(std::vector<std::string>{"", "a", "", "b"}, ", ") == ", a, , b");
+  CHECK(joined(std::array<const char*, 2>{"x", "y"}, " | ") == "x | y");
 }
