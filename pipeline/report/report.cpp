@@ -356,7 +356,9 @@ std::string facts(const RankingRow& row) {
       continue;
     }
     const std::string life =
-        wall ? fmt::format("{} of motion until it cracks, {}", unvalidated_life(mode.hours[1]), escaped(mode.place))
+        wall ? fmt::format("{} of motion until it cracks{}, {}",
+                           std::isnan(mode.hours[0]) ? unvalidated_life(mode.hours[1]) : range_text(mode.hours[0], mode.hours[2]),
+                           std::isnan(mode.hours[0]) ? "" : " (10 .. 90 %)", escaped(mode.place))
              : fmt::format("{} of motion until it is worn through (10 .. 90 %), {} {}", range_text(mode.hours[0], mode.hours[2]),
                            mode.mode == UnvalidatedMode::jacket ? "of" : "on", escaped(mode.place));
     fact(mode.mode + of + ", unvalidated",

@@ -72,6 +72,12 @@ std::string too_short_wall(const UnvalidatedMode& mode) {
                      readable(mode.bends_at_limit), readable(published_wall_bends));
 }
 
+/// Old files state the median alone.
+std::string wall_life(const UnvalidatedMode& mode) {
+  if (std::isnan(mode.hours[0]) || std::isinf(mode.hours[0])) return unvalidated_life(mode.hours[1]);
+  return range_text(mode.hours[0], mode.hours[2]) + " (10 .. 90 %)";
+}
+
 /// ", abrasion: from 25,000 h": the modes after earlier_unvalidated() that also come before the headline and the robot's life, the
 /// earliest first. Empty: none do.
 std::string further_unvalidated(const RankingRow& row) {
@@ -96,7 +102,7 @@ std::string first_inspection_words(const RankingRow& row) {
   const std::string of = mode->dresspack.empty() ? "The hose" : "The hose of " + mode->dresspack;
   const std::string place = fmt::format("{:.2f} m from the tool", mode->position_from_tool);
   if (mode->mode == UnvalidatedMode::wall)
-    return fmt::format("{} may crack {} after {} (not validated): inspect it there.", of, place, hours_text(mode->hours[1]));
+    return fmt::format("{} may crack {} after {} (not validated): inspect it there.", of, place, wall_life(*mode));
   if (mode->mode == UnvalidatedMode::abrasion)
     return fmt::format("{} may wear through on {}, {}, after {} (10 .. 90 %, not validated): inspect it there.", of, mode->place, place,
                        range_text(mode->hours[0], mode->hours[2]));
@@ -299,7 +305,7 @@ std::string unvalidated_words(const UnvalidatedMode& mode) {
     return fmt::format("The life of the hose's wall{} is not predicted. {}", of, too_short_wall(mode));
   if (mode.mode == UnvalidatedMode::wall)
     return fmt::format("The life of the hose's wall{} is not validated and not in the hours above. By the model it is {}.", of,
-                       unvalidated_life(mode.hours[1]));
+                       wall_life(mode));
   if (mode.mode == UnvalidatedMode::rating) return joined_words({rating_words(mode, of), mode.note});
   if (mode.mode == UnvalidatedMode::corkscrew) return corkscrew_words(mode, of);
   if (mode.mode == UnvalidatedMode::kink) return kink_words(mode, of);
