@@ -187,7 +187,8 @@ class RoundEmulation {
     }
     std::array<bool, uncertain_count> moves{}, own{};
     moves[index_of(Uncertain::strength)] = true;
-    own[index_of(Uncertain::motion)] = variants.front().own[index_of(Uncertain::motion)] || !in_service;
+    constexpr std::size_t motion = index_of(Uncertain::motion);
+    own[motion] = variants.front().own[motion] || variants.front().moves[motion];
     for (auto& [material, of] : programs) {
       ObservedLife& life = walls[material];
       life.service = in_service ? factors_of(observation.service, false)
