@@ -198,6 +198,19 @@ TEST_CASE("learned: a life says of the hoses' walls that they lived at least as 
     CHECK(each(stronger).log_median - each(Eigen::VectorXd::Zero(uncertain_count)).log_median == Approx(1.5 * std::log(10)));
   }
   CHECK(median == Approx(std::log(1e5 * 36 / 3600)));
+  // Of a plant: one that failed by its wires, and one that was put in before the records began.
+  Made plant("    hours: 300\n");
+  plant.tests[0].observation.service = {{200, 0, true}, {300, 100, false}};
+  plant.round.emplace(plant.tests, std::vector<std::string>{}, "round", Eigen::VectorXd::Zero(uncertain_count),
+                      Eigen::VectorXd::Ones(uncertain_count));
+  const auto service = walls_of(plant).at(wall.material).service;
+  REQUIRE(service.size() == 3);
+  constexpr double within = 0.025;  // ages are put together within 5 %
+  for (const auto& [k, hours, count] : {std::tuple{0u, 100.0, -1}, std::tuple{1u, 200.0, 1}, std::tuple{2u, 300.0, 1}}) {
+    CHECK(service[k].log_age == Approx(std::log(hours)).margin(within));
+    CHECK(service[k].count == count);
+    CHECK_FALSE(service[k].failed);
+  }
   Made below("    hours: 300\n    outcome: broken_by\n");
   CHECK(walls_of(below).empty());  // the wires failed before, and of the hose nothing is known
 }
