@@ -72,10 +72,10 @@ std::string too_short_wall(const UnvalidatedMode& mode) {
                      readable(mode.bends_at_limit), readable(published_wall_bends));
 }
 
-/// Old files state the median alone.
-std::string wall_life(const UnvalidatedMode& mode) {
-  if (std::isnan(mode.hours[0]) || std::isinf(mode.hours[0])) return unvalidated_life(mode.hours[1]);
-  return range_text(mode.hours[0], mode.hours[2]) + " (10 .. 90 %)";
+/// "2,000 .. 90,000 h (10 .. 90 %, not validated)" with the note ", not validated". Old files state the median alone.
+std::string wall_life(const UnvalidatedMode& mode, const std::string& note = "") {
+  if (!std::isfinite(mode.hours[0])) return unvalidated_life(mode.hours[1]) + (note.empty() ? "" : " (not validated)");
+  return fmt::format("{} (10 .. 90 %{})", range_text(mode.hours[0], mode.hours[2]), note);
 }
 
 /// ", abrasion: from 25,000 h": the modes after earlier_unvalidated() that also come before the headline and the robot's life, the
@@ -102,7 +102,7 @@ std::string first_inspection_words(const RankingRow& row) {
   const std::string of = mode->dresspack.empty() ? "The hose" : "The hose of " + mode->dresspack;
   const std::string place = fmt::format("{:.2f} m from the tool", mode->position_from_tool);
   if (mode->mode == UnvalidatedMode::wall)
-    return fmt::format("{} may crack {} after {} (not validated): inspect it there.", of, place, wall_life(*mode));
+    return fmt::format("{} may crack {} after {}: inspect it there.", of, place, wall_life(*mode, ", not validated"));
   if (mode->mode == UnvalidatedMode::abrasion)
     return fmt::format("{} may wear through on {}, {}, after {} (10 .. 90 %, not validated): inspect it there.", of, mode->place, place,
                        range_text(mode->hours[0], mode->hours[2]));

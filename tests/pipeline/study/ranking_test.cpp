@@ -324,6 +324,10 @@ TEST_CASE("ranking: a wall's life by a law that contradicts the published test i
                                      {0.0, 0.37},            // not known, as in older files
                                      {1.08e6, 2e5}})
     CHECK_THAT(words(bends, hours), Catch::Contains("By the model it is ") && !Catch::Contains("not predicted"));
+  wall.hours = {3e5, 2e6, 8e7};
+  CHECK_THAT(unvalidated_words(wall), Catch::Contains("By the model it is 300,000 .. 80,000,000 h (10 .. 90 %)."));
+  wall.hours[0] = 4e4;  // before any robot's end in 1 of 10
+  CHECK_THAT(unvalidated_words(wall), Catch::Contains("not predicted"));
 }
 
 TEST_CASE("ranking: abrasion has words and columns, and the first action names it where it may come first") {
