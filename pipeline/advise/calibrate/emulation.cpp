@@ -171,7 +171,8 @@ class RoundEmulation {
     const Observation& observation = test.observation;
     const bool in_service = !observation.service.empty();
     std::map<std::string, ObservedLife> walls;
-    if (!in_service && !(observation.hours && bounds_below(observation.outcome))) return walls;
+    const bool lived = bounds_below(observation.outcome) && observation.outcome != ObservedEnd::rating;  // a promise is of the cable alone
+    if (!in_service && !(observation.hours && lived)) return walls;
     std::map<std::string, std::vector<ProgramModes>> programs;
     for (std::size_t k = 0; k < variants.size(); ++k) {
       const RankingRow& row = row_of(test, variants[k].centre);

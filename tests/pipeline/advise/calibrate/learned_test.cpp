@@ -211,6 +211,8 @@ TEST_CASE("learned: a life says of the hoses' walls that they lived at least as 
     CHECK(service[k].count == count);
     CHECK_FALSE(service[k].failed);
   }
+  Made rated("    hours: 300\n    outcome: rating\n");
+  CHECK(walls_of(rated).empty());
   Made below("    hours: 300\n    outcome: broken_by\n");
   CHECK(walls_of(below).empty());  // the wires failed before, and of the hose nothing is known
 }
