@@ -18,13 +18,13 @@
 #include "fatigue/stress_path.h"
 #include "fatigue/unvalidated.h"
 #include "fatigue/verdict.h"
+#include "fatigue/wall_life.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/base/warning_words.h"
-#include "pipeline/cable/bend_limit.h"
-#include "pipeline/cable/corrugation.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
+#include "pipeline/job/wall_strength.h"
 #include "pipeline/life/planning.h"
 
 namespace dresslife::fatigue {
@@ -472,6 +472,7 @@ std::string ratings_words(const pipeline::Job& job) {
   if (!job.calibration || !job.calibration->typical) return "";
   std::vector<std::string> words;
   for (const pipeline::LearnedParameter& learned : job.calibration->parameters) {
+    if (pipeline::is_wall_strength(learned.name)) continue;
     const pipeline::UncertainParameter& parameter = pipeline::uncertain_parameters()[pipeline::index_of(learned.name)];
     words.push_back(fmt::format("{} {}{:.3g}", parameter.name, parameter.logarithmic ? "x " : "+ ",
                                 parameter.value(learned.median)));
@@ -539,17 +540,8 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
       worst.position_from_tool, worst.step.empty() ? "" : ", worst during '" + worst.step + "'");
 }
 
-/// Bends of a straight hose to its bend radius limit, by the law of its wall; 0 without measured points.
-double wall_bends_at_limit(const pipeline::Job& job, const pipeline::Dresspack& dresspack) {
-  const pipeline::Material& material = pipeline::hose_material_of(job, dresspack);
-  if (material.strain_life_table.size() < 2) return 0;
-  const pipeline::WallFactors wall = pipeline::wall_factors(dresspack);
-  const double range = wall.strain * wall.radius / pipeline::least_bend_radius(dresspack);
-  return StrainLifeTable(material.strain_life_table).cycles(range / 2);
-}
-
-/// The hose's wall beside the wires; nothing without a wall.
-std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c) {
+/// The hose's wall beside the wires (F37); nothing without a wall. lives: (sample) log10 repeats of the validated modes.
+std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c, const std::vector<double>& lives) {
   if (c.worst_wall == no_site) return {};
   const auto worst_sites = worst_by_segment(c, false);
   put(c.life, "/hose/worst_site", as_index(worst_sites));
@@ -565,6 +557,7 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c) {
   c.life.attribute("hose_time", worst.time);
   c.life.attribute("hose_step", worst.step);
   std::vector<pipeline::UnvalidatedMode> modes;
+  pipeline::FailureModes responses;
   for (const std::size_t site : worst_by_group(c.damage, c.job.dresspacks.size(), [&](std::size_t of) {
          return c.damage.is_wire(of) ? no_site : c.dresspack_of(of);
        })) {
@@ -573,14 +566,18 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c) {
     pipeline::UnvalidatedMode& mode = modes.emplace_back();
     mode.mode = pipeline::UnvalidatedMode::wall;
     mode.dresspack = pipeline::name_among(c.job, c.dresspack_of(site));
-    mode.hours[1] = wall.life_hours;
+    const pipeline::LifeResponse& response =
+        responses.emplace_back(wall_response(c.reversals_of(site), c.job, c.dresspack_of(site)));
+    mode.bends_at_limit = wall_bends_at_limit(response, c.job, c.dresspack_of(site));
+    set_lives(mode, pipeline::first_failures({response}, "", lives.size()), lives, c.repeat_seconds());
+    if (!is_credible(mode)) mode.first_share = mode.together_p10 = pipeline::UnvalidatedMode::unknown;
     mode.segment_from_tool = static_cast<int>(wall.segment_from_tool);
     mode.position_from_tool = wall.position_from_tool;
     mode.place = wall.component;
     mode.time = wall.time;
     mode.step = wall.step;
-    mode.bends_at_limit = wall_bends_at_limit(c.job, c.job.dresspacks[c.dresspack_of(site)].dresspack);
   }
+  c.life.attribute("wall_response", pipeline::modes_text(responses));
   return modes;
 }
 
@@ -597,7 +594,7 @@ std::string write_unvalidated(const Context& c, const std::vector<double>& lives
   modes.insert(modes.end(), coils.begin(), coils.end());
   const auto kinks = kink_modes(c.strain, c.job, lives);
   modes.insert(modes.end(), kinks.begin(), kinks.end());
-  const auto wall = write_hose(c);
+  const auto wall = write_hose(c, lives);
   modes.insert(modes.end(), wall.begin(), wall.end());
   c.life.attribute("unvalidated_modes", pipeline::unvalidated_text(modes));
   c.life.attribute("not_evaluated", not_evaluated(c.strain, c.job, coils.size() == c.job.dresspacks.size()));

@@ -480,6 +480,7 @@ Format make_life_format() {
     {"hose_component", text, maybe, "that place: hose 1 to hose 16 around the wall"},
     {"hose_segment_from_tool", f64, maybe, "its segment, counted from the tool, 1 first"},
     {"hose_position_from_tool", f64, maybe, "its distance from the tool clamp along the dresspack, m"},
+    {"wall_response", text, maybe, "its life over the strength of its material, for each dresspack, in the form of life_response"},
     {"hose_time", f64, maybe, "time at which its most damaging cycle closes, s"},
     {"hose_step", text, maybe, "program line being executed then"},
     {"unvalidated_modes", text, maybe,

@@ -6,6 +6,7 @@
 
 #include "pipeline/base/joined.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/job/wall_strength.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -94,7 +95,7 @@ namespace {
 
 void check_parameter(const Calibration& calibration, std::size_t i) {
   const LearnedParameter& parameter = calibration.parameters[i];
-  if (index_of(parameter.name) == uncertain_count) {
+  if (index_of(parameter.name) == uncertain_count && !is_wall_strength(parameter.name)) {
     std::vector<std::string> names;
     for (const UncertainParameter& one : uncertain_parameters()) names.emplace_back(one.name);
     throw InputError(parameter.where, fmt::format("'{}' is no uncertain parameter", parameter.name),
@@ -148,14 +149,13 @@ void check_calibration(const Calibration& calibration) {
 ParameterKnowledge knowledge_of(const Calibration& calibration, ParameterKnowledge prior) {
   ParameterKnowledge& knowledge = prior;
   const Eigen::MatrixXd covariance = covariance_of(calibration);
-  std::vector<Eigen::Index> place;
-  for (const LearnedParameter& parameter : calibration.parameters)
-    place.push_back(static_cast<Eigen::Index>(index_of(parameter.name)));
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    knowledge.mean[place[i]] = calibration.parameters[i].mean;
-    for (std::size_t j = 0; j < place.size(); ++j)
-      knowledge.covariance(place[i], place[j]) =
-          covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> places;  // in the list, among the parameters of wires
+  for (std::size_t i = 0; i < calibration.parameters.size(); ++i)
+    if (const std::size_t p = index_of(calibration.parameters[i].name); p < uncertain_count)
+      places.emplace_back(i, p);
+  for (const auto& [i, p] : places) {
+    knowledge.mean[p] = calibration.parameters[static_cast<std::size_t>(i)].mean;
+    for (const auto& [j, q] : places) knowledge.covariance(p, q) = covariance(i, j);
   }
   return knowledge;
 }

@@ -317,7 +317,7 @@ void leave_out_foreign_parameters(Job& job) {
                                   listed(names), names.size() == 1 ? "is" : "are"));
   };
   const auto shared_by = [](SharedBy what) {
-    return [what](std::size_t p) { return uncertain_parameters()[p].shared == what; };
+    return [what](std::size_t p) { return p < uncertain_count && uncertain_parameters()[p].shared == what; };
   };
   leave(cables, "the cable", shared_by(SharedBy::construction));
   leave(hoses, "the hose", [](std::size_t p) {

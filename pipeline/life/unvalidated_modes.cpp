@@ -27,7 +27,7 @@ double number_of(const std::string& word) {
 
 bool is_credible(const UnvalidatedMode& mode) {
   constexpr double long_life = 1e5;  // [h]
-  return mode.bends_at_limit <= 0 || mode.bends_at_limit >= published_wall_bends || !(mode.hours[1] < long_life);
+  return mode.bends_at_limit <= 0 || mode.bends_at_limit >= published_wall_bends || !(mode.early_hours() < long_life);
 }
 
 std::string unvalidated_text(const std::vector<UnvalidatedMode>& modes) {

@@ -21,7 +21,7 @@ struct UnvalidatedMode {
 
   std::string mode;       ///< one of the above
   std::string dresspack;  ///< in which, among several; empty: the only one
-  /// By then it has failed in 10, 50, 90 % of such dresspacks [h]; infinite: never. Of the wall only the median.
+  /// By then it has failed in 10, 50, 90 % of such dresspacks [h]; infinite: never. Of the wall in old files only the median.
   std::array<double, 3> hours{unknown, unknown, unknown};
   double first_share = unknown;   ///< of the samples in which it fails before any validated mode
   double together_p10 = unknown;  ///< the planner's hours if this mode counted, too [h]
@@ -37,7 +37,7 @@ struct UnvalidatedMode {
   double unseen_share = unknown;  ///< of all dresspacks: they fail within the robot's life, and no check has found it
   double visible_from = unknown;  ///< share of its life after which a visual check can see it; unknown: never
   double margin = 0;  ///< of a kink: radius of the tightest bend over that at which the tube kinks; 0: another mode
-  /// By then 1 of 10 has failed by this mode; of the wall, whose scatter is not known, half.
+  /// By then 1 of 10 has failed by this mode; of the wall in old files half.
   double early_hours() const { return std::isnan(hours[0]) ? hours[1] : hours[0]; }
   bool operator==(const UnvalidatedMode&) const = default;
 };

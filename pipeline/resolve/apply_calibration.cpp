@@ -6,6 +6,7 @@
 
 #include "pipeline/base/installation.h"
 #include "pipeline/job/learned_settings.h"
+#include "pipeline/job/wall_strength.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
@@ -38,6 +39,7 @@ std::set<std::string> stated_by(const Node& tree, const Job& job) {
 void put_medians(Node& tree, Job& job) {
   job.calibration->applied = true;
   for (const LearnedParameter& learned : job.calibration->parameters) {
+    if (is_wall_strength(learned.name)) continue;  // it has no key
     const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
     if (gives(tree, parameter)) continue;
     Node value = scalar(shortest_text(parameter.value(learned.median)));

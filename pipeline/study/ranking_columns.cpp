@@ -86,6 +86,9 @@ class Table {
                 [i](const RankingRow& row) { return row.planned_errors[i]; }));
     add_corkscrew_and_ends();
     add_kink();
+    for (const auto& [end, share, i] : {std::tuple{"p10", "10", 0u}, std::tuple{"p90", "90", 2u}})
+      add(of_mode(fmt::format("hose_life_hours_{}", end), "h", fmt::format("hose_life_hours until {} % have cracked", share), UnvalidatedMode::wall,
+                  [i = i](const UnvalidatedMode& mode) { return is_credible(mode) ? mode.hours[i] : UnvalidatedMode::unknown; }));
   }
   std::vector<RankingColumn> columns;
 

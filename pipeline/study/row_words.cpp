@@ -68,6 +68,12 @@ std::string joined_words(const std::vector<std::string>& sentences) {
 
 namespace {
 
+/// "2,000 .. 90,000 h (10 .. 90 %, not validated)". Old files state the median alone.
+std::string wall_life(const UnvalidatedMode& mode) {
+  if (!std::isfinite(mode.hours[0])) return hours_text(mode.hours[1]) + " (not validated)";
+  return fmt::format("{} (10 .. 90 %, not validated)", range_text(mode.hours[0], mode.hours[2]));
+}
+
 /// ", abrasion: from 25,000 h": the modes after earlier_unvalidated() that also come before the headline and the robot's life, the
 /// earliest first. Empty: none do.
 std::string further_unvalidated(const RankingRow& row) {
@@ -92,7 +98,7 @@ std::string first_inspection_words(const RankingRow& row) {
   const std::string of = mode->dresspack.empty() ? "The hose" : "The hose of " + mode->dresspack;
   const std::string place = fmt::format("{:.2f} m from the tool", mode->position_from_tool);
   if (mode->mode == UnvalidatedMode::wall)
-    return fmt::format("{} may crack {} after {} (not validated): inspect it there.", of, place, hours_text(mode->hours[1]));
+    return fmt::format("{} may crack {} after {}: inspect it there.", of, place, wall_life(*mode));
   if (mode->mode == UnvalidatedMode::abrasion)
     return fmt::format("{} may wear through on {}, {}, after {} (10 .. 90 %, not validated): inspect it there.", of, mode->place, place,
                        range_text(mode->hours[0], mode->hours[2]));

@@ -16,8 +16,8 @@ bool is_believable(const RankingRow& row);
 std::string action_words(const RankingRow& row);
 
 /// The mode of which 1 of 10 has failed first, where that is before the headline and before the robot's own life: hours that
-/// no test validates are not in the headline, and a reader must not take it alone. Of the wall the median counts, unless
-/// its law contradicts a published test. Null: none.
+/// no test validates are not in the headline, and a reader must not take it alone. A wall does not count if its
+/// law contradicts a published test. Null: none.
 const UnvalidatedMode* earlier_unvalidated(const RankingRow& row);
 /// "abrasion: from 1,080 h, jacket wear: from 6,870 h": these modes, the earliest first. Empty: none.
 std::string earlier_words(const RankingRow& row);

@@ -260,7 +260,7 @@ std::vector<KeyRow> study_keys() {
        "around` a direction, `LOW .. HIGH along LINK` for a position, or a list. `dresslife run` does not read it."},
       {"study", "limits", "", "contact_force_N, tension_N, abrasion_life_h, wall_life_h, rating_life_h, jacket_life_h, corkscrew_life_h, kink_margin", "none",
        "Further limits of `dresslife improve`: largest forces, and least hours of modes that are not validated. By these 1 of 10 has "
-       "failed by abrasion, jacket wear or corkscrew, half by cracks of the hose's wall, and the makers' ratings of 1 in 10 samples are used up. "
+       "failed by abrasion, jacket wear, corkscrew or cracks of the hose's wall, and the makers' ratings of 1 in 10 samples are used up. "
        "kink_margin is the least ratio of a bend's radius to that at which a tube kinks."},
       {"study", "sample", "", "map", "none",
        "The keys that are sampled at random for each of the other jobs: its `keys` are key paths with `!normal`, "

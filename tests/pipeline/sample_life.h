@@ -19,6 +19,7 @@ struct SampleLife {
   bool causes = false;    ///< whether it has the damage by joint
   double hose_hours = 0;  ///< until the hose's wall cracks; 0: it is not evaluated
   std::string unvalidated{};  ///< unvalidated_text(); empty: as of an older file
+  std::string wall_response;  ///< empty: no wall
   double planned_hours =
       0;  ///< until 10 % have a conductor without its share of wires at one place; 0: as of an older file
   double robot_life_hours = 0;  ///< fatigue.robot_life_hours; 0: no robot moves
@@ -215,6 +216,7 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
     writer.attribute("hose_time", time[samples / 3]);
     writer.attribute("hose_step", text[1]);
   }
+  if (!sample.wall_response.empty()) writer.attribute("wall_response", sample.wall_response);
   if (!sample.unvalidated.empty()) {
     writer.attribute("unvalidated_modes", sample.unvalidated);
     writer.attribute("not_evaluated", "water hose, kinks");

@@ -24,6 +24,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double deciles = 1.2815515655446004;  // of a normal distribution, in its deviations
+constexpr std::size_t draws = 64;  // of what each dresspack has for itself: a share of failures is known to 3 % or better
 
 class RowsByJob {
  public:
@@ -77,6 +78,7 @@ class RoundEmulation {
         continue;
       }
       made_.push_back({tests[t].observation.service.empty() ? life_of(tests[t], runs) : service_of(tests[t], runs)});
+      made_.back().walls = walls_of(tests[t], runs);
       const std::size_t worst = most_damaging(tests[t], runs);
       made_.back().moved_by = moved_by(tests[t], runs[worst]);
       const RankingRow& row = row_of(tests[t], runs[worst].centre);
@@ -119,20 +121,26 @@ class RoundEmulation {
     return worst;
   }
 
-  /// Dresspacks in service: under one program, or several with their shares of the time.
-  ObservedLife service_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& programs) {
+  /// failures: whether they count as such; else as dresspacks that lived until then.
+  static std::vector<ServiceFactor> factors_of(const std::vector<ServiceRecord>& records, bool failures) {
     // Ages within 5 % of each other count as one: they are off by 1.4 % in the mean, and lives scatter by tens of per cent.
     constexpr double within = 0.05;
-    constexpr std::size_t draws = 64;  // of what each has for itself: a share of failures is known to 3 % or better
     std::map<std::pair<long, bool>, int> counts;
     const auto add = [&](double hours, bool failed, int count) { counts[{std::lround(std::log(hours) / within), failed}] += count; };
-    for (const ServiceRecord& one : test.observation.service) {
-      add(one.hours, one.failed, 1);
+    for (const ServiceRecord& one : records) {
+      add(one.hours, failures && one.failed, 1);
       if (one.entry_hours > 0) add(one.entry_hours, false, -1);
     }
-    ObservedLife life;
+    std::vector<ServiceFactor> factors;
     for (const auto& [of, count] : counts)
-      if (count != 0) life.service.push_back({within * double(of.first), of.second, count});
+      if (count != 0) factors.push_back({within * double(of.first), of.second, count});
+    return factors;
+  }
+
+  /// Dresspacks in service: under one program, or several with their shares of the time.
+  ObservedLife service_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& programs) {
+    ObservedLife life;
+    life.service = factors_of(test.observation.service, true);
     const std::size_t worst = most_damaging(test, programs);
     const RankingRow& row = row_of(test, programs[worst].centre);
     const LogLife centre = log_life_of(test.observation, row);
@@ -156,6 +164,41 @@ class RoundEmulation {
         return LifeAt{std::min(endless_log_life, hours.log_median), hours.spread};
       });
     return life;
+  }
+
+  /// No hose of a test had cracked before its end, also where its wires failed. By what else each hose differs: its motion.
+  std::map<std::string, ObservedLife> walls_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& variants) {
+    const Observation& observation = test.observation;
+    const bool in_service = !observation.service.empty();
+    std::map<std::string, ObservedLife> walls;
+    const bool lived = bounds_below(observation.outcome) && observation.outcome != ObservedEnd::rating;  // a promise is of the cable alone
+    if (!in_service && !(observation.hours && lived)) return walls;
+    std::map<std::string, std::vector<ProgramModes>> programs;
+    for (std::size_t k = 0; k < variants.size(); ++k) {
+      const RankingRow& row = row_of(test, variants[k].centre);
+      constexpr const char* attribute = "wall_response";
+      if (row.life_file.empty()) return walls;
+      const FileReader life(row.life_file, life_format());
+      if (!life.has_attribute(attribute)) return walls;
+      const double share = in_service ? test.variants[k].share_of_time : 1;
+      std::map<std::string, FailureModes> by_material;
+      for (LifeResponse& wall : modes_from_text(life.text_attribute(attribute))) by_material[wall.material].push_back(wall);
+      for (auto& [material, modes] : by_material) programs[material].push_back({std::move(modes), share * 3600 / row.repeat_seconds});
+      if (!in_service) break;  // other variants are other cables
+    }
+    std::array<bool, uncertain_count> moves{}, own{};
+    moves[index_of(Uncertain::strength)] = true;
+    constexpr std::size_t motion = index_of(Uncertain::motion);
+    own[motion] = variants.front().own[motion] || variants.front().moves[motion];
+    for (auto& [material, of] : programs) {
+      ObservedLife& life = walls[material];
+      life.service = in_service ? factors_of(observation.service, false)
+                                : std::vector<ServiceFactor>{{std::log(*observation.hours), false, observation.specimens}};
+      const auto over = std::make_shared<const LifeOverParameters>(std::move(of), moves);
+      for (OwnValues& each : own_values(over->modes(), own, draws))
+        life.variants.push_back([over, each = std::move(each)](const VectorXd& z) { return over->at(z, &each); });
+    }
+    return walls;
   }
 
   /// "model 2.0, strength 1.8": factors by which one deviation of a parameter changes the median life, largest first.

@@ -2,6 +2,7 @@
 // variant.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct EmulatedTest {
   double per_shown = 1;                ///< its divisor: the curvature for a stiffness
   std::string fails_first{};           ///< of a life, at the centre: "wires of signal cable, 100 %"
 
+  std::map<std::string, ObservedLife> walls{};  ///< of a life, by the name of their strength: hoses that had not cracked
   std::string moved_by{};              ///< of a life: factors of the median for one deviation, "model 2.0, strength 1.8"
 
   double log_likelihood_at(const Eigen::VectorXd& z) const;

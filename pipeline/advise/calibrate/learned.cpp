@@ -8,6 +8,7 @@
 
 #include "pipeline/base/readable.h"
 #include "pipeline/job/uncertainty.h"
+#include "pipeline/job/wall_strength.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -100,6 +101,11 @@ std::string learned_table(const Learned& learned) {
                                             : readable(test.measured, 3) + " N m";
   };
   std::string text = parameter_lines(learned);
+  for (const LearnedWall& wall : learned.walls) {
+    const auto factor = [](double z) { return readable(std::pow(wall_strength_step, z)); };
+    text += fmt::format("\n{}, not validated, from hoses that had not cracked: x {} ({} .. {}), before x 1 ({} .. {})\n", wall.name,
+                        factor(wall.median), factor(wall.low), factor(wall.high), factor(-decile), factor(decile));
+  }
   std::size_t name = 22;
   for (const LearnedTest& test : learned.tests) name = std::max(name, columns_of(test.observation.name));
   constexpr const char* columns = "{:<{}} {:>20} {:>31} {:>31} {:>31}  {}\n";

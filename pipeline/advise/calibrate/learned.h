@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/advise/calibrate/learned_walls.h"
 #include "pipeline/advise/calibrate/prediction.h"
 #include "pipeline/job/calibration.h"
 
@@ -30,6 +31,7 @@ struct Learned {
   Posterior posterior;            ///< of the calibrated axes, in the order of uncertain_parameters()
   std::vector<LearnedAxis> axes;  ///< (parameter)
   std::vector<LearnedTest> tests;
+  std::vector<LearnedWall> walls;
   Calibration calibration;
   int rounds = 0;
   bool settled = false;  ///< the centre has converged

@@ -13,6 +13,7 @@
 #include "pipeline/files/files.h"
 #include "pipeline/job/learned_settings.h"
 #include "pipeline/job/uncertainty.h"
+#include "pipeline/job/wall_strength.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
@@ -106,6 +107,16 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
     parameter.value_p10 = to_figures(learned.axes[p].after[0], 4);
     parameter.value_p90 = to_figures(learned.axes[p].after[2], 4);
     calibration.parameters.push_back(parameter);
+  }
+  for (const LearnedWall& wall : learned.walls) {
+    for (LearnedParameter& other : calibration.parameters) other.covariance.push_back(0);
+    const auto factor = [](double z) { return to_figures(std::pow(wall_strength_step, z), 4); };
+    LearnedParameter& parameter = calibration.parameters.emplace_back();
+    parameter.name = wall.name;
+    parameter.median = rounded(wall.median), parameter.mean = rounded(wall.mean);
+    parameter.covariance.assign(calibration.parameters.size(), 0);
+    parameter.covariance.back() = rounded(wall.deviation * wall.deviation);
+    parameter.value = factor(wall.median), parameter.value_p10 = factor(wall.low), parameter.value_p90 = factor(wall.high);
   }
   calibration.under = under_of(tests, round);
   if (calibration.typical) calibration.under.cables.clear();  // it belongs to none of them

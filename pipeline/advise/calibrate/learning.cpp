@@ -113,6 +113,7 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
     if (!learned.settled && learned.rounds < most_rounds) continue;
     learned.axes = learned_axes(learned.posterior, axes);
     predict_by_others(emulated_tests, axes, learned.posterior.laplace.most_likely, typical, learned.tests);
+    learned.walls = learned_walls(emulated_tests);
     learned.calibration = calibration_of(learned, tests, round, places);
     add_doubts(learned, axes);
   }

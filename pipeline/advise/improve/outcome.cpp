@@ -227,8 +227,7 @@ void describe(Fields& f, AskedLimits& limits) {
   f.maybe_number("tension_N", limits.tension, above(0), "largest of the hose, besides its maker's");
   const char* const least = "least hours of motion until 1 of 10 has failed by it";
   f.maybe_number("abrasion_life_h", limits.abrasion, above(0), least);
-  f.maybe_number("wall_life_h", limits.wall, above(0),
-                 "least hours of motion until half of the hoses have cracked");
+  f.maybe_number("wall_life_h", limits.wall, above(0), least);
   f.maybe_number("rating_life_h", limits.rating, above(0),
                  "least hours of motion that makers' ratings cover in 9 of 10 samples");
   f.maybe_number("jacket_life_h", limits.jacket, above(0), least);

@@ -177,14 +177,13 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
                                             : "";
   const std::string of_best = fmt::format("rial {} of {}: {}\n", best.trial, found.trials.size(),
                                           outcome_words(trial.worst, best.hours));
+  const Final& original = finals.of.front();
+  const std::string worst =
+      original.tolerance ? fmt::format("As it is, within the same tolerance: {} in the worst case found\n",
+                                       outcome_words(original.tolerance->worst_outcome, original.tolerance->worst_outcome.hours))
+                         : "";
   if (!finals.is_gain(best)) {
-    const Final& original = finals.of.front();
     const bool as_drawn = clearly_better(best.merit, original.merit);
-    std::string worst;
-    if (original.tolerance)
-      worst = fmt::format(
-          "As it is, within the same tolerance: {} in the worst case found\n",
-          outcome_words(original.tolerance->worst_outcome, original.tolerance->worst_outcome.hours));
     return text + "Keep the job as it is. " +
            (as_drawn
                 ? "Nothing that was tried is clearly better within the mounting tolerance. As drawn the best of it is t"
@@ -192,7 +191,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
            of_best + story.gain + (story.gain.empty() ? "" : "\n") + judged + worst +
            refused_words(found, was);
   }
-  text += "T" + of_best + story.gain + (story.gain.empty() ? "" : "\n") + judged +
+  text += "T" + of_best + story.gain + (story.gain.empty() ? "" : "\n") + judged + worst +
           refused_words(found, trial.worst);
   if (const RankingRow* const row = finals.worst_row(best)) {
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})

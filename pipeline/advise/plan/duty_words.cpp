@@ -46,7 +46,7 @@ std::string other_words(const DutyMode& mode) {
   if (mode.mode == UnvalidatedMode::rating)
     return fmt::format("the maker's rating of {}{} covers {}", mode.place, of, hours);
   if (mode.mode == UnvalidatedMode::wall)
-    return fmt::format("half of the hoses{} have cracked after {}", of, hours);
+    return fmt::format("1 of 10 hoses{} has cracked after {}", of, hours);
   if (mode.mode == UnvalidatedMode::jacket)
     return fmt::format("1 of 10 dresspacks{} has a jacket worn through in the hose after {}", of, hours);
   if (mode.mode == UnvalidatedMode::corkscrew)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipeline/job/learned_settings.h"
+#include "pipeline/job/wall_strength.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
 #include "tests/catch.h"
@@ -77,6 +78,27 @@ TEST_CASE("calibration: draws are its own, of what it does not know the prior's"
   CHECK(known.covariance(friction, friction) == 0.5);
   CHECK(known.covariance(slack, slack) == Approx(1));
   CHECK(known.covariance(slack, friction) == 0);
+}
+
+TEST_CASE("calibration: the strength of a hose's wall stands beside the wires' parameters and moves none of them") {
+  const std::string wall = "wall strength of polyamide (0.01 1e+06, 0.001 1e+09)";
+  const std::string with = edited(edited(edited(two_learned(), "[0.25, -0.1]", "[0, 0.25, -0.1]"), "[-0.1, 0.5]", "[0, -0.1, 0.5]"),
+                                  "  - {name: strength,", "  - {name: '" + wall + "', median: 2, mean: 2, covariance: [0.3, 0, 0]}\n  - {name: strength,");
+  const Scratch scratch;
+  scratch.write("learned.yaml", two_learned()), scratch.write("wall.yaml", with);
+  const Job before = read_job(scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n")),
+            job = read_job(scratch.write("walled.yaml", sample_job + "calibration: wall.yaml\n"));
+  CHECK(job.fatigue.strength_factor == before.fatigue.strength_factor);
+  CHECK(job.strain.factors.friction == before.strain.factors.friction);
+  CHECK(knowledge_of(job).mean == knowledge_of(before).mean);
+  CHECK(knowledge_of(job).covariance == knowledge_of(before).covariance);
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "elsewhere.yaml"))) == job_text(job));
+  Material polyamide;
+  polyamide.name = "polyamide", polyamide.strain_life_table = {{0.01, 1e6}, {0.001, 1e9}};
+  CHECK(wall_strength_of(polyamide) == wall);
+  const ParameterKnowledge known = wall_knowledge(job, polyamide);
+  CHECK(known.mean[index_of(Uncertain::strength)] == 2);
+  CHECK(known.covariance(index_of(Uncertain::strength), index_of(Uncertain::strength)) == 0.3);
 }
 
 TEST_CASE("calibration: bad files are refused at their place") {

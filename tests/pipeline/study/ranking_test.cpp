@@ -332,6 +332,10 @@ TEST_CASE("ranking: a wall's life by a law that contradicts the published test i
     CHECK(line(bends, hours).hours == std::array<std::string, 3>{"-", shown, "-"});
     CHECK(line(bends, hours).note.empty());
   }
+  wall.bends_at_limit = 1.08e6, wall.hours = {3e5, 2e6, 8e7};
+  CHECK(line_of(wall).hours[0] == "over 40,000");
+  wall.hours[0] = 4e4;  // before any robot's end in 1 of 10
+  CHECK(line_of(wall).hours[0] == "-");
 }
 
 TEST_CASE("ranking: abrasion has words and columns, and the first action names it where it may come first") {

@@ -5,10 +5,14 @@
 #include <cmath>
 
 #include "pipeline/advise/calibrate/emulation.h"
+#include "pipeline/advise/calibrate/learned_walls.h"
+#include "pipeline/base/statistics.h"
+#include "pipeline/life/first_failure.h"
 #include "pipeline/study/ranking.h"
 #include "tests/catch.h"
 #include "tests/pipeline/life/straight_response.h"
 #include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
@@ -148,4 +152,67 @@ TEST_CASE(
   test.observation = {};
   test.observation.stiffness = 1;
   CHECK(surprise(test) == 0);  // of a measured 0 there is no logarithm
+}
+
+TEST_CASE("learned: hoses that had not cracked move the strength of their wall as the closed form says") {
+  // One hose that lived until ln life = 9; ln median life = 8 + 2 z, deviation 0.5. With c = 2/0.5 and b = (8 - 9)/0.5 the
+  // likelihood is Phi(b + c z), and with q = b/sqrt(1 + c^2) the mean of z is c/sqrt(1 + c^2) phi(q)/Phi(q).
+  EmulatedTest hose;
+  hose.walls["wall"].service = {{9, false, 1}};
+  hose.walls["wall"].variants = {[](const Eigen::VectorXd& z) { return LifeAt{8 + 2 * z[index_of(Uncertain::strength)], 0.5}; }};
+  const auto walls = learned_walls({hose, EmulatedTest{}});
+  REQUIRE(walls.size() == 1);
+  const double b = -2, c = 4, root = std::hypot(1, c), q = b / root, rate = normal_density(q) / normal_share(q);
+  CHECK(walls[0].mean == Approx(c / root * rate).epsilon(1e-4));
+  CHECK(walls[0].deviation == Approx(std::sqrt(1 - c * c / (1 + c * c) * rate * (rate + q))).epsilon(1e-4));
+  CHECK(walls[0].low < walls[0].median);
+  CHECK(walls[0].median < walls[0].high);
+  CHECK(learned_walls({EmulatedTest{}}).empty());
+}
+
+TEST_CASE("learned: a life says of the hoses' walls that they lived at least as long") {
+  Made made("    hours: 300\n    outcome: run_out\n    specimens: 4\n");
+  LifeResponse wall = straight_response(0, 0, 1.5);
+  wall.mode = UnvalidatedMode::wall, wall.material = "wall strength of pa (0.01 1000)";
+  SampleLife life;
+  life.wall_response = modes_text({wall});
+  RankingRow row = made.row(500, 0.4);
+  row.life_file = made.scratch / "life.h5";
+  write_sample_life(row.life_file, life);
+  const auto walls_of = [&](const Made& of) {
+    return emulate(of.tests, *of.round, {row}, {of.scratch.folder(), {}}).at(0).walls;
+  };
+  const auto walls = walls_of(made);
+  REQUIRE(walls.size() == 1);
+  const ObservedLife& lived = walls.at(wall.material);
+  REQUIRE(lived.service.size() == 1);
+  CHECK(lived.service[0].log_age == Approx(std::log(300)));
+  CHECK(lived.service[0].count == 4);
+  CHECK_FALSE(lived.service[0].failed);
+  Eigen::VectorXd stronger = Eigen::VectorXd::Zero(uncertain_count);
+  stronger[index_of(Uncertain::strength)] = 1;
+  // 1e5 repeats of 36 s; a deviation is 1.5 decades. The factor of the motion is 1 in the median of its values.
+  double median = 0;
+  for (const LifeVariant& each : lived.variants) {
+    median += each(Eigen::VectorXd::Zero(uncertain_count)).log_median / double(lived.variants.size());
+    CHECK(each(stronger).log_median - each(Eigen::VectorXd::Zero(uncertain_count)).log_median == Approx(1.5 * std::log(10)));
+  }
+  CHECK(median == Approx(std::log(1e5 * 36 / 3600)));
+  // Of a plant: one that failed by its wires, and one that was put in before the records began.
+  Made plant("    hours: 300\n");
+  plant.tests[0].observation.service = {{200, 0, true}, {300, 100, false}};
+  plant.round.emplace(plant.tests, std::vector<std::string>{}, "round", Eigen::VectorXd::Zero(uncertain_count),
+                      Eigen::VectorXd::Ones(uncertain_count));
+  const auto service = walls_of(plant).at(wall.material).service;
+  REQUIRE(service.size() == 3);
+  constexpr double within = 0.025;  // ages are put together within 5 %
+  for (const auto& [k, hours, count] : {std::tuple{0u, 100.0, -1}, std::tuple{1u, 200.0, 1}, std::tuple{2u, 300.0, 1}}) {
+    CHECK(service[k].log_age == Approx(std::log(hours)).margin(within));
+    CHECK(service[k].count == count);
+    CHECK_FALSE(service[k].failed);
+  }
+  Made rated("    hours: 300\n    outcome: rating\n");
+  CHECK(walls_of(rated).empty());
+  Made below("    hours: 300\n    outcome: broken_by\n");
+  CHECK(walls_of(below).empty());  // the wires failed before, and of the hose nothing is known
 }

@@ -126,7 +126,8 @@ TEST_CASE(
              Catch::Contains("Keep the job as it is") && !Catch::Contains("--set"));
   judge(0, 300);
   CHECK_THAT(searched.words(tolerance_of(10, 10)),
-             Catch::Contains("\nTrial 2 of 3") && Catch::Contains("--set"));
+             Catch::Contains("\nTrial 2 of 3") && Catch::Contains("--set") &&
+                 Catch::Contains("As it is, within the same tolerance: 300 h, all limits kept in the worst case found\n"));
 }
 
 }  // namespace

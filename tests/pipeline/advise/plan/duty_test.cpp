@@ -90,7 +90,7 @@ TEST_CASE("a duty names the mode beside the wires that comes first, and all that
              Catch::EndsWith(" The maker's rating of power cable covers only 6,000 h (not validated): test or replace it by then."));
   const std::string caution = caution_words(duty);
   for (const char* words : {"1 of 10 hoses is worn through after 20,000 h", "the maker's rating of power cable covers 6,000 h",
-                            "half of the hoses of upper have cracked after 7,000 h"})
+                            "1 of 10 hoses of upper has cracked after 7,000 h"})
     CHECK_THAT(in_one_line(caution), Catch::Contains(words));
   CHECK_THAT(caution, !Catch::Contains("bus cable"));
   duty.others[1].hours = 8000;

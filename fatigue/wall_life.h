@@ -1,0 +1,30 @@
+// The life of a hose's wall over what is uncertain, beside the headline.
+//
+// The place of the wall with the largest damage lives for W repeats. With the strain amplitudes of its life curve times f it lives
+// for W(f), counted again. With z, y, u standard normal and m, s the job's uncertainty.motion and scatter of lives,
+//     log10 life = log10 W(1.4^z) + y log10 m + u s                                                          (F37)
+// z: strength of the wall's material (pipeline/job/wall_strength.h), which hoses of one material share and `dresslife calibrate`
+// learns from dresspacks in service. y: the motion of the wires' samples. s is that of the wires, an ESTIMATE for a polymer.
+// A curve of two points N ~ strain^-k gives W(f) = W f^k, so without motion the deviation of log10 of life is hypot(k log10 1.4, s).
+//
+// Not contained: pressure, temperature, another place that comes first with another strength (none does if k is constant).
+#pragma once
+
+#include <span>
+
+#include "fatigue/rainflow.h"
+#include "pipeline/life/life_response.h"
+
+namespace dresslife::pipeline {
+struct Job;
+}
+
+namespace dresslife::fatigue {
+
+/// (F37). worst_place: strains of the wall's worst place in one repeat.
+pipeline::LifeResponse wall_response(std::span<const Reversal> worst_place, const pipeline::Job& job, std::size_t dresspack);
+
+/// By the law of the wall with its median strength: bends of a straight hose to its bend radius limit; 0 without measured points.
+double wall_bends_at_limit(const pipeline::LifeResponse& wall, const pipeline::Job& job, std::size_t dresspack);
+
+}  // namespace dresslife::fatigue
