@@ -4,7 +4,7 @@
 // A cable with a fixed place has the path of this place (W5). A loose cable has the path on which it rests (loose/).
 // Both slide along their paths under friction and grips (sliding_line.h). pipeline/cable/cable_pulls.h computes the
 // force from the strain, because it knows the metal. The memory of clamps and friction is that of a motion that was
-// repeated many times: the motion is computed twice, and the second time counts.
+// repeated many times: at least its last quarter is computed first, and the last repeat counts.
 #pragma once
 
 #include <array>

@@ -13,9 +13,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double at_rest = 1e-5;      // [rad]: 0.2 um of a cable 20 mm from the axis
-// A step so many times as large is the last one if it is as many times smaller than the one before: the next one would be
-// smaller than at_rest. In robot 1 the largest of 16,000 would be 6e-6.
-constexpr double shrinks = 10;
 constexpr double longest_turn = 0.2;  // in one step [rad]: 4 mm of such a cable
 // A ring that snaps over turns by up to 10 rad: 50 of the longest turns. One that is stopped on its way leaves its
 // cables bent to 50 1/m and pressed with 400 N where 5 1/m and 3 N would be.
@@ -48,10 +45,6 @@ void substitute(const std::vector<double>& bands, std::size_t rows, Eigen::Vecto
     for (std::size_t below = 1; below <= 2 && i + below < rows; ++below)
       at(i) -= bands[3 * i + below] * at(i + below);
   }
-}
-
-bool is_last(double turn, double before) {
-  return turn < at_rest || (turn < shrinks * at_rest && turn < before / shrinks);
 }
 
 }  // namespace
@@ -144,8 +137,8 @@ Eigen::VectorXd Ring::newton_turn() {
   }
 }
 
-/// A step of Newton's. before: the largest turn of the step before. Returns its own [rad].
-double Ring::step(const HoseLine& hose, double before) {
+/// A step of Newton's. Returns its largest turn [rad].
+double Ring::step(const HoseLine& hose) {
   const Eigen::VectorXd turn = newton_turn();
   const auto rows = static_cast<Eigen::Index>(slope_.size());
   const Eigen::Map<const Eigen::VectorXd> slope(slope_.data(), rows);
@@ -154,8 +147,8 @@ double Ring::step(const HoseLine& hose, double before) {
   const std::vector<double> from = psi_;
   for (int tries = 0; tries < most_tries; ++tries) {
     for (Eigen::Index i = 0; i < rows; ++i) psi_[i + 1] = from[i + 1] + share * turn[i];
-    place(hose, !is_last(most, before));
-    if (is_last(most, before)) break;
+    place(hose, most >= at_rest);
+    if (most < at_rest) break;
     const double there = slope.dot(turn);
     if (there <= -0.5 * down) break;
     share *= std::clamp(-down / (there - down), 0.1, 0.7);
@@ -164,18 +157,15 @@ double Ring::step(const HoseLine& hose, double before) {
 }
 
 bool Ring::advance(const HoseLine& hose, double time, bool goes_on) {
-  const std::vector<double> from = psi_;
+  const std::vector<double> before = psi_;
   const std::vector<const CableLines::Frame*> frames(lines_.count(), &hose.turn);
   lines_.begin(hose, frames, time, false);
   for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) psi_[i] += time * velocity_[i];
   frame_ = hose.turn;
   place(hose, true);
   bool rests = false;
-  for (double turn, before = 0, k = 0; k < most_iterations && !rests; before = turn, ++k) {
-    turn = step(hose, before);
-    rests = is_last(turn, before);
-  }
-  for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - from[i]) / time;
+  for (int k = 0; k < most_iterations && !rests; ++k) rests = step(hose) < at_rest;
+  for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - before[i]) / time;
   lines_.end(hose, 0, {});
   return rests;
 }

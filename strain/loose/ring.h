@@ -41,7 +41,7 @@ class Ring {
  private:
   void place(const HoseLine& hose, bool with_slope);
   Eigen::VectorXd newton_turn();
-  double step(const HoseLine& hose, double before);
+  double step(const HoseLine& hose);
 
   CableLines lines_;                    ///< as they lie when each keeps to its place
   std::vector<double> psi_, velocity_;  ///< (node) against the hose [rad], [rad/s]

@@ -16,8 +16,6 @@ using namespace simd;
 // A cable rests where Newton's next step moves no node by more. The steps shrink quadratically, so what is
 // left is far less; 1e-7 m over two elements of 30 mm are 1e-4 1/m of curvature, 5e-7 of a cable's strain.
 constexpr double at_rest = 1e-7;  // [m]
-// A step so many times as long is the last one, too, if it is as many times shorter than the one before.
-constexpr double shrinks = 10;
 // Farther in one step, contacts would be jumped over: a cable's radius.
 constexpr double longest_step = 4e-3;  // [m]
 // Of stiffness per length where that is not positive [N/m2]. With 100 four times as many shifts were tried (robot 1).
@@ -50,14 +48,13 @@ struct Progress {
   double share[pack_size] = {}, tries[pack_size] = {};
   double down[pack_size] = {},
          largest[pack_size] = {};  // of the step: the slope along it, its way of a node [m]
-  double before[pack_size] = {};   // that way of the step before, as it was taken; 0: there was none [m]
   double shift[pack_size] = {},
          shifts[pack_size] = {};  // of stiffness per length [N/m2], and how often it grew
   double took[pack_size] = {};    // iterations
 
   void begin(int lane) {
     busy[lane] = 1;
-    trying[lane] = shift[lane] = shifts[lane] = took[lane] = largest[lane] = 0;
+    trying[lane] = shift[lane] = shifts[lane] = took[lane] = 0;
   }
 };
 
@@ -415,7 +412,6 @@ void Lines<packs>::newton_step(Progress* progress) const {
       store(simd::select(steps[p], value, load<Pack>(of_lanes)), of_lanes);
     };
     largest[p] = square_root(largest[p]);
-    begin(load<Pack>(at_p.share) * load<Pack>(at_p.largest), at_p.before);
     begin(down[p], at_p.down);
     begin(largest[p], at_p.largest);
     begin(smaller(Pack(longest_step) / largest[p], one), at_p.share);
@@ -465,9 +461,7 @@ void Lines<packs>::go(Progress* progress) const {
       put(going, of.going, i, p);
     }
   for (int p = 0; p < packs; ++p) {
-    const Pack largest = load<Pack>(progress[p].largest);
-    const DoubleMask shrunk = greater(Pack(shrinks * at_rest), largest) & greater(load<Pack>(progress[p].before), shrinks * largest);
-    const DoubleMask rests = moves[p] & (greater(Pack(at_rest), largest) | shrunk);
+    const DoubleMask rests = moves[p] & greater(Pack(at_rest), load<Pack>(progress[p].largest));
     if (!bits(rests)) continue;
     store(simd::select(rests, Pack(0.0), load<Pack>(progress[p].busy)), progress[p].busy);
     store(simd::select(rests, Pack(0.0), load<Pack>(progress[p].trying)), progress[p].trying);
