@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "pipeline/cable/cable_bending.h"
+#include "pipeline/cable/cable_force.h"
 #include "pipeline/cable/plain_properties.h"
 #include "tests/catch.h"
 #include "tests/pipeline/cable/space_curve.h"
@@ -70,6 +71,10 @@ TEST_CASE("cable pull: a layer's wires strain as unrolled helices do, and each l
     CHECK(pull_of_wires(dresspack, {soft}, elongation, twist) ==
           Approx(left * pull_of_wires(dresspack, {part(12, r, R, a)}, elongation, twist)).epsilon(1e-9));
   CHECK(pull_of_wires(dresspack, {straight}, elongation, 4) == Approx(modulus * area * elongation));
+  // E A of the cable and its force count the bed, too, to second order in the strain of 1e-6.
+  const Component cable = holding(part(1, 4e-3, 0, 0), {soft, straight});
+  CHECK(axial_stiffness(dresspack, cable) == Approx(modulus * area * (1 + 12 * left * std::pow(std::cos(a), 3))));
+  CHECK(CableForce(dresspack, cable).force(1e-6) == Approx(pull_of_wires(dresspack, cable.components, 1e-6, 0)).epsilon(1e-5));
   // So it shortens a cable less that is twisted about a straight wire.
   CHECK(-elongation_under(dresspack, {straight, soft}, 0, 4) < -0.9 * elongation_under(dresspack, {straight, part(12, r, R, a)}, 0, 4));
   CHECK(pull_of_wires(dresspack, {part(1, r, 0, 0)}, elongation, 4) == Approx(modulus * area * elongation));
