@@ -167,6 +167,8 @@ TEST_CASE("a file of duties that contradicts itself is refused at its place") {
   CHECK(refusal(of_programs("      - {job: a, percent_of_repeats: 60}\n      - {job: b, percent_of_repeats: 60}\n",
                             "    repeats_per_hour: 5\n"))
             .find("adds up to 120 %") != std::string::npos);
+  CHECK(refusal(of_programs("      - {job: a, percent_of_time: 60}\n      - {job: b, percent_of_time: 60}\n"))
+            .find("percent_of_time adds up to 120 %") != std::string::npos);
   CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1}\n", "    history: [{duty: dd, hours: 5}]\n"))
             .find("did you mean 'd'?") != std::string::npos);
   CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1}\n", "    order: [{job: a}, {job: b}]\n"))
