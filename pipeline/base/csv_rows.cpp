@@ -58,6 +58,8 @@ CsvRow CsvReader::next() {
   for (read_on(); at_ < text_.size(); read_on()) {
     ++line_;
     line_begin_ = at_;
+    if (line_ == 1 && text_.find('\0') < std::min(text_.find('\n'), text_.size()))  // each letter of UTF-16 has one
+      throw InputError({file_, 1, 1}, "is no text in UTF-8; it may be UTF-16", "save it as CSV UTF-8");
     while (at_blank()) ++at_;
     CsvRow row;
     if (text_.compare(at_, 1, "#") != 0) at_ = line_begin_, row = cells();
@@ -125,7 +127,7 @@ void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer
   for (const CsvCell& title : titles) {
     if (title.text.empty())
       throw InputError(table.where(title), "a column has no title",
-                       "name the key that it sets, as in 'routing.free_length_m'");
+                       "give it one, or remove the column");
     if (!seen.insert(title.text).second)
       throw InputError(table.where(title), fmt::format("two columns are titled '{}'", title.text),
                        "keep one of the two");

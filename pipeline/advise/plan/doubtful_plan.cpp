@@ -59,8 +59,8 @@ class Doubts {
         add(past.where,
             fmt::format("hours of the history are {:g} (limit {:g}: 20 years day and night)", *past.hours,
                         longest_history),
-            "minutes or seconds instead of hours",
-            fmt::format("hours: {:.6g} if that was minutes", *past.hours / 60));
+            past.from.empty() ? "minutes or seconds instead of hours" : "a wrong year",
+            past.from.empty() ? fmt::format("hours: {:.6g} if that was minutes", *past.hours / 60) : "from: the year as it was");
   }
   void of(const Fleet& fleet, Day today) {
     std::map<std::string, const Installed*> names;

@@ -25,7 +25,7 @@ void check(const Duty& duty, const std::string& key, Problems& problems) {
   if (duty.programs.empty() && !problems.touch(key + ".programs"))
     problems.add(duty.where, fmt::format("duty '{}' has no programs", duty.name), "add 'programs:' and a list");
   std::set<std::string> jobs;
-  double percent_of_repeats = 0;
+  double percent_of_repeats = 0, percent_of_time = 0;
   for (std::size_t k = 0; k < duty.programs.size(); ++k) {
     const DutyProgram& program = duty.programs[k];
     const int given = program.repeats_per_hour.has_value() + program.repeats_per_shift.has_value() +
@@ -38,6 +38,7 @@ void check(const Duty& duty, const std::string& key, Problems& problems) {
       problems.add(program.where, fmt::format("'{}' occurs twice in duty '{}'", program.job, duty.name),
                    "add both numbers in one entry");
     percent_of_repeats += program.percent_of_repeats.value_or(0);
+    percent_of_time += program.percent_of_time.value_or(0);
     if (program.percent_of_repeats && !duty.repeats_per_hour)
       problems.add(program.where, fmt::format("percent_of_repeats of '{}' has no number to refer to", program.job),
                    "give repeats_per_hour of the duty: all programs together");
@@ -51,6 +52,8 @@ void check(const Duty& duty, const std::string& key, Problems& problems) {
   constexpr double rounding = 1e-9;
   if (percent_of_repeats > 100 + rounding)
     problems.add(duty.where, fmt::format("percent_of_repeats adds up to {:g} %", percent_of_repeats), "at most 100");
+  if (percent_of_time > 100 + rounding)
+    problems.add(duty.where, fmt::format("percent_of_time adds up to {:g} %", percent_of_time), "at most 100");
 }
 
 }  // namespace
@@ -169,7 +172,7 @@ DutyFile read_duties(const std::filesystem::path& name, Day today) {
     check(duty, fmt::format("duties[{}]", k + 1), problems);
     if (!unique.insert(duty.name).second)
       problems.add(duty.where, fmt::format("two duties are named '{}'", duty.name), "give each another name");
-    fill_hours(file, file.duties[k].history, today, problems);
+    if (!problems.touch(fmt::format("duties[{}].history", k + 1))) fill_hours(file, file.duties[k].history, today, problems);
   }
   problems.finish(name.string());
   return file;

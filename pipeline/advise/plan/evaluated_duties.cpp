@@ -395,6 +395,9 @@ std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std:
 }
 
 void check_programs(const DutyFile& file, const Study& study) {
+  if (study.keep == Keep::lives)
+    throw InputError(file.where, fmt::format("study '{}' keeps no life.h5 (keep: lives), from which duties take their damage", study.name),
+                     "keep: histories, or all, in the study");
   Problems problems;
   const Jobs jobs(study);
   for (const Duty& duty : file.duties)

@@ -59,8 +59,8 @@ struct DutyResult {
 /// programs, so that percentiles add up, too. A wall whose life is not credible is left out.
 std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std::vector<RankingRow>& rows);
 
-/// Called before the study runs. Errors: InputError for a program that is no job of the study, and for programs on
-/// different dresspacks, routings or settings: their damage does not add up.
+/// Called before the study runs. Errors: InputError for a program that is no job of the study, for a study that keeps no lives, and for
+/// programs on different dresspacks, routings or settings: their damage does not add up.
 void check_programs(const DutyFile& file, const Study& study);
 /// Duties whose programs start in different poses and whose study does not say in which the hose is mounted: each program's
 /// hose then has another twist. rows: of the study after its run, for programs in files, whose poses their strain.h5 holds;

@@ -60,6 +60,19 @@ class Row {
   std::map<std::string, const CsvCell*> cells_;
 };
 
+/// Its place; the size of the text: there is none. Spreadsheets save letters beyond ASCII as Windows-1252, which no page and calendar shows.
+std::size_t first_no_utf8(const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[at]);
+    const std::size_t length = byte < 0x80 ? 1 : byte < 0xC2 ? 0 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : byte < 0xF5 ? 4 : 0;
+    if (length == 0) return at;
+    for (std::size_t k = 1; k < length; ++k)
+      if (at + k >= text.size() || (static_cast<unsigned char>(text[at + k]) & 0xC0) != 0x80) return at;
+    at += length;
+  }
+  return text.size();
+}
+
 Installed installed_from(const Row& row, Day today, bool has_costs) {
   Installed one{row.where("name"), row.needed("name"), row.needed("duty"), today, row.number("hours_per_week", 0.1, 168), 0, 0};
   if (const std::string date = row.text("installed"); !date.empty()) {
@@ -96,8 +109,12 @@ Day needed_day(const std::string& text) {
 }  // namespace
 
 Fleet read_fleet(const std::filesystem::path& file, Day today) {
-  CsvReader reader(read_text(file), file.string());
+  const std::string text = read_text(file);
+  CsvReader reader(text, file.string());
   const CsvRow titles = reader.next();
+  if (const std::size_t at = first_no_utf8(text); at < text.size())
+    throw InputError({file.string(), 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n')), 0},
+                     "is no text in UTF-8", "save the table as CSV UTF-8");
   if (titles.empty())
     throw InputError({file.string(), 1, 1}, "holds no table",
                      "write the line 'name,duty,installed', then a row per dresspack");

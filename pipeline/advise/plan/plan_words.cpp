@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/digest.h"
+#include "pipeline/base/limits.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/settings/units.h"
@@ -32,7 +34,7 @@ std::string folded(std::string line) {
 
 std::string escaped(const std::string& text) {
   std::string escaped;
-  for (const char letter : text) {
+  for (const char letter : shown(text)) {
     if (letter == '\\' || letter == ';' || letter == ',') escaped += '\\';
     escaped += letter;
   }
@@ -308,16 +310,19 @@ std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan) {
 
 std::string plan_calendar(const Fleet& fleet, const Plan& plan) {
   std::string text = "BEGIN:VCALENDAR\r\nPRODID:-//dresslife//plan//EN\r\nVERSION:2.0\r\n";
+  // A calendar replaces an event by another one of its UID: the next plan of this plant, not that of another one.
+  const Installed& first = fleet.rows.front();
+  const std::string plant = xxh3(std::filesystem::path(first.where.file).stem().string() + "\n" + first.name);
   for (std::size_t n = 0; n < plan.windows.size(); ++n) {
     const std::vector<std::string> names = replaced_in(fleet, plan, n);
     if (names.empty()) continue;
     const Window& window = plan.windows[n];
     text += "BEGIN:VEVENT\r\n";
-    text += fmt::format("UID:{}-replace@dresslife\r\nDTSTAMP:{}T000000Z\r\n", compact(window.first),
+    text += fmt::format("UID:{}-{}@dresslife\r\nDTSTAMP:{}T000000Z\r\n", compact(window.first), plant.substr(0, 16),
                         compact(plan.today));
     text += fmt::format("DTSTART;VALUE=DATE:{}\r\nDTEND;VALUE=DATE:{}\r\n", compact(window.first),
                         compact(window.last + std::chrono::days(1)));  // the end is the day after
-    text += folded(fmt::format("SUMMARY:Replace {} dresspacks", names.size()));
+    text += folded(fmt::format("SUMMARY:Replace {} dresspack{}", names.size(), names.size() == 1 ? "" : "s"));
     text += folded("DESCRIPTION:" + escaped(fmt::format("{}", fmt::join(names, ", "))));
     text += "END:VEVENT\r\n";
   }

@@ -155,6 +155,11 @@ TEST_CASE("a history by dates has the hours of its days, each at the week of its
              Catch::Contains("duties.yaml:9:9: error: the days 2026-01-11 .. 2026-02-01 overlap those of line 8"));
 }
 
+TEST_CASE("duties of a study that keeps no lives are refused before it runs") {
+  CHECK_NOTHROW(check_programs({}, Study{"s", {}, Keep::histories}));
+  CHECK_THROWS_WITH(check_programs({}, Study{"s", {}, Keep::lives}), Catch::Contains("study 's' keeps no life.h5 (keep: lives)"));
+}
+
 TEST_CASE("a file of duties that contradicts itself is refused at its place") {
   CHECK(refusal(of_programs("      - {job: a}\n")).find("duties.yaml:5:9: error: 'a' has 0 numbers") != std::string::npos);
   CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1, percent_of_time: 2}\n")).find("'a' has 2 numbers") !=
@@ -167,6 +172,8 @@ TEST_CASE("a file of duties that contradicts itself is refused at its place") {
   CHECK(refusal(of_programs("      - {job: a, percent_of_repeats: 60}\n      - {job: b, percent_of_repeats: 60}\n",
                             "    repeats_per_hour: 5\n"))
             .find("adds up to 120 %") != std::string::npos);
+  CHECK(refusal(of_programs("      - {job: a, percent_of_time: 60}\n      - {job: b, percent_of_time: 60}\n"))
+            .find("percent_of_time adds up to 120 %") != std::string::npos);
   CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1}\n", "    history: [{duty: dd, hours: 5}]\n"))
             .find("did you mean 'd'?") != std::string::npos);
   CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1}\n", "    order: [{job: a}, {job: b}]\n"))

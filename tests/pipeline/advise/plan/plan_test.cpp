@@ -319,6 +319,10 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(refusal("name,duty,installed,planned_cost,unplanned_cost\nr,day,,3,2\n").find("must be larger") != std::string::npos);
   CHECK(refusal("name,duty,installed,hours_per_week\nr,day,,200\n").find("must be 0.1 .. 168") != std::string::npos);
   CHECK(refusal("name,duty,installed\n").find("no row") != std::string::npos);
+  CHECK(refusal("name,duty,installed,\nr,day,,\n").find("a column has no title; give it one") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,\nT\xfcr,day,\n").find("fleet.csv:3: error: is no text in UTF-8") != std::string::npos);
+  CHECK(read("\xEF\xBB\xBFname,duty,installed\r\nT\xc3\xbcr,day,\r\n").rows[0].name == "T\xc3\xbcr");
+  CHECK(refusal(std::string("\xff\xfen\0a\0m\0", 8)).find("it may be UTF-16; save it as CSV UTF-8") != std::string::npos);
 }
 
 TEST_CASE("a plan states why a dresspack is in no window") {
@@ -360,4 +364,11 @@ TEST_CASE("the calendar has an event for each window with work, in lines of 75 b
   for (std::size_t end; (end = calendar.find("\r\n", begin)) != std::string::npos; begin = end + 2) CHECK(end - begin <= 75);
   CHECK(begin == calendar.size());
   CHECK(plan_csv(fleet, plan).starts_with("name,duty,installed,age_hours,"));
+  const auto uid = [](const std::string& of) { return of.substr(of.find("UID:"), of.find("DTSTAMP") - of.find("UID:")); };
+  Fleet other = fleet;
+  other.rows.back().name = "a, b; c";
+  CHECK(uid(plan_calendar(other, plan)) == uid(calendar));  // another plan of this plant
+  CHECK(plan_calendar(other, plan).find("a\\, b\\; c") != std::string::npos);
+  other.rows.front().name = "of another plant";
+  CHECK(uid(plan_calendar(other, plan)) != uid(calendar));
 }
