@@ -83,6 +83,7 @@ TEST_CASE("log: files of the user stay, and what is no log is refused") {
              Catch::Contains("is no name for a file of duties"));
   CHECK_THAT(words("log.csv --log " + job + " -o a.yaml --smooth 5 --value unit=rad"),
              Catch::Contains("must be within"));
+  CHECK(run(scratch, "dresslife", "import log.csv --log " + job + " -o a.yaml --alike 0.0009").status == 2);
   CHECK_THAT(words("log.csv --log " + job + " -o a.yaml --value speed=7"),
              Catch::Contains("is no value of a log"));
   CHECK_THAT(words("log.csv --log " + job + " -o a.yaml --set robot=x"),
