@@ -82,7 +82,7 @@ class Ways {
     const std::vector<Eigen::VectorXd> targets = legs_of(read.motion, robot_, accelerations).targets;
     std::size_t next = 0;
     for (const pipeline::MotionStep& step : read.motion.steps)
-      joints_.push_back(step.is_move() && next < targets.size() ? targets[next++] : Eigen::VectorXd());
+      joints_.push_back(step.is_move() ? targets.at(next++) : Eigen::VectorXd());
     find_chains();
   }
 

@@ -83,10 +83,17 @@ TEST_CASE("log: files of the user stay, and what is no log is refused") {
              Catch::Contains("is no name for a file of duties"));
   CHECK_THAT(words("log.csv --log " + job + " -o a.yaml --smooth 5 --value unit=rad"),
              Catch::Contains("must be within"));
+  CHECK(run(scratch, "dresslife", "import log.csv --log " + job + " -o a.yaml --alike 0.0009").status == 2);
   CHECK_THAT(words("log.csv --log " + job + " -o a.yaml --value speed=7"),
              Catch::Contains("is no value of a log"));
   CHECK_THAT(words("log.csv --log " + job + " -o a.yaml --set robot=x"),
              Catch::Contains("does not change a log"));
+  const std::string length = "      free_length_m: 2.035\n";
+  scratch.write("two.yaml", edited(content(fs::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_two_dresspacks.yaml"), length,
+                                   "      mounting_pose_deg: [0, -10, 10, 0, 35, 0]\n" + length));
+  must_run(scratch, "dresslife", "import log.csv --log two.yaml -o pair.yaml --quiet");
+  CHECK_THAT(content(scratch / "pair/study.yaml"),  // only the second lacks it
+             Catch::Contains("dresspacks.2.routing.mounting_pose_deg") && !Catch::Contains("dresspacks.1.routing.mounting_pose_deg"));
   scratch.write("still.csv", "t,J1,J2,J3,J4,J5,J6\n0,0,-10,10,0,35,0\n9,0,-10,10,0,35,0\n");
   CHECK_THAT(words("still.csv --log " + job + " -o a.yaml --value unit=deg"),
              Catch::Contains("does not move"));

@@ -110,6 +110,7 @@ TEST_CASE("a command that does not exist is answered with the nearest one") {
   const Outcome far = run(scratch, "dresslife", "xylophone");
   CHECK(far.status == 2);
   CHECK(far.err.find("did you mean") == std::string::npos);
+  CHECK(run(scratch, "dresslife", "").status == 2);
 }
 
 TEST_CASE("import writes what a program asks to one file, reads it back filled in, and replaces none") {
@@ -119,7 +120,7 @@ TEST_CASE("import writes what a program asks to one file, reads it back filled i
                 "    MoveAbsJ home, v500, fine, tool0;\n    IF ready() THEN\n      MoveJ pick, v100, fine, gun;\n    ENDIF\n"
                 "  ENDPROC\nENDMODULE\n");
   const std::string call = "cell.mod -o cell.yaml --answers answers.yaml";
-  const Outcome asked = run(scratch, "dresslife-import", call);
+  const Outcome asked = run(scratch, "dresslife", "import " + call);
   CHECK(asked.status == 1);
   CHECK(asked.err.find("answers.yaml: holds these 3 questions") != std::string::npos);
   CHECK_FALSE(fs::exists(scratch / "cell.yaml"));

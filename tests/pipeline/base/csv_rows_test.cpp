@@ -80,7 +80,7 @@ TEST_CASE("CSV: a file that is read in parts has the rows of its text") {
     REQUIRE(row.size() == other.size());
     for (std::size_t i = 0; i < row.size(); ++i) REQUIRE(row[i].text == other[i].text);
     REQUIRE(whole.line() == parts.line());
-    ++rows;
+    if (++rows == 9) CHECK(parts.share_read() < 0.5);  // one part of five is in memory
   }
   CHECK(rows == 300'001);
   CHECK(parts.share_read() == 1);

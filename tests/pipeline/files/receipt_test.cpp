@@ -4,6 +4,7 @@
 
 #include "pipeline/base/digest.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
 namespace fs = std::filesystem;
@@ -33,4 +34,15 @@ TEST_CASE("a noted digest is believed of a file that is as it was, and of no oth
     read.believe(nothing);
     CHECK(read.of(file) == digest);
   }
+}
+
+TEST_CASE("a receipt is read as it was written, also texts with line ends and backslashes") {
+  const Scratch scratch;
+  const Receipt written{.recipe = "r", .input = "i", .output = "o", .state = {},
+                        .results = {{"name", "\n\\n\\"}}, .made_with = {{"\\a\nb", "digest"}}};
+  write_receipt(scratch / "receipt", written, scratch.write("output", "x"));
+  const std::optional<Receipt> read = read_receipt(scratch / "receipt");
+  REQUIRE(read);
+  CHECK(read->results == written.results);
+  CHECK(read->made_with == written.made_with);
 }

@@ -536,6 +536,7 @@ TEST_CASE(
     CHECK(parts(one, "")[2] == parts(changed, "")[2]);
   }
   CHECK(parts(one, "")[0] != parts(one, "", {}, "118")[0]);
+  CHECK_THAT(message_of([&] { parts(one, ", poisson_ratio: 0.51"); }), Catch::Contains("must be 0 .. 0.5"));
   // Up to which strain a grip holds follows from the curve, given or implied: n' is b / c, here 0.2 of both.
   for (const std::string at : {"base", "tool"}) {
     const std::vector<std::string> grip{"dresspack.components.1." + at + "_grip_N=10"};

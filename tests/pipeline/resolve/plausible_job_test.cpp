@@ -131,6 +131,9 @@ TEST_CASE("plausible jobs: angles in radians, obstacles without contact, repeats
   CHECK(plausibility_warnings(job).empty());
   job.simulation.most_repeats = 101;
   CHECK(plausibility_warnings(job).size() == 1);
+  job.simulation.most_repeats = 100, job.dresspacks[0].routing.free_length = 1800;
+  REQUIRE(plausibility_warnings(job).size() == 1);
+  CHECK_THAT(plausibility_warnings(job)[0].words, Catch::Contains("routing.free_length_m: 1.8 if that was millimetres"));
 }
 
 TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hides cycles") {

@@ -108,6 +108,8 @@ TEST_CASE("fields: the ends of a range are in it, and what lies beyond is refuse
            {"share: '1'", "must be a number"},
            {"share: [1]", "is not one value"},
            {"share: .inf", "must be finite"},
+           {"share: -.inf", "must be finite"},
+           {"share: .NaN", "must be finite"},
            {"share: 1x", "must be a number"},
            {"share:", "share has no value"},
            {"whole: yes", "must be true or false"},

@@ -1,6 +1,7 @@
 #include "pipeline/stage/command_line.h"
 
 #include "pipeline/base/errors.h"
+#include "pipeline/stage/program_manual.h"
 #include "tests/catch.h"
 
 using namespace dresslife::pipeline;
@@ -149,4 +150,14 @@ TEST_CASE("command line: the command that is called gets its options, and a prog
   CHECK(read(program, {}, &called) == 2);
   CHECK(read(program, {"stop", "--whole", "3"}, &called) == 2);
   CHECK(read(program, {"walk"}, &called) == 2);
+}
+
+TEST_CASE("command line: the man page explains an argument whose meaning is more than its name") {
+  Values values;
+  const Command program{.name = "sample",
+                        .purpose = "Reads.",
+                        .options = {{"PLACE", "", "where it is", &values.text}, {"file", "", "INPUT", &values.file}},
+                        .example = "sample x"};
+  CHECK_THAT(program_manual(program, "man"),
+             Catch::Contains(".TP\n\\fIPLACE\\fR\nwhere it is") && !Catch::Contains(".TP\n\\fIINPUT"));
 }

@@ -29,12 +29,13 @@ TEST_CASE("memory: a file's buffers are its data, or the library's cache where t
                       "t",
                       {{"/few", Type::f64, {"row", "2"}, "m", ""},
                        {"/many", Type::f64, {"sample", "row"}, "m", ""},
+                       {"/packed", Type::f64, {"sample"}, "m", "", false, false, false, 3},
                        {"/absent", Type::f64, {"other"}, "m", ""}},
                       {}};
   const double few = 100 * 2 * 8;
-  CHECK(file_buffers(format, {{"row", 100}}) == 2 * few);  // of /many there are no samples
-  const double cache = 1 << 20, on_its_way = 2 << 16;
-  CHECK(file_buffers(format, {{"row", 100}, {"sample", 1'000'000}}) == 2 * few + cache + on_its_way);
+  CHECK(file_buffers(format, {{"row", 100}}) == 2 * few);  // without samples
+  const double cache = 1 << 20, on_its_way = 2 << 16, packed = 3 * 131'072;
+  CHECK(file_buffers(format, {{"row", 100}, {"sample", 1'000'000}}) == 2 * few + cache + on_its_way + packed);
 }
 
 TEST_CASE("memory: what the machine has free is told and is not more than it has") {

@@ -763,7 +763,9 @@ TEST_CASE("ranking: a life that equals one of its bounds is named, another one i
   CHECK_THAT(action_words(row), Catch::Contains("equals its upper bound, at which nothing rubs") && !Catch::Contains("ratings"));
   row.life_repeats = row.life_repeats_all_stick;
   CHECK_THAT(action_words(row), Catch::Contains("equals its lower bound, at which nothing slips") && !Catch::Contains("may be longer"));
-  row.life_repeats_all_free = 1.05 * row.life_repeats_all_stick;  // nothing to choose
+  row.life_repeats_all_free = 1.11 * row.life_repeats_all_stick;
+  CHECK_THAT(action_words(row), Catch::Contains("equals its lower bound"));
+  row.life_repeats_all_free = 1.09 * row.life_repeats_all_stick;  // nothing to choose
   CHECK_THAT(action_words(row), !Catch::Contains("bound"));
 }
 

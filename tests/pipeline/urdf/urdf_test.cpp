@@ -236,8 +236,8 @@ TEST_CASE("urdf: what is wrong is told with its line") {
   CHECK_NOTHROW(robot_of(changed("rpy=\"0 0 1.5707963267948966\"", "rpy=\"0 0 -6.2832\"")));
   // Millimetres. A floor beside the base may be large.
   refused(
-      "<origin xyz=\"0 0 1\"/>\n    <axis", "<origin xyz=\"0 0 1000\"/>\n    <axis", "<joint name=\"j3\"",
-      "the origin of joint 'j3' has 1000 m (at most 10 in a link that moves); write origin xyz=\"0 0 1\" if those were millimetres");
+      "<origin xyz=\"0 0 1\"/>\n    <axis", "<origin xyz=\"0 0 -1000\"/>\n    <axis", "<joint name=\"j3\"",
+      "the origin of joint 'j3' has 1000 m (at most 10 in a link that moves); write origin xyz=\"0 0 -1\" if those were millimetres");
   refused(
       "length=\"1\" radius=\"0.1\"", "length=\"1000\" radius=\"100\"", "<link name=\"lower_arm\"",
       "a cylinder of link 'lower_arm' has 1000 m (at most 10 in a link that moves); write radius=\"0.1\" length=\"1\" if those were");

@@ -187,3 +187,14 @@ TEST_CASE("a hose drapes over the edges of a box, by itself and as twelve triang
   }
   CHECK(furthest(box.state, meshed.state) < 5e-3);
 }
+
+TEST_CASE("a hose through a surface lies in it with all its thickness") {
+  RodProperties p = hose(40);
+  p.tool_end = End::free;
+  const Rod rod(p);
+  const Frame place{{0.6, 0, 1}, Quaternion::Identity()};
+  World world(rod, {}, rod.straight(planar_frame(0, 1, 0)), std::span(&place, 1));
+  const Triangle across{Vector3(0.003, -1, -1), Vector3(0.003, 1, -1), Vector3(0.003, 0, 1)};
+  world.add(0, std::make_shared<const Mesh>(std::vector{across}));
+  CHECK(world.advance(world.state().clamps, std::span(&place, 1)).max_depth == Approx(p.diameter));
+}

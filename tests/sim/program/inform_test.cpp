@@ -350,6 +350,8 @@ TEST_CASE("inform: a comment behind an instruction ends its line, one in a text 
       run(three, "MOVL C00000 V=100.0 'first\nMSG \"it's here\"\nMOVL C00001 V=100.0\t' MOVL C00002\n");
   REQUIRE(r.problem() == "no such problem");
   CHECK(r.program.instructions.size() == 2);
+  CHECK(lines_of(run(three,
+                     "SET S000 \"ab\"\nJUMP *END IF S000=\"ab\"\nMOVJ C00000 VJ=9\n*END\nMOVJ C00001 VJ=9\n")) == std::vector<int>{21});
 }
 
 TEST_CASE("inform: a position that several jobs hold is asked for where they differ") {

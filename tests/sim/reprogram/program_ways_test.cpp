@@ -1,5 +1,7 @@
 #include "sim/reprogram/program_ways.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -41,6 +43,12 @@ TEST_CASE("program ways: those of the shipped program read back as the program b
   CHECK(kinds.contains("wrist"));
   CHECK(kinds.contains("by"));
   CHECK(kinds.contains("at"));
+  Motion moved = read.motion;
+  const auto linear = std::find_if(moved.steps.begin(), moved.steps.end(),
+                                   [](const MotionStep& step) { return !step.position.empty(); });
+  REQUIRE(linear != moved.steps.end());
+  linear->position[2] -= 1e-6;
+  CHECK(other_difference(read.motion, moved, {}).ends_with(": position"));
 }
 
 TEST_CASE(
