@@ -17,6 +17,7 @@ constexpr double least_week = 5;        // [h]: an hour per working day
 constexpr double least_shift = 2, most_shift = 24;  // [h]
 constexpr double longest_history = 175'000;         // [h]: 20 years day and night
 constexpr double most_times_cost = 100;             // between the largest and the smallest cost of one kind
+constexpr double rounded_percent = 1.5;              // three programs of 33 % each
 constexpr std::chrono::days oldest{20 * 365};       // robots are overhauled or replaced after 40,000 h
 
 class Doubts {
@@ -41,6 +42,9 @@ class Doubts {
           fmt::format("percent_of_repeats: {:g} instead of {:g}, and so on",
                       100 * duty.programs.front().percent_of_repeats.value_or(0.5),
                       duty.programs.front().percent_of_repeats.value_or(0.5)));
+    else if (by_repeats && repeats < 100 - rounded_percent)
+      add(duty.where, fmt::format("percent_of_repeats of duty '{}' add up to {:g} % (limit 100)", duty.name, repeats),
+          "a program that is missing; the other repeats do no damage", "percent_of_repeats of all programs");
     if (duty.repeats_per_hour && !by_repeats)
       add(duty.where,
           fmt::format(
@@ -64,6 +68,8 @@ class Doubts {
   }
   void of(const Fleet& fleet, Day today) {
     std::map<std::string, const Installed*> names;
+    const Installed *new_today = nullptr, *thousands = nullptr;
+    int new_ones = 0, of_thousands = 0;
     const auto [low_planned, high_planned] = std::minmax_element(
         fleet.rows.begin(), fleet.rows.end(),
         [](const Installed& a, const Installed& b) { return a.planned_cost < b.planned_cost; });
@@ -84,13 +90,20 @@ class Doubts {
       if (fleet.has_costs && row.planned_cost == 0)
         add(row.where, fmt::format("planned_cost of '{}' is 0 (limit more than 0)", row.name),
             "a cost that is not known", "planned_cost with parts, labour and standstill");
-      if (fleet.has_costs && row.planned_cost > 0 && row.unplanned_cost > most_times_cost * row.planned_cost)
-        add(row.where,
-            fmt::format("unplanned_cost of '{}' is {:.4g} times its planned_cost (limit {:g})", row.name,
-                        row.unplanned_cost / row.planned_cost, most_times_cost),
-            "thousands in one of the two columns",
-            fmt::format("planned_cost: {:g} if that was thousands", 1e3 * row.planned_cost));
+      if (fleet.has_costs && row.planned_cost > 0 && row.unplanned_cost > most_times_cost * row.planned_cost && of_thousands++ == 0)
+        thousands = &row;
+      if (row.since == today && new_ones++ == 0) new_today = &row;
     }
+    const auto more = [](int count) { return count > 1 ? fmt::format(" (and {} more)", count - 1) : std::string(); };
+    if (thousands)
+      add(thousands->where,
+          fmt::format("unplanned_cost of '{}' is {:.4g} times its planned_cost (limit {:g}){}", thousands->name,
+                      thousands->unplanned_cost / thousands->planned_cost, most_times_cost, more(of_thousands)),
+          "thousands in one of the two columns",
+          fmt::format("planned_cost: {:.0f} if that was thousands", 1e3 * thousands->planned_cost));
+    if (new_today)
+      add(new_today->where, fmt::format("'{}' counts as installed today{}", new_today->name, more(new_ones)), "an empty cell of the column 'installed'",
+          "the date on which it was installed; leave it if it is new");
     if (fleet.has_costs && low_planned->planned_cost > 0 &&
         high_planned->planned_cost > most_times_cost * low_planned->planned_cost)
       add(low_planned->where,

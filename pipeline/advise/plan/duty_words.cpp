@@ -96,7 +96,8 @@ std::string percentile_words(const DutyResult& duty) {
       calendar(tenth), calendar(half), calendar(most));
   if (duty.past_hours > 0)
     words += fmt::format(
-        " These hours begin now, after {} of operation. By the model {:.0f} % of such dresspacks live until now; the hours are theirs.",
+        " These hours begin now, after {} of operation. By the model {:.0f} % of such dresspacks live until now. The hours are only for these: an "
+        "old dresspack that lives is more likely a strong one, so its remaining life may be longer than the life of a new one.",
         hours_text(duty.past_hours), 100 * duty.lives.survived);
   return words;
 }

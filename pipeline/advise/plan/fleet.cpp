@@ -99,11 +99,10 @@ Installed installed_from(const Row& row, Day today, bool has_costs) {
 }
 
 Day needed_day(const std::string& text) {
-  if (const std::optional<Day> day = exported_day(text)) return *day;
+  const bool two = text.size() > 11 && exported_day(text.substr(0, 10)) && exported_day(text.substr(text.size() - 10));
+  if (const std::optional<Day> day = exported_day(text); day && !two) return *day;
   throw InputError({"--windows"}, fmt::format("'{}' is no date", text),
-                   text.size() > 11 && day_from(text.substr(0, 10)) && day_from(text.substr(text.size() - 10))
-                       ? fmt::format("write {}..{}", text.substr(0, 10), text.substr(text.size() - 10))
-                       : day_remedy(text));
+                   two ? fmt::format("write {}..{}", text.substr(0, 10), text.substr(text.size() - 10)) : day_remedy(text));
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ std::string kept_words(const Fleet& fleet, const Plan& plan) {
                   day_text(plan.end), percent_text(most), percent_text(plan.risk)),
       safe);
   add(fmt::format(
-          "The probability of failure between two windows is above {}, but a new dresspack would not have less",
+          "The probability of failure between two windows is above {}. A new dresspack fails as often or more often in this time",
           percent_text(plan.risk)),
       no_better);
   add("Running on costs less, on average, than a replacement in any of these windows", costly);
@@ -131,9 +131,10 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
   for (std::size_t y = 0; y < plan.years.size(); ++y) {
     const YearOfPlan& year = plan.years[y];
     text += fmt::format(
-        "Year {} from today: {} spare dresspacks ({:g} .. {:g} in 90 of 100 plants): {} planned, {} after failures, "
+        "Year {} from today{}: {} spare dresspacks ({:g} .. {:g} in 90 of 100 plants): {} planned, {} after failures, "
         "also of their replacements.\n",
-        y + 1, readable(year.planned + year.unplanned, 2), std::floor(year.low), std::ceil(year.high),
+        y + 1, plan.end < plan.today + std::chrono::days(365 * static_cast<int>(y + 1)) ? ", until " + day_text(plan.end) + " only" : "",
+        readable(year.planned + year.unplanned, 2), std::floor(year.low), std::ceil(year.high),
         readable(year.planned, 2), readable(year.unplanned, 2));
   }
   if (fleet.has_costs)
@@ -154,7 +155,7 @@ std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
                          test.what.of.empty() ? "" : fmt::format(" of '{}'", test.what.of));
   }
   if (lines.empty())
-    return "No test of what the dresspacks have in common would save a thousandth of this cost.\n";
+    return "No test in a laboratory saves a thousandth of this cost.\n";
   return fmt::format(
       "A test before the first window saves, on average, until {} and by better replacements after that:\n{}",
       day_text(plan.end), lines);

@@ -100,15 +100,16 @@ TEST_CASE("fleets: numbers that another unit or a slip explains are warned of") 
        {Doubtful{"name,duty,installed\na,d,2006-11-20\n",
                  "'a' was installed 7308 days ago (limit 7300: 20 years)", "the date of the dresspack"},
         {"name,duty,installed\na,d,1926-11-20\n", "'a' was installed", "the date of the dresspack"},
-        {"name,duty,installed\nb,d,\na,d,\nA ,d,\n", "'A' and 'a' differ only in blanks, signs or capitals",
+        {"name,duty,installed\nb,d,2026-01-05\na,d,2026-01-05\nA ,d,2026-01-05\n", "'A' and 'a' differ only in blanks, signs or capitals",
          "names that differ more"},
-        {"name,duty,installed,hours_per_week\na,d,,0.5\n", "hours_per_week of 'a' is 0.5",
+        {"name,duty,installed\na,d,\nb,d,\n", "'a' counts as installed today (and 1 more)", "the date on which it was installed"},
+        {"name,duty,installed,hours_per_week\na,d,2026-01-05,0.5\n", "hours_per_week of 'a' is 0.5",
          "hours_per_week: 84"},
-        {"name,duty,installed,planned_cost,unplanned_cost\na,d,,0,9500\n", "planned_cost of 'a' is 0",
+        {"name,duty,installed,planned_cost,unplanned_cost\na,d,2026-01-05,0,9500\n", "planned_cost of 'a' is 0",
          "with parts, labour and standstill"},
-        {"name,duty,installed,planned_cost,unplanned_cost\na,d,,1.2,9500\n",
+        {"name,duty,installed,planned_cost,unplanned_cost\na,d,2026-01-05,1.2,9500\n",
          "unplanned_cost of 'a' is 7917 times its planned_cost (limit 100)", "planned_cost: 1200"},
-        {"name,duty,installed,planned_cost,unplanned_cost\na,d,,1.2,9.5\nb,d,,1200,9500\n",
+        {"name,duty,installed,planned_cost,unplanned_cost\na,d,2026-01-05,1.2,9.5\nb,d,2026-01-05,1200,9500\n",
          "planned_cost of 'a' is 1.2, and of 'b' 1200", "planned_cost: 1200"}})
     check_one(doubts_of_fleet(one.text), one, "fleet.csv:");
 }
