@@ -58,8 +58,6 @@ CsvRow CsvReader::next() {
   for (read_on(); at_ < text_.size(); read_on()) {
     ++line_;
     line_begin_ = at_;
-    if (line_ == 1 && text_.find('\0') < std::min(text_.find('\n'), text_.size()))  // each letter of UTF-16 has one
-      throw InputError({file_, 1, 1}, "is no text in UTF-8; it may be UTF-16", "save it as CSV UTF-8");
     while (at_blank()) ++at_;
     CsvRow row;
     if (text_.compare(at_, 1, "#") != 0) at_ = line_begin_, row = cells();

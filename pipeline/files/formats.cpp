@@ -215,7 +215,7 @@ Format make_strain_format() {
      "arc from the base clamp of its dresspack at which its wires are evaluated: its centre, or the clamp beside it"},
     {"/deformation/curvature",  f32,  "sample, segment, 2", "1/m",  always, "about d1 and d2 of the segment"},
     {"/deformation/twist",      f32,  "sample, segment",    "rad/m", always, "about the tangent"},
-    {"/deformation/elongation", f32,  "sample, segment",    "1",    decimals_7, "relative change of length, kept to 5e-8"},
+    {"/deformation/elongation", f32,  "sample, segment",    "1",    always, "relative change of length"},
   });
   add_dresspacks(format);
   add_rubbing(format);

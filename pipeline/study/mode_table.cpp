@@ -49,7 +49,10 @@ ModeLine line_of(const RankingRow& row, const UnvalidatedMode& mode) {
   line.mode = mode_name(mode);
   for (std::size_t i = 0; i < line.hours.size(); ++i) line.hours[i] = mode_life(row, mode, mode.hours[i]);
   line.note = mode_note(mode);
-  if (mode.place.empty()) return line;
+  if (mode.place.empty()) {
+    if (mode.mode != UnvalidatedMode::wall) line.hours.fill("none");
+    return line;
+  }
   if (!std::isnan(mode.first_share)) line.before_wires = fmt::format("{:.0f} %", 100 * mode.first_share);
   if (!std::isnan(mode.together_p10)) line.with_it = shown_life(row, mode.together_p10);
   line.from_tool = fmt::format("{:.2f}", mode.position_from_tool);
@@ -65,7 +68,8 @@ std::vector<ModeLine> mode_lines(const RankingRow& row) {
   std::vector<ModeLine> lines;
   if (row.planned()) {
     ModeLine wires;
-    wires.mode = "wires" + (row.failing_conductor.empty() ? "" : " of " + row.failing_conductor);
+    wires.mode = !row.failing_conductor.empty() ? "wires of " + row.failing_conductor : "wires";
+    if (row.failing_conductor.empty() && !row.failing_mode.empty()) wires.mode = row.failing_mode;
     for (std::size_t i = 0; i < wires.hours.size(); ++i) wires.hours[i] = shown_life(row, row.planned_hours[i]);
     wires.with_it = wires.hours[0];
     if (!row.failing_conductor.empty()) wires.from_tool = fmt::format("{:.2f}", row.failing_position_from_tool);

@@ -172,7 +172,10 @@ TEST_CASE("rigs: every shipped rig runs, and its curvature is not more than its 
     for (const double value : found.curvature) largest = std::max(largest, std::abs(value));
     // The cubic of (W2) across ramps of four segments: 3 % beyond what was given at most.
     CHECK(largest <= 1.03 * most + 1e-9);
-    CHECK(largest >= 0.999 * most - 1e-9);
+    // Cables in torsion bow in one wave (D3), of which a segment has the mean.
+    const auto segments = static_cast<double>(motion.rows("/segment/length"));
+    const double wave = entry.path().stem() == "torsion" ? std::pow(2 * pi / segments, 2) / 24 : 0;
+    CHECK(largest >= (0.999 - wave) * most - 1e-9);
   }
 }
 

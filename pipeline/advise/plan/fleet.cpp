@@ -109,11 +109,11 @@ Day needed_day(const std::string& text) {
 
 Fleet read_fleet(const std::filesystem::path& file, Day today) {
   const std::string text = read_text(file);
-  CsvReader reader(text, file.string());
-  const CsvRow titles = reader.next();
-  if (const std::size_t at = first_no_utf8(text); at < text.size())
+  if (const std::size_t at = std::min(first_no_utf8(text), text.find('\0')); at < text.size())  // each letter of UTF-16 has a 0
     throw InputError({file.string(), 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n')), 0},
                      "is no text in UTF-8", "save the table as CSV UTF-8");
+  CsvReader reader(text, file.string());
+  const CsvRow titles = reader.next();
   if (titles.empty())
     throw InputError({file.string(), 1, 1}, "holds no table",
                      "write the line 'name,duty,installed', then a row per dresspack");

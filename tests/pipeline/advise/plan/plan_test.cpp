@@ -322,7 +322,7 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(refusal("name,duty,installed,\nr,day,,\n").find("a column has no title; give it one") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,\nT\xfcr,day,\n").find("fleet.csv:3: error: is no text in UTF-8") != std::string::npos);
   CHECK(read("\xEF\xBB\xBFname,duty,installed\r\nT\xc3\xbcr,day,\r\n").rows[0].name == "T\xc3\xbcr");
-  CHECK(refusal(std::string("\xff\xfen\0a\0m\0", 8)).find("it may be UTF-16; save it as CSV UTF-8") != std::string::npos);
+  CHECK(refusal(std::string("\xff\xfen\0a\0m\0", 8)).find("fleet.csv:1: error: is no text in UTF-8") != std::string::npos);
 }
 
 TEST_CASE("a plan states why a dresspack is in no window") {
@@ -333,7 +333,7 @@ TEST_CASE("a plan states why a dresspack is in no window") {
   CHECK_THAT(safe, Catch::Contains("is at most 0.0") && Catch::Contains("(limit 10 %): r0") &&
                        Catch::Contains("replaced at once"));
   CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}), {0.01, false}),
-             Catch::Contains("A new dresspack fails as often or more often in this time: r0"));
+             Catch::Contains("fails as often or more often in this") && Catch::Contains("time: r0."));
   CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}, 1, 6), {0.1, true}),
              Catch::Contains("costs less, on average"));
   CHECK(words(weibull(3, {1000}), fleet_of({10}), {0.1, false}).empty());
