@@ -101,7 +101,7 @@ TEST_CASE("a remedy is a line that the job takes: of a shipped dresspack, of one
     REQUIRE(before.status == 0);
     CHECK(before.err.find(pack + ".components.2: 'control cable' is compressed with ") != std::string::npos);
     const std::set<std::string> lines = lines_in(before.err);
-    CHECK(lines.contains(pack + ".components.2.slack_percent: 0.12"));  // as of the warning whose place is that part
+    CHECK(lines.contains(pack + ".components.2.slack_percent: 0.14"));  // as of the warning whose place is that part
     for (const std::string& remedy : lines) {
       const std::string key = remedy.substr(0, remedy.find(':') + 1);
       std::string changed = content(scratch / "job.yaml");
@@ -123,7 +123,7 @@ TEST_CASE("a cable without slack: check and run propose the same value, with whi
   const std::string job = content(scratch / "robot.yaml");
   scratch.write("job.yaml", job.substr(0, job.find("dresspack:")) + "dresspack: handling\n" + job.substr(job.find("routing:")));
   const std::string proposed = "dresspack.components.2.slack_percent: 1";
-  for (const double slack : {0.01, 1.0}) {
+  for (const double slack : {0.0, 1.0}) {
     const std::string sets =
         fmt::format("job.yaml --set strain.slip=friction --set uncertainty.enabled=false --set dresspack.components.2.slack_percent={}", slack);
     const Outcome check = run(scratch, "dresslife", "check " + sets), ran = run(scratch, "dresslife", "run " + sets);

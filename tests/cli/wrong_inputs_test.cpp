@@ -318,7 +318,7 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 120", "hose.yaml:1:1", "mass_kg_per_m is 120 (limit 5.91: its parts, and diameter_mm filled", "mass_kg_per_m: 0.12 if that was g/m, 1 by its parts and wall"},
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 15", "hose.yaml:1:1", "mass_kg_per_m is 15 (limit 5.91", "1 by its parts and wall"},
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 0.0012", "hose.yaml:1:1", "mass_kg_per_m is 0.0012 (limit 0.0196: its wires", "from_construction"},
-    {"hose.yaml", "bending_stiffness_Nm2: 2", "bending_stiffness_Nm2: 2000000", "", "bending_stiffness_Nm2 is 2e+06 (limits 0.016 .. 1.09e+03)", "bending_stiffness_Nm2: 0.0321 or from_construction"},
+    {"hose.yaml", "bending_stiffness_Nm2: 2", "bending_stiffness_Nm2: 2000000", "", "bending_stiffness_Nm2 is 2e+06 (limits 0.016 .. 1.08e+03)", "bending_stiffness_Nm2: 0.0321 or from_construction"},
     {"hose.yaml", "damping_time_ms: 10", "damping_time_ms: 0.01", "hose.yaml:1:1", "damping_time_ms is 0.01 (limits 0.88 .. 177", "as measured"},
     {"hose.yaml", "damping_time_ms: 10", "damping_time_ms: 10000", "hose.yaml:1:1", "damping_time_ms is 1e+04 (limits 0.88 .. 177", "as measured"},
     {"hose.yaml", "radius_mm: 0.1, ", "radius_mm: 0.0001, ", "hose.yaml:18:101", "radius_mm of 'wire' is 0.0001 (limit 0.01 or more for a wire). Likely cause: metres", "radius_mm: 0.1 if that was metres"},
