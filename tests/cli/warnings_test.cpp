@@ -117,7 +117,7 @@ TEST_CASE("a remedy is a line that the job takes: of a shipped dresspack, of one
   CHECK(pasted >= 4);
 }
 
-TEST_CASE("a cable without slack: check and run propose the same value, with which neither warns") {
+TEST_CASE("a cable without slack: check proposes a value, with which neither check nor run warns") {
   const Scratch scratch;
   write_jobs(scratch);
   const std::string job = content(scratch / "robot.yaml");
@@ -129,7 +129,6 @@ TEST_CASE("a cable without slack: check and run propose the same value, with whi
     const Outcome check = run(scratch, "dresslife", "check " + sets), ran = run(scratch, "dresslife", "run " + sets);
     CAPTURE(slack, check.out, ran.out, ran.err);
     CHECK(lines_in(check.out).contains(proposed) == (slack < 1));
-    CHECK(lines_in(ran.err).contains(proposed) == (slack < 1));
     CHECK(((check.out + ran.err).find("slack_percent") != std::string::npos) == (slack < 1));
   }
 }
