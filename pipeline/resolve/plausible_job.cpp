@@ -278,7 +278,7 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
                            fmt::format("dwell_s: {:g} if that was milliseconds", step->dwell / 1000)));
   if (motion.speed_percent != 100 && seen.moves > 0 && !seen.default_speed)
     warnings.push_back(warning_of(WarningKind::motion, motion.where.text(),
-                                  fmt::format("speed_percent {:g} has no effect (limit: moves without a speed of their own)", motion.speed_percent),
+                                  fmt::format("motion.speed_percent {:g} has no effect", motion.speed_percent),
                                   "each move of the program has its own speed",
                                   fmt::format("motion.override_percent: {:g} for the speed override of the controller", motion.speed_percent)));
   doubt_single_targets(motion.steps, warnings);
