@@ -28,7 +28,8 @@ constexpr double strongest_jacket = 10e6;         // [Pa]: the pressure at which
 constexpr double thinnest = 0.01e-3;              // radius of a wire [m]: the finest strands are 0.03 mm wide
 constexpr double least_lay =
     0.6 * degree;  // a turn in 100 helix diameters and more; lays of cables are 3 to 40 deg, 0.05 to 0.7 rad
-constexpr double longest_lay = 64;  // widths of the layer: four times the longest lay of cores in flexible cables, which have 8 to 16 (config/defaults.md)
+// Widths of the layer: four times the longest lay of cores in flexible cables, which have 8 to 16 (config/defaults.md).
+constexpr double longest_lay = 64;
 
 constexpr double widest_hose = 0.2,
                  thinnest_cable = 1e-3;  // [m]: hoses on robots are 15 to 110 mm wide, sensor cables 2
