@@ -1,5 +1,6 @@
 // dresslife export: what ParaView reads of a job, moment by moment, is what its files hold.
 #include <Eigen/Geometry>
+#include <map>
 #include <sstream>
 
 #include "pipeline/files/files.h"
