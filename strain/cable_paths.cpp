@@ -519,6 +519,18 @@ void CablePaths::find_bent() {
     }
 }
 
+double CablePaths::largest_curvature(std::size_t cable) const {
+  const auto k = static_cast<std::size_t>(std::ranges::find(loosened_, cable) - loosened_.begin());
+  std::vector<double> one(next_), other(next_);
+  double most = 0;
+  for (std::size_t segment = 0; segment < lengths_.size() && k < loosened_.size(); ++segment) {
+    curvature_->read(wires_at(segment), 2 * k, 0, next_, one.data());
+    curvature_->read(wires_at(segment), 2 * k + 1, 0, next_, other.data());
+    for (std::size_t t = 0; t < next_; ++t) most = std::max(most, std::hypot(one[t], other[t]));
+  }
+  return most;
+}
+
 std::vector<int> CablePaths::bent_most(std::size_t segment) const {
   std::vector<int> parts;
   const std::size_t loose = loosened_.size();

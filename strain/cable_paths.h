@@ -121,6 +121,8 @@ class CablePaths {
   const CableRubbing* rubbing(std::size_t cable) const { return cables_[cable].rubbing ? &*cables_[cable].rubbing : nullptr; }
   /// Radius of the helix into which it can wind [m]; 0: it is held.
   double room(std::size_t cable) const { return cables_[cable].room; }
+  /// Of its path, where its wires are evaluated [1/m]; 0: it is held.
+  double largest_curvature(std::size_t cable) const;
   /// Growth of its path over the motion, relative to its length as installed, without its slack: the least, if it
   /// goes as far outward in each bend as its room allows, and the most, if it goes inward. Cables of a ring move by
   /// the gap to their neighbours only. Twist counts by what it would take from the cable's length. A slack between

@@ -407,6 +407,7 @@ class CableRows {
       for (const double slipped : cables.grip_slip(k)) slip_.push_back(slipped);
       for (const double gain : cables.path_gain(k)) gain_.push_back(gain);
       room_.push_back(cables.room(k));
+      curvature_.push_back(cables.largest_curvature(k));
       for (const auto& at_clamp : pulled_.back()->place)
         place_.insert(place_.end(), at_clamp.begin(), at_clamp.end());
     }
@@ -424,6 +425,7 @@ class CableRows {
     file.append("/cable/clamp_place", place_);
     file.append("/cable/path_gain", gain_);
     file.append("/cable/room", room_);
+    file.append("/cable/curvature", curvature_);
     std::vector<double> rows;
     for (std::size_t t = 0; t < samples; ++t)
       for (const pipeline::PulledCable* of : pulled_)
@@ -434,7 +436,7 @@ class CableRows {
  private:
   std::vector<std::string> names_;
   std::vector<std::int32_t> span_, dresspack_, component_;
-  std::vector<double> slip_, place_, gain_, room_;
+  std::vector<double> slip_, place_, gain_, room_, curvature_;
   std::vector<const pipeline::PulledCable*> pulled_;
 };
 
