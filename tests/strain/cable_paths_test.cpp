@@ -2,6 +2,7 @@
 // onset of tension with slack, lays from straight to steep, memory, forces and moments.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <list>
 #include <numbers>
 #include <tuple>
@@ -72,6 +73,12 @@ struct Run {
 
   Run(const Dresspack& dresspack, Slip slip, std::size_t samples, std::size_t cycle, double size = 1,
       std::size_t pieces = 1)
+      : Run(dresspack, slip, samples, pieces, [&](double z, std::size_t t) {
+          return size * swing(z, static_cast<double>(t) / static_cast<double>(cycle));
+        }) {}
+  /// motion(z, sample): z of the length.
+  Run(const Dresspack& dresspack, Slip slip, std::size_t samples, std::size_t pieces,
+      const std::function<Deformation(double, std::size_t)>& motion)
       : construction(dresspack, Kinematics::exact),
         lengths(segments, length / segments),
         arcs(centres()),
@@ -80,8 +87,7 @@ struct Run {
               {.rub = slip == Slip::friction, .elements_per_segment = pieces}, lengths, arcs, samples) {
     for (std::size_t t = 0; t < samples; ++t)
       for (std::size_t i = 0; i < segments; ++i)
-        history.set(i, t,
-                    size * swing(arcs[i] / length, static_cast<double>(t) / static_cast<double>(cycle)));
+        history.set(i, t, motion(arcs[i] / length, t));
     paths.add({history});
     paths.finish();
   }
@@ -453,6 +459,28 @@ TEST_CASE("one cycle ends as one of many, whether it closes at once or little by
     CHECK(one.paths.grip_slip(0)[0] > 1e-3);  // of the strain of 5e-3 in 2 m
     CHECK(one.paths.grip_slip(0)[0] == Approx(many.paths.grip_slip(0)[0] / cycles).margin(length * settled));
   }
+}
+
+TEST_CASE("a repeat that its last quarter does not lead to begins with no memory at its first sample") {
+  // Grips and strong friction: what is held depends on the first sample. Without a new beginning the first cable ends
+  // elsewhere by 2e-3 of strain, and where the motion stops too early it has not closed.
+  constexpr std::size_t cycle = 8, cycles = 8;
+  constexpr double shapes[cycle][3] = {{-0.62, -0.51, 0.92}, {-0.76, -0.87, 0.68},  {0.64, 0.60, 0.35},    {0.37, -0.07, -0.31},
+                                       {0.95, -0.48, 0.33},  {1.41, -1.44, -0.19}, {-2.30, -1.67, 1.62}, {-0.74, 1.04, 0.66}};
+  const auto motion = [&](double z, std::size_t t) {
+    const auto& of = shapes[t % cycle];
+    return Deformation{0, 0.54 * (of[0] * std::sin(pi * z) + of[1] * std::cos(pi * z) + of[2] * std::sin(2 * pi * z)), 0, 0};
+  };
+  Dresspack dresspack = held_hose();
+  dresspack.components[0].friction = 0.3;
+  dresspack.components[0].radial_line_load = 1.8e5;
+  dresspack.components[0].laying.base_grip = dresspack.components[0].laying.tool_grip = 520;
+  Run one(dresspack, Slip::friction, cycle, 1, motion), many(dresspack, Slip::friction, cycles * cycle, 1, motion);
+  double apart = 0;
+  for (std::size_t segment = 0; segment < segments; ++segment)
+    for (std::size_t t = 0; t < cycle; ++t)
+      apart = std::max(apart, std::abs(one.strain(0, segment, t) - many.strain(0, segment, (cycles - 1) * cycle + t)));
+  CHECK(apart < 1e-5);  // a repeat may differ from the one before by 1e-6, and some of that is left for later ones
 }
 
 TEST_CASE("forces of held cables are told beside their moment on the hose") {
