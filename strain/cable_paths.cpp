@@ -62,7 +62,8 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
       lengths_(std::move(lengths)),
       stride_(padded(samples) + padding),
       all_(samples),
-      known_ends_(job.known_ends) {
+      known_ends_(job.known_ends),
+      relief_stiffness_(job.relief_stiffness) {
   const std::size_t segments = lengths_.size();
   std::vector<LooseCable> loose;
   std::vector<PathMember> held;
@@ -661,7 +662,7 @@ void CablePaths::ask_for_forces() {
   for (int clamp = 0; clamp < 2; ++clamp)
     for (std::size_t t = 0; t < next_; ++t) {
       const float* const bent = hose_curvature_.data() + 2 * clamp * all_ + t;
-      hose_moment_[t] = std::max(hose_moment_[t], construction_.hose_bending_stiffness() *
+      hose_moment_[t] = std::max(hose_moment_[t], (construction_.hose_bending_stiffness() + relief_stiffness_[clamp]) *
                                                       std::hypot(bent[0], bent[all_]));
     }
 }

@@ -46,6 +46,7 @@ struct CablesInJob {
   bool free_tool_end = false;
   std::size_t elements_per_segment = 0;  ///< of loose cables; 0: as many as their waves ask for
   KnownEnds known_ends{};
+  std::array<double, 2> relief_stiffness{};  ///< of bend reliefs at base and tool end, which bend with the hose [N m2]
 };
 
 class CablePaths {
@@ -196,6 +197,7 @@ class CablePaths {
   std::vector<std::size_t> loosened_;  ///< of cables_, in the order of loose_
   std::shared_ptr<LooseCables> loose_;  ///< null: none lies loose
   KnownEnds known_ends_;
+  std::array<double, 2> relief_stiffness_;
   /// (segment, base end, tool end; loose cable x 2; sample) of their paths [1/m], shared with them
   std::shared_ptr<SegmentRows> curvature_;
   double first_share_ = 1, fed_ = 0;  ///< of its slack, see go_on_from(), and since then [s]

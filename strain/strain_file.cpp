@@ -342,6 +342,7 @@ struct Evaluations {
     }
     const std::vector<pipeline::MotionSpan>& spans = reader.spans();
     SpanPlace place;
+    std::size_t first = 0;  // span of its dresspack
     place.levels = levels;
     for (std::size_t k = 0; k < spans.size(); ++k) {
       const std::size_t d = spans[k].dresspack;
@@ -352,12 +353,16 @@ struct Evaluations {
         for (const pipeline::MotionSpan& span : spans)
           if (span.dresspack == d) place.segments_in_all += span.segments;
         place.first_arc = 0;
+        first = k;
         place.dresspack = d;
         place.name = pipeline::name_among(job, d);
       }
       place.first_segment = spans[k].first_segment - place.segments_before;
       place.free_tool_end = reader.ends_freely(job, k);
       place.known_ends = reader.known_ends(k);
+      const std::vector<std::array<pipeline::BendRelief, 2>> reliefs = pipeline::bend_reliefs(job.dresspacks[d].routing);
+      for (std::size_t end = 0; end < 2 && k - first < reliefs.size(); ++end)
+        place.relief_stiffness[end] = reliefs[k - first][end].length > 0 ? reliefs[k - first][end].stiffness : 0;
       place.clamped_length = pipeline::clamped_length(job);
       const std::vector<double> lengths = reader.lengths_of(spans[k]);
       pipeline::Strain settings = settings_of(job, d);

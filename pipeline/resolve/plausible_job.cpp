@@ -773,6 +773,27 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
   return warnings;
 }
 
+/// Up to the fourth segment the parabola that gives the bend at a clamp (W39) contains links outside the relief.
+void doubt_bend_reliefs(const Routing& routing, int segments, std::vector<Warning>& warnings) {
+  constexpr int fewest = 4;
+  std::vector<const Clamp*> clamps;
+  for (const std::optional<Clamp>* end : {&routing.base_clamp, &routing.tool_clamp})
+    if (*end) clamps.push_back(&**end);
+  for (const IntermediateClamp& between : routing.clamps) clamps.push_back(&between.clamp);
+  for (const Clamp* const clamp : clamps) {
+    if (!clamp->bend_relief || clamp->bend_relief->length == 0 || clamp->bend_relief->stiffness == 0) continue;
+    const double length = clamp->bend_relief->length, within = length * segments / routing.free_length;
+    if (within >= fewest) continue;
+    warnings.push_back(warning_of(
+        WarningKind::mesh, clamp->where.text(),
+        fmt::format("bend_relief.length_mm is {:.4g}: {:.2g} segments (limit {}): the bend at the clamp is uncertain", 1e3 * length,
+                    within, fewest),
+        length < 1e-3 ? "metres instead of millimetres" : "the segments are too long for it",
+        length < 1e-3 ? fmt::format("bend_relief.length_mm: {:.4g} if that was metres", 1e6 * length)
+                      : fmt::format("simulation.segments: {:.0f}", std::ceil(fewest * routing.free_length / length))));
+  }
+}
+
 }  // namespace
 
 std::vector<Warning> plausibility_warnings(const Job& job) {
@@ -784,6 +805,8 @@ std::vector<Warning> plausibility_warnings(const Job& job) {
                                               job.simulation.sample_rate, least_rate),
                                   "seconds instead of 1/s; the samples miss the hose's swing",
                                   "simulation.sample_rate_Hz: 25"));
+  if (!motion.is_prescribed())
+    for (const MountedDresspack& mounted : job.dresspacks) doubt_bend_reliefs(mounted.routing, job.simulation.segments, warnings);
   if (job.strain.gate > largest_gate)
     warnings.push_back(
         warning_of(WarningKind::strain, "",

@@ -219,7 +219,8 @@ class Mounting {
       piece.properties.slider.reset();
       piece.properties.segments = counts[p];
       piece.properties.length = counts[p] * span.segment_length;
-      if (!last) piece.properties.tool_end = End::clamped, piece.properties.tip_mass = 0;
+      if (!last) piece.properties.tool_end = End::clamped, piece.properties.tip_mass = 0, piece.properties.stiff_ends[1] = {};
+      if (p > 0) piece.properties.stiff_ends[0] = {};
       piece.end = ends[p];
       piece.begin_link = p == 0 ? end_links[2 * k] : links[p - 1];
       piece.end_link = links[p];

@@ -493,6 +493,12 @@ TEST_CASE("forces of held cables are told beside their moment on the hose") {
   CHECK(*std::max_element(run.paths.hose_moment().begin(), run.paths.hose_moment().end()) < 25);
   CHECK(dresslife::pipeline::moment_share(pulls, run.paths.hose_moment()) ==
         most / *std::max_element(run.paths.hose_moment().begin(), run.paths.hose_moment().end()));
+  // The shape is that of the run; a sleeve that bends with the hose carries its part.
+  CablePaths relieved(run.construction, plan_slip(run.construction, {Slip::free, Slip::free}, length),
+                      {.relief_stiffness = {75, 75}}, run.lengths, run.arcs, 20);
+  relieved.add({run.history});
+  relieved.finish();
+  CHECK(relieved.hose_moment()[10] == Approx(4 * run.paths.hose_moment()[10]));  // (25 + 75)/25
   Dresspack with_slack = thesis_hose();
   with_slack.components[0].laying.slack = 1;
   Run loose(with_slack, Slip::free, 20, 20);
