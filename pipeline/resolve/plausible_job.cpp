@@ -247,10 +247,16 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
   Seen seen;
   look_at(motion.steps, seen);
   std::vector<Warning> warnings;
+  // A controller's program has no keys.
+  const auto key = [](const char* in_job, const char* in_program, const MotionStep& step) {
+    const std::string& file = step.where.file;
+    return file.empty() || file.ends_with(".yaml") || file.ends_with(".yml") ? in_job : in_program;
+  };
   if (const MotionStep* step = seen.slow.first)
     warnings.push_back(seen.slow.warning(
         fmt::format("speed_percent is {:g} (limit {:g} or more)", *step->speed_percent, least_percent),
-        "a share instead of a percentage", fmt::format("speed_percent: {:g} if that was a share", 100 * *step->speed_percent)));
+        "a share instead of a percentage",
+        fmt::format("{}{:g}{} if that was a share", key("speed_percent: ", "", *step), 100 * *step->speed_percent, key("", " %", *step))));
   if (const MotionStep* step = seen.fast.first)
     warnings.push_back(seen.fast.warning(
         fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool),
@@ -264,7 +270,8 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
     warnings.push_back(seen.creeping.warning(
         fmt::format("the tool's speed is {:.4g} mm/s (limit {:g} or more)", 1e3 * *step->tool_speed,
                     1e3 * slowest_tool),
-        "m/s instead of mm/s", fmt::format("speed_mm_per_s: {:g} if that was m/s", 1e6 * *step->tool_speed)));
+        "m/s instead of mm/s",
+        fmt::format("{}{:g}{} if that was m/s", key("speed_mm_per_s: ", "a speed of ", *step), 1e6 * *step->tool_speed, key("", " mm/s", *step))));
   if (const MotionStep* step = seen.turning.first)
     warnings.push_back(seen.turning.warning(
         fmt::format("speed_deg_per_s is {:.4g} (limit {:g} or more)", *step->speed / degree,
@@ -273,9 +280,9 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         fmt::format("speed_deg_per_s: {:.3g} if that was rad/s", *step->speed / degree / degree)));
   if (const MotionStep* step = seen.waits.first)
     warnings.push_back(
-        seen.waits.warning(fmt::format("dwell_s is {:g} (limit {:g} or less)", step->dwell, longest_dwell),
+        seen.waits.warning(fmt::format("{} is {:g} (limit {:g} or less)", key("dwell_s", "the wait in seconds", *step), step->dwell, longest_dwell),
                            "milliseconds instead of seconds",
-                           fmt::format("dwell_s: {:g} if that was milliseconds", step->dwell / 1000)));
+                           fmt::format("{}{:g} if that was milliseconds", key("dwell_s: ", "a wait of ", *step), step->dwell / 1000)));
   if (motion.speed_percent != 100 && seen.moves > 0 && !seen.default_speed)
     warnings.push_back(warning_of(WarningKind::motion, motion.where.text(),
                                   fmt::format("motion.speed_percent {:g} has no effect", motion.speed_percent),

@@ -1,5 +1,7 @@
 #include "sim/run/clamp_path.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 
@@ -166,6 +168,32 @@ std::vector<pipeline::Warning> too_fast(const pipeline::Motion& motion, const pi
       "times that the robot can keep, or the axis' limit in robot.joints if it is larger")};
 }
 
+struct Waits {
+  double time = 0;  ///< [s]
+  const pipeline::MotionStep* longest = nullptr;
+};
+
+void add_waits(const std::vector<pipeline::MotionStep>& steps, int times, Waits& waits) {
+  for (const pipeline::MotionStep& step : steps) {
+    add_waits(step.steps, times * std::max(1, step.repeat), waits);
+    waits.time += times * step.dwell;
+    if (step.dwell > 0 && (!waits.longest || step.dwell > waits.longest->dwell)) waits.longest = &step;
+  }
+}
+
+/// The note on the program, and that it waits for more than half of its cycle: a wait that was meant in milliseconds looks so.
+std::string note_of(const RunMotion& run, double cycle) {
+  constexpr double most = 0.5;
+  Waits waits;
+  add_waits(run.motion.steps, 1, waits);
+  if (!(waits.time > most * cycle)) return run.note;
+  const std::string words = fmt::format(
+      "The waits of the program take {:.4g} s, {:.0f} % of its cycle of {:.4g} s; the longest one is {:g} s, at {}. It counts in "
+      "seconds: correct it if that was milliseconds or a decimal point is missing",
+      waits.time, 100 * waits.time / cycle, cycle, waits.longest->dwell, waits.longest->where.text());
+  return run.note.empty() ? words : words + ". " + run.note;
+}
+
 /// Origins of the tools that the flange carries, in its frame.
 std::vector<Vector3> tool_points(const pipeline::Motion& motion) {
   std::vector<Vector3> points;
@@ -205,7 +233,7 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
               pipeline::joined(other_maker(setup.motion, setup.robot), too_fast(run.motion, setup.robot))),
           setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
                                        : pipeline::plausibility_of_steps(run.motion))),
-      note_(run.note),
+      note_(note_of(run, motion_.duration())),
       tools_(tool_points(run.motion)) {
   hold_joint(setup);
   mounting_pose_ = motion_.position(0);

@@ -349,6 +349,8 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "inner_diameter_mm: 42", "inner_diameter_mm: 49.99", "hose.yaml:1:1", "the wall is 0.005 mm thick", "inner_diameter_mm: 42.5 (ESTIMATE)"},
     {"hose.yaml", "torsional_stiffness_Nm2: 1.6", "torsional_stiffness_Nm2: 0.000016", "hose.yaml:1:1", "torsional_stiffness_Nm2 is 8e-06 times bending_stiffness_Nm2", "torsional_stiffness_Nm2: from_construction"},
     {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 5000", "hose.yaml:1:1", "least_bend_radius_mm is 5000 (limits 50 .. 2000: 1 to 40 diameters)", "least_bend_radius_mm: 500 if"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 600", "hose.yaml:1:1", "least_bend_radius_mm is 600, 12 diameters (limits 3 .. 10 of a moved hose). Likely cause: the bend diameter", "least_bend_radius_mm: 300 if that was the diameter"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 100", "hose.yaml:1:1", "least_bend_radius_mm is 100, 2 diameters (limits 3 .. 10 of a moved hose). Likely cause: half of the radius", "least_bend_radius_mm: 200 if that was half"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 15", "hose.yaml:12:5", "slack_percent of 'lead' is 15 (limit 5). Likely cause: millimetres in a metre", "slack_percent: 1.5"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 30\n    radial_line_load_N_per_m: 5", "hose.yaml:12:5", "friction_coefficient of 'lead' is 30 (limit 1.5)", "friction_coefficient: 0.3"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    base_grip_N: 1e9", "hose.yaml:12:5", "base_grip_N of 'lead' is 1e+09 (limit 100000)", "no base_grip_N"},
@@ -476,6 +478,17 @@ TEST_CASE("plausible mistakes that make a job are warned of, with place, limit a
     CHECK_THAT(outcome.out, Contains(one.place + (one.place.empty() ? "" : ": ") + "warning: ") && Contains(one.problem) &&
                                 Contains("Remedy: ") && Contains(one.remedy));
   }
+}
+
+TEST_CASE("waits of a program that take more than half of its cycle are named with their share, others are not") {
+  const auto told = [](const std::string& wait) {
+    const Scratch scratch;
+    write_inputs(scratch);
+    scratch.write("spot.mod", replaced_all(module, "ENDPROC", "  WaitTime " + wait + ";\n  MoveAbsJ [[20,0,0,0,60,90],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\nENDPROC"));
+    return run(scratch, "dresslife", "check module.yaml").out;
+  };
+  CHECK_THAT(told("60"), Contains("note: The waits of the program take 60 s, 9") && Contains("the longest one is 60 s, at spot.mod:5:"));
+  CHECK_THAT(told("0.06"), !Contains("The waits of the program"));
 }
 
 TEST_CASE("files as other systems write them are read: byte order marks, line ends, letters, separators") {
