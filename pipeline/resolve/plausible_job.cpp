@@ -41,6 +41,7 @@ constexpr double gravity_spread = 0.01;    // of it: it varies by 0.5 % over the
 constexpr double down = 0.999;             // cosine of 2.6 deg, more than floors slope
 constexpr double least_robot_life = 1000;  // [h]: half a year of one shift
 constexpr double least_week = 5;           // [h]: an hour per working day
+constexpr double hours_of_day = 24;        // robots of plants move 40 h a week and more
 constexpr double largest_endurance = 5e-3;  // of polymers 9e-3 at ten million cycles, of metals a fifth of this
 constexpr double largest_factor = 30;      // 100 is per cent; trials take 0.1 to 10
 constexpr double largest_tolerance = 0.05;  // [m] between the starts of two repeats: a hose's width
@@ -716,6 +717,11 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
     add(WarningKind::material, "fatigue.operating_hours_per_week", fatigue.operating_hours_per_week,
         fmt::format("{:g} or more", least_week), "a share of the week, or another unit",
         "fatigue.operating_hours_per_week: 80, or the hours of motion in a week");
+  else if (fatigue.operating_hours_per_week <= hours_of_day)
+    add(WarningKind::material, "fatigue.operating_hours_per_week", fatigue.operating_hours_per_week,
+        fmt::format("more than {:g}", hours_of_day), "hours of a day",
+        fmt::format("fatigue.operating_hours_per_week: {:g} if that was per working day; leave it if the robot moves so little",
+                    5 * fatigue.operating_hours_per_week));
   if (fatigue.endurance_strain > largest_endurance)
     add(WarningKind::material, "fatigue.endurance_strain", fatigue.endurance_strain, fmt::format("{:g} or less", largest_endurance),
         "per cent instead of a share", fmt::format("fatigue.endurance_strain: {:g} if that was per cent", fatigue.endurance_strain / 100));

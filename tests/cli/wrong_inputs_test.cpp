@@ -339,6 +339,7 @@ const Doubtful doubtful[] = {
     setting("fatigue: {failed_wires_percent: 0.1}", "fatigue.failed_wires_percent is 0.1 (limit 0, or 1 or more)", "fatigue.failed_wires_percent: 10"),
     setting("fatigue: {robot_life_hours: 10}", "fatigue.robot_life_hours is 10 (limit 1000 or more). Likely cause: years", "fatigue.robot_life_hours: 40000"),
     setting("fatigue: {operating_hours_per_week: 0.5}", "fatigue.operating_hours_per_week is 0.5 (limit 5 or more)", "fatigue.operating_hours_per_week: 80"),
+    setting("fatigue: {operating_hours_per_week: 8}", "fatigue.operating_hours_per_week is 8 (limit more than 24). Likely cause: hours of a day", "fatigue.operating_hours_per_week: 40 if"),
     setting("fatigue: {endurance_strain: 0.05}", "fatigue.endurance_strain is 0.05 (limit 0.005 or less)", "fatigue.endurance_strain: 0.0005"),
     setting("fatigue: {strength_factor: 100}", "fatigue.strength_factor is 100 (limit 0.033 .. 30)", "fatigue.strength_factor: 1 if that was per cent"),
     setting("strain: {friction_factor: 0.01}", "strain.friction_factor is 0.01 (limit 0.033 .. 30)", "strain.friction_factor: 1"),
