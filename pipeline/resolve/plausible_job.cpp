@@ -288,7 +288,8 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
     warnings.push_back(warning_of(WarningKind::motion, motion.where.text(),
                                   fmt::format("motion.speed_percent {:g} has no effect", motion.speed_percent),
                                   "each move of the program has its own speed",
-                                  fmt::format("motion.override_percent: {:g} for the speed override of the controller", motion.speed_percent)));
+                                  fmt::format("motion.override_percent: {:g} for the speed override of the controller",
+                                              motion.speed_percent < least_percent ? 100 * motion.speed_percent : motion.speed_percent)));
   doubt_single_targets(motion.steps, warnings);
   doubt_small_steps(motion.steps, warnings);
   doubt_frames(motion.tools, "tool", motion.where, warnings);
@@ -587,9 +588,20 @@ std::optional<double> distance_to(const Robot& robot, const std::string& name, c
 /// A clamp in the air, farther from its link than a bracket or a tool is long.
 void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, const Robot& robot,
                  const AddDoubt& add) {
-  const double limit = std::max(longest_tool, routing.longest_bracket.value_or(0));
+  const double bracket = routing.longest_bracket.value_or(0), limit = std::max(longest_tool, bracket);
   const auto away = distance_to(robot, clamp.link, clamp.position);
-  if (!away || *away <= limit) return;
+  if (!away) return;
+  for (const auto& [one, other] : {std::pair{0, 2}, {0, 1}, {1, 2}}) {
+    Vector3d exchanged = clamp.position;
+    std::swap(exchanged[one], exchanged[other]);
+    if (*away <= std::max(near_link, bracket) || *distance_to(robot, clamp.link, exchanged) > *away / 2) continue;
+    return add(clamp.where,
+               fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g})", key, *away, clamp.link, std::max(near_link, bracket)),
+               "exchanged coordinates",
+               fmt::format("position_m: [{:g}, {:g}, {:g}] if so, or routing.longest_bracket_mm: {:.0f} if a bracket is so long", exchanged.x(),
+                           exchanged.y(), exchanged.z(), std::ceil(1e2 * *away) * 10));
+  }
+  if (*away <= limit) return;
   // Slips of the decimal point in one, then two, then three numbers: the first that leads near to the link.
   Vector3d best = clamp.position;
   double nearest = *away;
@@ -615,13 +627,27 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, co
                                  std::ceil(1e2 * *away) * 10)));
 }
 
+/// Angles about the axes, as a controller shows them.
+void doubt_direction(const char* key, const Clamp& clamp, const AddDoubt& add) {
+  constexpr double round_angle = 5, most = 360;
+  const Vector3d& to = clamp.direction;
+  for (const double number : to)
+    if (std::abs(number) > most || std::abs(std::remainder(number, round_angle)) > 1e-9) return;
+  const Vector3d unit = to.normalized();
+  add(clamp.where, fmt::format("routing.{}.direction is [{:g}, {:g}, {:g}] (limit: numbers below {:g})", key, to.x(), to.y(), to.z(), round_angle),
+      "angles in degrees instead of a vector",
+      fmt::format("direction: [{:.3g}, {:.3g}, {:.3g}] if it points there from the base to the tool, in the frame of the link; [1, 0, 0] is its x axis",
+                  unit.x(), unit.y(), unit.z()));
+}
+
 void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Robot& robot, int segments,
                    const AddDoubt& add) {
   doubt_mounting(routing, add);
   if (const double length = routing.free_length; length > longest_hose)
     add(routing.where, fmt::format("routing.free_length_m is {:.6g} (limit {:g})", length, longest_hose),
         "millimetres instead of metres", fmt::format("routing.free_length_m: {:g} if that was millimetres", length / 1e3));
-  for (const auto& [key, clamp] : {std::pair{"base_clamp", &routing.base_clamp}, {"tool_clamp", &routing.tool_clamp}})
+  for (const auto& [key, clamp] : {std::pair{"base_clamp", &routing.base_clamp}, {"tool_clamp", &routing.tool_clamp}}) {
+    if (*clamp) doubt_direction(key, **clamp, add);
     if (*clamp && (*clamp)->position.norm() > farthest_clamp) {
       const Eigen::Vector3d& at = (*clamp)->position;
       add((*clamp)->where,
@@ -632,6 +658,7 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
     } else if (*clamp) {
       doubt_place(key, **clamp, routing, robot, add);
     }
+  }
   if (const double limit = least_bend_radius(dresspack), segment = routing.free_length / segments;
       routing.base_clamp && segments < few_segments && limit > 0 && segment > limit)
     add(routing.where,

@@ -179,6 +179,7 @@ const Wrong wrong[] = {
     {"cable.yaml", "7 x 0.5 mm2", "7 x 20 mm2", "cable.yaml:6:17: error: ", "a conductor 5.807 mm wide", "give cross_section_mm2: 0.518 if 20 is a wire gauge (AWG)", "dresslife draw cable.yaml"},
     {"cable.yaml", "7 x 0.5 mm2", "0.5 x 7 mm2", "cable.yaml:6:17: error: ", "'0.5 x 7 mm2' of a data sheet is not understood", "write '7 x 0.5 mm2'", "dresslife draw cable.yaml"},
     {"hose.yaml", "diameter_mm: 50\ninner", "diameter_m: 0.05\ninner", "hose.yaml:3:1: error: ", "unknown key 'dresspack.diameter_m'", "its unit is mm, write 'diameter_mm: 50'"},
+    {"job.yaml", "simulation: {segments: 24, contact: false}", "cell: {meshes: [{file: box.obj}]}\nsimulation: {segments: 24}", "", "box.obj: error: the mesh is 300 m long with scale 1 (limit 30 m)", "give the mesh scale: 0.001 if its unit is the millimetre", "dresslife-sim job.yaml -o out.h5"},
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_g_per_m: 1200", "hose.yaml:5:1: error: ", "unknown key 'dresspack.mass_g_per_m'", "write 'mass_kg_per_m: 1.2'"},
     {"axes.csv", "", "t,a,b,c,d,e,f" + axes.substr(axes.find('\n')), "axes.csv:1:1: error: ", "names axes without their order", "motion.values: [{name: joints, value: 'NAME,NAME,...'}]", "dresslife check axes.yaml"},
     {"spot.mod", "MoveAbsJ a", "MoveAbsJ b", "spot.mod:4:", "'b'", "motion.values: [{name: b, value: VALUE}]", "dresslife check module.yaml"},
@@ -228,6 +229,7 @@ void write_inputs(const Scratch& scratch) {
   scratch.write("fleet.yaml", "base: job.yaml\ntable: fleet.csv\n");
   scratch.write("fleet.csv", fleet);
   scratch.write("study.yaml", study);
+  scratch.write("box.obj", "v 0 0 0\nv 300 0 0\nv 0 200 100\nf 1 2 3\n");
   scratch.write("cable.yaml",
                 "name: c\nsource: a data sheet\ncomponents:\n  - name: cable\n    helix_radius_mm: 0\n"
                 "    data_sheet: 7 x 0.5 mm2, wire 0.1 mm, outer diameter 8.2 mm, jacket 1.1 mm\n");
@@ -396,6 +398,8 @@ const Doubtful doubtful[] = {
     {"job.yaml", "position_m: [0.15, 0, 0.18]", "position_m: [1.5, 0, 0.18]", "job.yaml:12:15", "routing.tool_clamp.position_m lies 1.5 m from all shapes of link_6", "position_m: [0.15, 0, 0.18] if a decimal point slipped"},
     setting("cell: {boxes: [{position_m: [50, 0, 0], sides_m: [800, 600, 10]}]}", "cell.boxes[1] is 800 m long (limit 60)", "sides_m: [0.8, 0.6, 0.01] if those were millimetres"),
     setting("robot.joints.3.upper_deg: 4010.7", "joint_3 turns from -180 to 4010.7 deg (limit 4 turns)", "lower_deg: -3.1416 and upper_deg: 70"),
+    {"job.yaml", "direction: [1, 0, 0.45]", "direction: [90, 0, 45]", "job.yaml:11:15", "routing.base_clamp.direction is [90, 0, 45] (limit: numbers below 5). Likely cause: angles", "direction: [0.894, 0, 0.447] if it points there"},
+    {"job.yaml", "[-0.1, 0, 0.45]", "[0.45, 0, -0.1]", "job.yaml:11:15", "routing.base_clamp.position_m lies 0.271 m from all shapes of link_3 (limit 0.25). Likely cause: exchanged coordinates", "position_m: [-0.1, 0, 0.45] if so"},
     {"job.yaml", "direction: [1, 0, -0.35]", "direction: [-1, 0, 0.35]", "", "smallest bend radius at rest: 52.2 mm", "direction"},
 };
 
@@ -520,6 +524,7 @@ TEST_CASE("a misspelt option is answered with the nearest one, a dry run names j
   };
   CHECK(answer("dresslife", "improve job.yaml --trial 2") == "'--trial' is no option of improve; did you mean '--trials'?");
   CHECK(answer("dresslife", "run job.yaml --job=2") == "'--job' is no option of run; did you mean '--jobs'?");
+  CHECK(answer("dresslife", "run job.yaml -n 2") == "'-n' takes no number (print what would be made and why, and run nothing); leave out '2'");
   CHECK(answer("dresslife-import", "spot.mod --anwsers x") ==
         "'--anwsers' is no option of dresslife-import; did you mean '--answers'?");
   scratch.write("study.yaml", "base: job.yaml\nvary:\n  routing.free_length_m: [2.0, 2100]\n");
