@@ -25,6 +25,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/job/learned_settings.h"
 #include "pipeline/report/plan_page.h"
+#include "pipeline/settings/problems.h"
 #include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
@@ -49,10 +50,12 @@ std::vector<Warning> doubts_of(std::optional<double> risk_percent) {
   return {warning_of(
       WarningKind::motion, "--risk",
       fmt::format("the risk is {:g} % (limit {:g} .. {:g})", *risk_percent, least, most),
-      *risk_percent < least ? "a share instead of per cent" : "a dresspack is hardly ever replaced",
-      *risk_percent > 0 && *risk_percent < least
-          ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
-          : "--risk 10")};
+      *risk_percent == 0     ? "a plan without any failure: a new dresspack may fail, too"
+      : *risk_percent < least ? "a share instead of per cent"
+                              : "a dresspack is hardly ever replaced",
+      *risk_percent == 0     ? "--risk 1"
+      : *risk_percent < least ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
+                              : "--risk 10")};
 }
 
 constexpr std::size_t most_named = 3;  // duties or programs of a plant, which may have hundreds
@@ -150,6 +153,10 @@ int plan(const Options& options) {
   const DutyFile file = read_duties(named_file(options.study, "duties"));
   std::set<std::string> needed;
   std::optional<Fleet> changed;
+  Problems problems;
+  const auto need_duties = [&](const Fleet& of) {
+    for (const Installed& row : of.rows) problems.attempt("", row.where, [&] { needed.insert(duty_named(file, row.duty, row.where).name); });
+  };
   if (!options.what_if.empty()) {
     note_input(options.what_if);
     changed = read_fleet(options.what_if, day);
@@ -158,9 +165,12 @@ int plan(const Options& options) {
                        fmt::format("has {}costs, but {} has {}", fleet.has_costs ? "no " : "", options.fleet,
                                    fleet.has_costs ? "some" : "none"),
                        "give both tables the columns planned_cost and unplanned_cost, or none");
-    for (const Installed& row : changed->rows) needed.insert(duty_named(file, row.duty, row.where).name);
+    need_duties(*changed);
   }
-  for (const Installed& row : fleet.rows) needed.insert(duty_named(file, row.duty, row.where).name);
+  need_duties(fleet);
+  problems.finish(options.fleet);
+  if (!fleet.unused.empty())
+    tell(shown(fmt::format("note: {}: a plan does not use the columns {}\n", options.fleet, joined(fleet.unused, ", "))));
   for (const Warning& warning :
        joined(doubts_of(options.risk_percent), joined(doubtful_fleet(fleet, day), doubtful_duties(file))))
     tell(shown(warning.line() + "\n"));

@@ -55,13 +55,8 @@ void add_shapes(World& world, int link, const Shapes& shapes) {
     world.add(link, CapsuleShape{capsule.from, capsule.to, capsule.radius});
   for (const pipeline::Box& box : shapes.boxes)
     world.add(link, BoxShape{frame_of(box.position, box.orientation), box.sides});
-  for (const pipeline::MeshFile& file : shapes.meshes) {
-    std::vector<Triangle> triangles = read_triangles(file.file);
-    for (Triangle& triangle : triangles)
-      for (Vector3& corner : triangle) corner *= file.scale;
-    world.add(link, std::make_shared<const Mesh>(std::move(triangles)),
-              frame_of(file.position, file.orientation));
-  }
+  for (const pipeline::MeshFile& file : shapes.meshes)
+    world.add(link, std::make_shared<const Mesh>(scaled_triangles(file)), frame_of(file.position, file.orientation));
 }
 
 WorldSettings world_settings(const pipeline::Setup& setup) {

@@ -318,6 +318,10 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(refusal("name,duty,installed,planned_cost\nr,day,,3\n").find("no column 'unplanned_cost'") != std::string::npos);
   CHECK(refusal("name,duty,installed,planned_cost,unplanned_cost\nr,day,,3,2\n").find("must be larger") != std::string::npos);
   CHECK(refusal("name,duty,installed,hours_per_week\nr,day,,200\n").find("must be 0.1 .. 168") != std::string::npos);
+  const std::string all = refusal("name,duty,installed,hours_per_week\nr,day,soon,300\n,day,,\nr,day,,\n");  // each row's, at once
+  for (const char* line : {":2:7: error: 'soon' is no date", ":2:12: error: hours_per_week is '300'", ":3:1: error: name is empty", ":4:1: error: 'r' is the name of line 2, too"})
+    CHECK_THAT(all, Catch::Contains(line));
+  CHECK(read("Name,DUTY,Installed,Plant area,Note\nr,day,2025-02-28,hall 3,\n").unused == std::vector<std::string>{"Plant area", "Note"});
   CHECK(refusal("name,duty,installed\n").find("no row") != std::string::npos);
   CHECK(refusal("name,duty,installed,\nr,day,,\n").find("a column has no title; give it one") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,\nT\xfcr,day,\n").find("fleet.csv:3: error: is no text in UTF-8") != std::string::npos);
