@@ -65,8 +65,15 @@ std::string percent_text(double share) { return readable(100 * share, 2) + " %";
 std::string expected_words(const Plan& plan) {
   double before = 0;
   for (const RowPlan& row : plan.rows) before += row.fails_before_first;
-  return fmt::format("{} dresspacks, from {} to {}. Before the first window {} of them are expected to fail.",
-                     plan.rows.size(), day_text(plan.today), day_text(plan.end), readable(before, 2));
+  constexpr double surprising = 0.023;  // beyond two deviations
+  std::string alive;
+  if (plan.all_alive < surprising)
+    alive = fmt::format(
+        " That all of them live today was unlikely by the model: 1 of {} such plants. This plan is of such plants alone. If a job or a "
+        "date is wrong, correct it; dresslife calibrate learns from more records.",
+        readable(1 / plan.all_alive, 2));
+  return fmt::format("{} dresspacks, from {} to {}. Before the first window {} of them are expected to fail.{}",
+                     plan.rows.size(), day_text(plan.today), day_text(plan.end), readable(before, 2), alive);
 }
 
 std::string kept_words(const Fleet& fleet, const Plan& plan) {

@@ -236,6 +236,59 @@ TEST_CASE("survivors tell which world the plant is in, and the spread between pl
   CHECK(fresh.effective_worlds == Approx(2).epsilon(1e-12));
 }
 
+TEST_CASE("survivors that the model hardly expects are named, and an age that no sample reaches is no safe one") {
+  // One world, a constant failure rate: eight live with the probability S(a)^8.
+  constexpr double mean = 1000, age = 10 * week;
+  const Fleet eight = fleet_of(many(8, 10));
+  const Plan plan = plan_of(eight, {{"d", weibull(1, {mean})}}, windows_in({10}), start, {1, false});
+  CHECK(plan.reach_their_age == Approx(std::exp(-age / mean)).epsilon(1e-3));
+  CHECK(plan.all_alive == Approx(std::exp(-8 * age / mean)).epsilon(8e-3));
+  CHECK(plan_words(eight, plan).find("unlikely by the model: 1 of 270 such plants") != std::string::npos);
+  const Fleet one = fleet_of({1});
+  CHECK(plan_words(one, plan_of(one, {{"d", weibull(1, {mean})}}, windows_in({10}), start, {1, false})).find("unlikely") == std::string::npos);
+  // A calibration that counts them already, and under which none of 64 lives so long.
+  PlanRule counted{0.1, false};
+  counted.knows_survivors = true;
+  const Plan past = plan_of(fleet_of({300}), {{"d", weibull(2, {mean}, 64)}}, windows_in({10, 20}), start, counted);
+  CHECK(past.reach_their_age == 0);
+  CHECK(past.rows[0].fails_before_first == 1);
+  CHECK(past.rows[0].fails_in_week[0] == 1);
+  CHECK(past.failures_in_week[0] == Approx(1).margin(0.1));  // and some of the new ones
+}
+
+TEST_CASE("a history counts as hours of today's duty that wear a dresspack as much") {
+  // Under the hard duty everything lives a quarter as long: the conversion is exact.
+  std::map<std::string, LifeTable> tables{{"d", weibull(2.5, {4000, 8000})}, {"hard", weibull(2.5, {1000, 2000})}};
+  tables.at("hard").hours_per_week = 2 * week;
+  DutyFile file;
+  file.duties.resize(2);
+  Duty &d = file.duties[0], &hard = file.duties[1];
+  d.name = "d", hard.name = "hard";
+  const auto ages = [&](std::vector<PastDuty> history, std::size_t warned) {
+    d.history = std::move(history);
+    Fleet fleet = fleet_of({20, 4});
+    fleet.rows[1].hours_per_week = 35;
+    CHECK(add_histories(fleet, file, tables, start).size() == warned);
+    return std::array<double, 2>{*fleet.rows[0].age_hours, *fleet.rows[1].age_hours};
+  };
+  const auto is = [](const std::array<double, 2>& found, double first, double second) {
+    CHECK(found[0] == Approx(first).epsilon(1e-6));  // lives are single precision
+    CHECK(found[1] == Approx(second).epsilon(1e-6));
+  };
+  PastDuty hours, days;
+  hours.duty = days.duty = "hard";
+  hours.hours = 100;
+  days.from = day_text(start - std::chrono::days(70)), days.to = day_text(start - std::chrono::days(15));
+  is(ages({hours}, 0), 20 * week - 100 + 4 * 100, 140 - 100 + 4 * 100);
+  // 56 days, of which the second dresspack has had the last 14: of 28 in all.
+  is(ages({days}, 0), 12 * week + 4 * 8 * 2 * week, 2 * 35 + 4 * 2 * 35);
+  is(ages({hours, days}, 0), 12 * week - 100 + 4 * (100 + 8 * 2 * week), 4 * 4 * 35);
+  hours.hours = 200;  // more than the second one has run: all of it
+  is(ages({hours}, 1), 20 * week - 200 + 4 * 200, 4 * 140);
+  hours.duty = "d";
+  is(ages({hours}, 1), 20 * week, 140);
+}
+
 TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and the plant its worlds") {
   // Under the hard duty everything lives half as long.
   const std::map<std::string, LifeTable> tables{{"d", weibull(2.5, {4000, 8000})}, {"hard", weibull(2.5, {2000, 4000})}};
