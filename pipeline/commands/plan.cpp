@@ -24,6 +24,7 @@
 #include "pipeline/commands/duties_run.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/learned_settings.h"
+#include "pipeline/life/planning.h"
 #include "pipeline/report/plan_page.h"
 #include "pipeline/study/row_warnings.h"
 

@@ -96,9 +96,6 @@ struct Plan {
 
 /// Fewer are no sample: percentiles would rest on chance.
 constexpr double fewest_worlds = 20;
-/// Where fewer dresspacks would reach such ages, the calibration hardly knows them. Under replacements at failure alone this share is
-/// 48 % for lives with a deviation of ln of 1, 29 % of 1.5 and 16 % of 2: integral of S^2 over that of S = 2 Phi(-s/2^0.5).
-constexpr double usual_reach = 0.1;
 /// With fewer the plan is made again from more worlds: a probability of 10 % is known to 3 %.
 constexpr double enough_worlds = 100;
 
