@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <map>
 #include <memory>
@@ -405,11 +406,18 @@ void check_programs(const DutyFile& file, const Study& study) {
                      "keep: histories, or all, in the study");
   Problems problems;
   const Jobs jobs(study);
-  for (const Duty& duty : file.duties)
-    problems.attempt("", duty.where, [&] {
-      for (const DutyProgram& program : duty.programs) jobs.of(program);
-      check_same_dresspack(file, duty, jobs);
-    });
+  std::vector<std::exception_ptr> refused(file.duties.size());  // texts of thousands of jobs take a second
+  const std::size_t threads = std::min(thread_count(), refused.size());
+  in_parallel(threads, [&](std::size_t part) {
+    for (std::size_t d = part; d < refused.size(); d += threads) try {
+        for (const DutyProgram& program : file.duties[d].programs) jobs.of(program);
+        check_same_dresspack(file, file.duties[d], jobs);
+      } catch (const InputError&) {
+        refused[d] = std::current_exception();
+      }
+  });
+  for (std::size_t d = 0; d < refused.size(); ++d)
+    if (refused[d]) problems.attempt("", file.duties[d].where, [&] { std::rethrow_exception(refused[d]); });
   problems.finish(file.where.file);
 }
 
