@@ -66,17 +66,39 @@ class Worlds {
     if (all > 0) return sum / all;
     return from <= now && to > from ? 1 : 0;  // no world has a life of its age: it fails at once
   }
-  /// (interval) P(failure in it | it lives at `now`), of intervals of so many hours.
+  /// (interval) P(failure in it | it lives at `now`), of intervals of so many hours. Each life is spread evenly between the middles to its
+  /// neighbours: an interval of few lives would otherwise show their chance.
   std::vector<double> fails_in(const LifeTable& table, double now, double hours, std::size_t intervals) const {
     std::vector<double> fails(intervals, 0.0);
+    const double last = now + hours * double(intervals);
     double all = 0;
     for (std::size_t w = 0; w < weight_.size(); ++w) {
-      const float *const end = table.hours.data() + (w + 1) * table.draws, *life = table.first_after(w, now);
-      if (life == end) continue;
-      const double share = weight_[w] / double(end - life);
+      const float *const begin = table.hours.data() + w * table.draws, *const end = begin + table.draws, *const first = table.first_after(w, now);
+      if (first == end) continue;
       all += weight_[w];
-      for (; life != end && *life < now + hours * double(intervals); ++life)
-        fails[std::min(intervals - 1, static_cast<std::size_t>((*life - now) / hours))] += share;
+      const auto above = [&](const float* life) -> double {  // the end of its part
+        if (life + 1 != end && std::isfinite(life[1])) return (double(life[0]) + life[1]) / 2;
+        return life == begin ? life[0] : life[0] + (double(life[0]) - life[-1]) / 2;
+      };
+      const auto below = [&](const float* life) -> double {
+        return life == begin ? std::max(life[0] / 2.0, 2 * double(life[0]) - above(life)) : above(life - 1);
+      };
+      const auto left = [&](const float* life) {  // share of its part that lies after `now`
+        const double from = std::isinf(*life) ? now : below(life), to = std::isinf(*life) ? now : above(life);
+        return to > from ? std::clamp((to - now) / (to - from), 0.0, 1.0) : *life > now ? 1.0 : 0.0;
+      };
+      const float* life = first == begin ? first : first - 1;
+      const double share = weight_[w] / (left(first) + double(end - first - 1) + (life == first ? 0 : left(life)));
+      for (; life != end && std::isfinite(*life) && below(life) < last; ++life) {
+        const double from = below(life), to = above(life), per_hour = to > from ? share / (to - from) : 0;
+        double at = std::max(from, now);
+        if (per_hour == 0 && *life > now) fails[std::min(intervals - 1, static_cast<std::size_t>((*life - now) / hours))] += share;
+        for (auto k = static_cast<std::size_t>((at - now) / hours); per_hour > 0 && at < to && k < intervals; ++k) {
+          const double until = std::min(to, now + hours * double(k + 1));
+          fails[k] += per_hour * std::max(0.0, until - at);
+          at = std::max(at, until);
+        }
+      }
     }
     if (!(all > 0)) fails.front() = 1;
     for (double& of_interval : fails) of_interval /= all > 0 ? all : 1;
@@ -217,7 +239,7 @@ std::size_t weeks_until(double days) { return static_cast<std::size_t>(std::ceil
 /// One simulated plant.
 struct Outcome {
   std::vector<int> planned, unplanned;  ///< (year)
-  std::vector<int> failures;            ///< (week)
+  std::vector<int> failures;            ///< (week) of dresspacks that were put in later
   double cost = 0;
 };
 
@@ -257,7 +279,7 @@ class Simulation {
     bool is_first = true;
     const auto put_in = [&](double day, bool planned) {
       ++(planned ? outcome.planned : outcome.unplanned)[std::min(years_ - 1, static_cast<std::size_t>(day / days_per_year))];
-      if (!planned) ++outcome.failures[std::min(weeks_ - 1, static_cast<std::size_t>(day / 7))];
+      if (!planned && !is_first) ++outcome.failures[std::min(weeks_ - 1, static_cast<std::size_t>(day / 7))];
       outcome.cost += planned ? fleet_.rows[i].planned_cost : fleet_.rows[i].unplanned_cost;
       begun = day, is_first = false;
       fails = begun + std::max(shortest_life, draw(table, world, 0, random)) / rate;
@@ -443,10 +465,16 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     }
     if (!row.window) row.fails_before = failed;
   }
+  plan.failures_in_week.resize(weeks_until(times.back()));
+  plan.failures_in_week_without_windows = plan.failures_in_week;
+  for (const RowPlan& row : plan.rows)
+    for (std::size_t week = 0; week < row.fails_in_week.size(); ++week) {
+      const double until = row.window ? times[*row.window] / 7 - double(week) : 1;  // its replacement [weeks]
+      plan.failures_in_week[week] += std::clamp(until, 0.0, 1.0) * row.fails_in_week[week];
+      plan.failures_in_week_without_windows[week] += row.fails_in_week[week];
+    }
   const Simulation simulation(fleet, of_row, hours_per_day, plan.rows, times, worlds);
   std::vector<std::vector<double>> replaced;  // (year, plant)
-  plan.failures_in_week.resize(weeks_until(times.back()));
-  plan.failures_in_week_without_windows.resize(plan.failures_in_week.size());
   for (std::size_t p = 0; p < plants; ++p) {
     RandomNumbers random(mixed(seed + p)), same(mixed(seed + p));  // costs are compared plant by plant
     const Outcome outcome = simulation.plant(random, &decision);

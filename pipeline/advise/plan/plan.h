@@ -84,7 +84,7 @@ struct Plan {
   std::vector<Window> windows;
   std::vector<RowPlan> rows;
   std::vector<YearOfPlan> years;
-  std::vector<double> failures_in_week, failures_in_week_without_windows;  ///< (week) of all, mean over simulated plants
+  std::vector<double> failures_in_week, failures_in_week_without_windows;  ///< (week) of all; of later ones the mean over simulated plants
   double risk = 0;                                                         ///< of the rule (D4)
   bool by_cost = false;                                                    ///< (D5)
   double cost = 0, cost_without_windows = 0;  ///< mean over simulated plants: by this plan; if only failures are replaced
