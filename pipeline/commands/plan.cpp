@@ -243,7 +243,9 @@ int plan(const Options& options) {
     write_text_if_changed(beside, plan_csv(*changed, *other));
     write_text_if_changed(
         its_page, with_mark(plan_page(fs::path(options.what_if).stem().string(), *changed, *other,
-                                      {notes.doubts, "", notes.paragraphs}, beside.filename().string()),
+                                      {notes.doubts, "", notes.paragraphs, fs::path(options.fleet).stem().string(),
+                                       beside_rows(fleet, found, *changed, *other)},
+                                      beside.filename().string()),
                             Mark::page));
     what_if += fmt::format("Table: {}\nPage: {}\n", beside.string(), its_page.string());
   }

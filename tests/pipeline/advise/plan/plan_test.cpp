@@ -334,7 +334,16 @@ TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and th
   CHECK(other.rows[1].fails_before_first == Approx(later.rows[1].fails_before_first).margin(4e-4));  // 20,000 draws
   CHECK(other.weights == plan.weights);
   const std::string words = what_if_words(fleet, plan, changed, other);
-  CHECK(words.find("dresspacks                                           3                     4\n") != std::string::npos);
+  CHECK(words.starts_with("What if "));
+  CHECK(words.find("dresspacks                                             3                     4           + 1\n") != std::string::npos);
+  const std::vector<BesideRow> beside = beside_rows(fleet, plan, changed, other);
+  const auto failures = [](const Plan& of) {
+    double sum = 0;
+    for (const YearOfPlan& year : of.years) sum += year.unplanned;
+    return sum;
+  };
+  CHECK(std::stod(beside[2].more.substr(2)) == Approx(std::abs(failures(other) - failures(plan))).epsilon(0.05));  // two digits
+  CHECK(beside[2].more[0] == (failures(other) > failures(plan) ? '+' : '-'));
   CHECK(words.find("one more: ") != std::string::npos);
   // The same fleet once more changes nothing.
   Fleet unchanged = fleet;
@@ -436,7 +445,7 @@ TEST_CASE("the calendar has an event for each window with work, in lines of 75 b
   const std::string calendar = plan_calendar(fleet, plan);
   CHECK(calendar.find("SUMMARY:Replace 30 dresspacks\r\n") != std::string::npos);
   CHECK(calendar.find("DTSTART;VALUE=DATE:20261221\r\nDTEND;VALUE=DATE:20261222\r\n") != std::string::npos);
-  CHECK(calendar.find("VALUE=DATE:20270621") == std::string::npos);  // nothing is left for the second
+  CHECK(calendar.find("DTSTART;VALUE=DATE:20270621\r\nDTEND;VALUE=DATE:20270622\r\nSUMMARY:No dresspack to replace\r\n") != std::string::npos);
   std::size_t begin = 0;
   for (std::size_t end; (end = calendar.find("\r\n", begin)) != std::string::npos; begin = end + 2) CHECK(end - begin <= 75);
   CHECK(begin == calendar.size());
