@@ -101,7 +101,7 @@ void describe(Fields& f, Duty& duty) {
   f.list("order", duty.order, Need::optional,
          "One round of the programs, which begins again after the last of them. With it the changes between programs count.");
   f.list("history", duty.history, Need::optional,
-         "What the dresspack has done so far. With it the remaining life is predicted.");
+         "What the dresspack has done so far. With it the remaining life is predicted, and a plan counts it.");
 }
 
 namespace {
