@@ -52,7 +52,7 @@ std::string other_words(const DutyMode& mode) {
   if (mode.mode == UnvalidatedMode::corkscrew)
     return fmt::format("1 of 10 dresspacks{} has a corkscrew after {}", of, hours);
   if (mode.mode == UnvalidatedMode::kink)
-    return std::isinf(mode.hours) ? fmt::format("no tube{} kinks in 9 of 10 dresspacks", of) : fmt::format("a tube{} kinks", of);
+    return std::isinf(mode.hours) ? fmt::format("no tube{} kinks in 9 of 10 dresspacks", of) : fmt::format("in 1 of 10 dresspacks or more a tube{} kinks", of);
   return fmt::format("1 of 10 hoses{} is worn through after {}", of, hours);
 }
 
