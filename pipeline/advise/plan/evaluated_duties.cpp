@@ -451,6 +451,17 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
   result.hours_per_week = duty.hours_per_week;
   result.has_order = !duty.order.empty();
   rates = rates_of(duty, programs, result.parts);
+  if (result.has_order) {
+    result.rounds_per_hour = repeats_in_rounds(duty, repeats_of(result.parts)).back();
+    for (const DutyPart& part : result.parts) {
+      double in_rounds = 0;
+      for (const OrderedProgram& ordered : duty.order)
+        if (ordered.job == part.job) in_rounds += result.rounds_per_hour * ordered.repeats;
+      constexpr double worth_a_word = 0.01;
+      if (const double outside = 1 - in_rounds / part.repeats_per_hour; outside > worth_a_word)
+        result.outside.push_back(fmt::format("{} ({:.0f} %)", part.job, 100 * outside));
+    }
+  }
   result.others = other_modes(result.parts, programs.rows(duty));
   result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
   std::vector<DutyProgram> all = duty.programs;
