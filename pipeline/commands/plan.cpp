@@ -24,7 +24,6 @@
 #include "pipeline/commands/duties_run.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/learned_settings.h"
-#include "pipeline/life/planning.h"
 #include "pipeline/report/plan_page.h"
 #include "pipeline/study/row_warnings.h"
 
@@ -195,16 +194,7 @@ int plan(const Options& options) {
         fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",
                     found.effective_worlds, tables.begin()->second.worlds),
         "learn from them first: dresslife calibrate");
-  if (found.reach_their_age < usual_reach)
-    tell(shown(
-        warning_of(
-            WarningKind::motion, options.fleet,
-            fmt::format("by the model {} of new dresspacks reach the ages of these {} (limit {})",
-                        percent_text(found.reach_their_age), fleet.rows.size(), percent_text(usual_reach)),
-            "a job or hours per week that are not theirs, or a calibration with records that begin after most of their life",
-            "dresslife calibrate with an earlier day (--records-since), from which the table has every removal")
-            .line() +
-        "\n"));
+  for (const Warning& warning : doubtful_ages(fleet, found)) tell(shown(warning.line() + "\n"));
   std::optional<Plan> other;
   std::string what_if;
   if (changed) {
