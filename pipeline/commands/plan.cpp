@@ -247,7 +247,7 @@ int plan(const Options& options) {
                  : now + "\n";
   };
   print(options.json ? json()
-                     : shown(fmt::format("{}{}{}\n{}Table: {}\nWeeks: {}\nCalendar: {}\nPage: {}\n",
+                     : shown(fmt::format("{}{}{}\n{}Table: {} (columns: comma, decimals: point)\nWeeks: {}\nCalendar: {}\nPage: {}\n",
                                          block(doubts(duties)), plan_words(fleet, found), tests,
                                          block(cautions(duties)), table.string(), weeks.string(),
                                          calendar.string(), page.string()) +
