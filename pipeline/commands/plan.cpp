@@ -183,8 +183,9 @@ int plan(const Options& options) {
   add_past(fleet);
   const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent,
                       knows_survivors(made.study)};
-  if (effective_worlds(fleet, tables, day, rule) < enough_worlds) {  // many survivors leave few worlds
-    constexpr std::size_t times = 8;                                 // some seconds for 500 dresspacks
+  if (const double effective = effective_worlds(fleet, tables, day, rule); effective < enough_worlds) {  // many survivors leave few worlds
+    constexpr double spare = 1.2, most = 8;  // few worlds tell how many more are needed to a tenth; ten seconds for 500 dresspacks
+    const auto times = static_cast<std::size_t>(std::clamp(std::ceil(spare * enough_worlds / effective), 2.0, most));
     tables = life_tables(file, made.study, made.rows, needed, times * usual_worlds);
   }
   const Plan found = plan_of(fleet, tables, windows, day, rule);
