@@ -594,7 +594,8 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, co
   for (const auto& [one, other] : {std::pair{0, 2}, {0, 1}, {1, 2}}) {
     Vector3d exchanged = clamp.position;
     std::swap(exchanged[one], exchanged[other]);
-    if (*away <= std::max(near_link, bracket) || *distance_to(robot, clamp.link, exchanged) > *away / 2) continue;
+    const double then = *distance_to(robot, clamp.link, exchanged);
+    if (*away <= std::max(near_link, bracket) || then > *away / 2 || then == 0) continue;  // within the link is no clamp
     return add(clamp.where,
                fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g})", key, *away, clamp.link, std::max(near_link, bracket)),
                "exchanged coordinates",

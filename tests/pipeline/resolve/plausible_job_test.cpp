@@ -55,6 +55,8 @@ TEST_CASE("plausible job: a speed for moves that all have their own has no effec
   for (MotionStep& step : motion.steps) step.tool_speed = 0.5;
   REQUIRE(plausibility_of_steps(motion).size() == 1);
   CHECK(plausibility_of_steps(motion)[0].words.find("motion.override_percent: 50") != std::string::npos);
+  motion.speed_percent = 0.5;  // a share; the override has 1 % at least
+  CHECK(plausibility_of_steps(motion)[0].words.find("motion.override_percent: 50") != std::string::npos);
 }
 
 TEST_CASE("plausible steps: angles that are all below a turn in radians and yet move") {

@@ -209,6 +209,7 @@ TEST_CASE("a file of duties that contradicts itself is refused at its place") {
   CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1}\n", "    order: [{job: a, repeats: 0}]\n")).find("repeats") !=
         std::string::npos);
   CHECK(refusal(of_programs("      - {job: a, repeat_per_hour: 1}\n")).find("did you mean 'repeats_per_hour'") != std::string::npos);
+  CHECK(refusal("study: s\nduties: [{name: T\xfcr}]\n").find("duties.yaml:2: error: is no text in UTF-8") != std::string::npos);
   CHECK(refusal("study: s\nduties: []\n").find("duties") != std::string::npos);
   CHECK(refusal("duties: [{name: d, programs: [{job: a, percent_of_time: 5}]}]\n").find("study") != std::string::npos);
 }
