@@ -73,7 +73,7 @@ std::string expected_words(const Plan& plan) {
     alive = fmt::format(
         " That all of them live today was unlikely by the model: 1 of {} such plants. This plan is of such plants alone. If a job or a "
         "date is wrong, correct it; dresslife calibrate learns from more records.",
-        readable(1 / plan.all_alive, 2));
+        readable(1 / std::max(plan.all_alive, 1e-12), 2));
   return fmt::format("{} dresspack{}, from {} to {}. Before the first window {} of them are expected to fail.{}",
                      plan.rows.size(), plan.rows.size() == 1 ? "" : "s", day_text(plan.today), day_text(plan.end), readable(before, 2), alive);
 }
