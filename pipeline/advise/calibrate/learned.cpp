@@ -39,11 +39,11 @@ void add_service_doubts(const LearnedTest& test, double surprising, Learned& lea
   const ServiceChance &before = test.chance_before, &after = test.chance_after;
   const std::string name = test.observation.name, seen = observed_text(test.observation);
   const auto percent = [](double share) { return readable(100 * share, 2) + " %"; };
-  if (const double chance = std::min(before.few, before.many); chance < surprising)
+  if (const double chance = std::min(before.few, before.many); chance < surprising)  // from 1e12 plants on the number says nothing more
     learned.warnings.push_back(fmt::format(
-        "'{}': {} failures than predicted ({}): without the calibration 1 of {} such plants has as {}. The predicted life of half of them "
+        "'{}': {} failures than predicted ({}): without any observation (makers' ratings, too) 1 of {} such plants has as {}. The predicted life of half of them "
         "changed from {} to {}. Correct the job, the dates or the hours per week if one of them is wrong",
-        name, before.few < before.many ? "fewer" : "more", seen, readable(1 / chance, 2), before.few < before.many ? "few" : "many",
+        name, before.few < before.many ? "fewer" : "more", seen, readable(1 / std::max(chance, 1e-12), 2), before.few < before.many ? "few" : "many",
         life_text(test.before[1], 2), life_text(test.after[1], 2)));
   if (after.reach < usual_reach) {
     std::vector<double> ages;

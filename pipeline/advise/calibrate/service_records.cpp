@@ -354,7 +354,7 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   if (!since)
     throw InputError({request.file.string()},
                      "has no dresspack that was removed, so the first day of the records is not known",
-                     "give it: --records-since DATE");
+                     "give the day from which the table has every removal, or that of the first installation if no dresspack was ever removed: --records-since DATE");
 
   ServiceTests read;
   std::map<std::string, std::size_t> known;  // tests by their job

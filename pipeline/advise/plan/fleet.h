@@ -23,7 +23,8 @@ struct Installed {
   Day since{};
   std::optional<double> hours_per_week;
   double planned_cost = 0, unplanned_cost = 0;
-  std::optional<double> age_hours{};  ///< of a changed duty (keep_ages()); absent: the hours since then
+  std::optional<double> age_hours{};  ///< after other duties (add_histories(), keep_ages()): hours under its own; absent: the hours since then
+  std::optional<double> run_hours{};  ///< of operation so far, under any duty; absent: at its hours per week since then
 };
 
 struct Fleet {

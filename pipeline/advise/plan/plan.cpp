@@ -112,8 +112,12 @@ class Worlds {
 
 double hours_in_day(const Installed& row, const LifeTable& table) { return row.hours_per_week.value_or(table.hours_per_week) / 7; }
 
+double run_of(const Installed& row, const LifeTable& table, Day today) {
+  return row.run_hours.value_or(days_between(row.since, today) * hours_in_day(row, table));
+}
+
 double age_of(const Installed& row, const LifeTable& table, Day today) {
-  return row.age_hours.value_or(days_between(row.since, today) * hours_in_day(row, table));
+  return row.age_hours.value_or(run_of(row, table, today));
 }
 
 /// Hours under a duty that wear as much as these under another one, by the median lives of both.
@@ -381,6 +385,7 @@ void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, Lif
     const LifeTable &before = tables.at(old->duty), &after = tables.at(row.duty);
     const double age = age_of(*old, before, today);
     row.age_hours = old->duty == row.duty ? age : age_under(after, age, before);
+    row.run_hours = run_of(*old, before, today);
   }
 }
 
@@ -407,12 +412,13 @@ std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std
       past_hours.back() = hours_in(under, past.duty);
     }
     const double all = hours_in(std::max(0.0, days), row.duty), counted = given > all ? all / given : 1;
-    double age = all - counted * given;
+    double age = all - counted * given, run = age;
     for (std::size_t k = 0; k < past_hours.size(); ++k) {
       const PastDuty& past = duty.history[k];
-      age += age_under(table, past_hours[k] * (past.from.empty() ? counted : 1), tables.at(past.duty));
+      const double hours = past_hours[k] * (past.from.empty() ? counted : 1);
+      run += hours, age += age_under(table, hours, tables.at(past.duty));
     }
-    row.age_hours = age;
+    row.age_hours = age, row.run_hours = run;
     if (days > 0 && given > all + hours_in(7, row.duty) && count++ == 0)  // a week: dates are seldom exact to the day
       younger = &row, words = fmt::format("{}, of which its history by hours has {}", hours_text(all), hours_text(given));
   }
@@ -445,6 +451,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     of_row.push_back(&tables.at(row.duty));
     hours_per_day.push_back(hours_in_day(row, *of_row.back()));
     plan.rows.emplace_back().age_hours = age_of(row, *of_row.back(), today);
+    plan.rows.back().run_hours = run_of(row, *of_row.back(), today);
     plan.reach_their_age += worlds.reaches(*of_row.back(), plan.rows.back().age_hours) / double(fleet.rows.size());
   }
   Decision decision(worlds, rule, times.back() * *std::max_element(hours_per_day.begin(), hours_per_day.end()));

@@ -66,7 +66,8 @@ struct PlanRule {
 };
 
 struct RowPlan {
-  double age_hours = 0;
+  double age_hours = 0;                  ///< under its duty
+  double run_hours = 0;                  ///< under any duty
   double fails_before_first = 0;         ///< before the first window
   std::vector<double> fails_in_week;     ///< (week from today) P(failure in it) of today's dresspack, if it is not replaced
   std::vector<double> fails_until_next;  ///< (window) from it to the next one, if the dresspack lives then

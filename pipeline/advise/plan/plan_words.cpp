@@ -73,7 +73,7 @@ std::string expected_words(const Plan& plan) {
     alive = fmt::format(
         " That all of them live today was unlikely by the model: 1 of {} such plants. This plan is of such plants alone. If a job or a "
         "date is wrong, correct it; dresslife calibrate learns from more records.",
-        readable(1 / plan.all_alive, 2));
+        readable(1 / std::max(plan.all_alive, 1e-12), 2));
   return fmt::format("{} dresspack{}, from {} to {}. Before the first window {} of them are expected to fail.{}",
                      plan.rows.size(), plan.rows.size() == 1 ? "" : "s", day_text(plan.today), day_text(plan.end), readable(before, 2), alive);
 }
@@ -132,7 +132,7 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
   for (const std::size_t i : risky) {
     const RowPlan& row = plan.rows[i];
     text +=
-        fmt::format("{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", fleet.rows[i].name, wide, readable(row.age_hours),
+        fmt::format("{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", fleet.rows[i].name, wide, readable(row.run_hours),
                     percent_text(row.fails_before_first), percent_text(row.fails_before),
                     row.window ? day_text(plan.windows[*row.window].first) : "in no window");
   }
@@ -217,7 +217,7 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
     if (known == limits.end() || (!row.hours_per_week && usual == week_hours.end())) continue;
     const std::optional<std::size_t> window = plan.rows[i].window;
     const Day last = window ? plan.windows[*window].first : plan.end;
-    const double weeks = static_cast<double>((last - plan.today).count()) / 7, age = plan.rows[i].age_hours,
+    const double weeks = static_cast<double>((last - plan.today).count()) / 7, age = plan.rows[i].run_hours,
                  then = age + weeks * row.hours_per_week.value_or(usual == week_hours.end() ? 0 : usual->second);
     for (const AgeLimit& limit : known->second) {
       if (!(limit.hours <= then)) continue;
@@ -302,17 +302,18 @@ std::string plan_csv(const Fleet& fleet, const Plan& plan,
   std::string text =
       "name,duty,installed,age_hours,fails_before_first_window,replace_in,fails_before_replacement";
   for (const Window& window : plan.windows) text += fmt::format(",fails_after_{}", day_text(window.first));
-  text += ",check_today_saves,checks_save\n";
+  text += ",check_today_saves,checks_save,age_under_duty_hours\n";
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
     const RowPlan& row = plan.rows[i];
     std::vector<std::string> cells{
         csv_cell(fleet.rows[i].name),          csv_cell(fleet.rows[i].duty),
-        day_text(fleet.rows[i].since),         shortest_text(row.age_hours),
+        day_text(fleet.rows[i].since),         shortest_text(row.run_hours),
         shortest_text(row.fails_before_first), row.window ? day_text(plan.windows[*row.window].first) : "",
         shortest_text(row.fails_before)};
     for (const double share : row.fails_until_next) cells.push_back(shortest_text(share));
     cells.push_back(checks ? shortest_text((*checks)[i].today) : "");
     cells.push_back(checks ? shortest_text((*checks)[i].regular) : "");
+    cells.push_back(shortest_text(row.age_hours));
     text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return text;

@@ -295,6 +295,8 @@ TEST_CASE("a history counts as hours of today's duty that wear a dresspack as mu
     Fleet fleet = fleet_of({20, 4});
     fleet.rows[1].hours_per_week = 35;
     CHECK(add_histories(fleet, file, tables, start).size() == warned);
+    CHECK(*fleet.rows[0].run_hours >= 20 * week);
+    CHECK(*fleet.rows[1].run_hours == Approx(4 * 35));
     return std::array<double, 2>{*fleet.rows[0].age_hours, *fleet.rows[1].age_hours};
   };
   const auto is = [](const std::array<double, 2>& found, double first, double second) {
@@ -331,6 +333,7 @@ TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and th
   CHECK(other.rows[0].age_hours == plan.rows[0].age_hours);
   CHECK(other.rows[0].fails_before_first == plan.rows[0].fails_before_first);
   CHECK(other.rows[1].age_hours == Approx(plan.rows[1].age_hours / 2).epsilon(1e-6));  // lives are single precision
+  CHECK(other.rows[1].run_hours == Approx(plan.rows[1].run_hours).epsilon(1e-9));
   CHECK(other.rows[3].age_hours == 0);
   // The remaining life is half as long: in four weeks happens what else happens in eight.
   const Plan later = plan_of(fleet, tables, windows_in({8, 28}), start, rule);
