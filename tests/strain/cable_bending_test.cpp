@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "pipeline/base/constants.h"
 #include "strain/construction.h"
 #include "tests/strain/strand_bending.h"
 #include "tests/catch.h"
@@ -14,7 +15,6 @@ using namespace test_dresspacks;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double youngs_modulus = 117e9, poisson_ratio = 0.34;
 
 /// The thesis' cable with pressures.

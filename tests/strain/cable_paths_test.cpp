@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <list>
-#include <numbers>
 #include <tuple>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/cable/plain_properties.h"
 #include "strain/cable_paths.h"
@@ -22,7 +22,6 @@ using dresslife::pipeline::Slip;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double length = 2;
 constexpr std::size_t segments = 64;
 

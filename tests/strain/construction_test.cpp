@@ -1,8 +1,8 @@
 #include "strain/construction.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/errors.h"
 #include "strain/slip.h"
 #include "tests/catch.h"
@@ -15,7 +15,6 @@ using dresslife::pipeline::Slip;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-12;
 
 /// Difference of two angles, whole turns apart or not.

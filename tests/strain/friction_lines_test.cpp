@@ -2,9 +2,9 @@
 #include "tests/strain/friction_lines.h"
 
 #include <functional>
-#include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/shares.h"
 #include "strain/friction.h"
@@ -20,8 +20,6 @@ using friction_lines::SlidingWire;
 using namespace test_dresspacks;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Wires of one layer of a part that lies straight or on a helix in a straight cable. All of them feel the same
 /// wave along themselves, so one that is long enough is all.

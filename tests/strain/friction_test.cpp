@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/shares.h"
 #include "strain/evaluation.h"
 #include "tests/catch.h"
@@ -22,7 +22,6 @@ using Settings = dresslife::pipeline::Strain;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr std::size_t segments = 3, samples = 301;
 
 Deformation deformation(std::size_t i, std::size_t t) {

@@ -1,9 +1,9 @@
 #include "strain/sliding_layer.h"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "strain/history.h"
 #include "strain/nesting.h"
 #include "tests/catch.h"
@@ -17,7 +17,6 @@ using dresslife::pipeline::Slip;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr std::size_t samples = 250, stride = 256;  // not a multiple of any register
 constexpr int angles = 24;                          // harmonics beyond the twelfth are below any rounding
 

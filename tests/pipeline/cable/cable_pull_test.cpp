@@ -2,8 +2,8 @@
 #include "pipeline/cable/cable_pull.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/cable_force.h"
 #include "pipeline/cable/plain_properties.h"
@@ -14,7 +14,7 @@ using namespace dresslife::pipeline;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, modulus = 117e9, rounding = 1e-12;
+constexpr double modulus = 117e9, rounding = 1e-12;
 
 Dresspack copper_only() {
   Dresspack dresspack;

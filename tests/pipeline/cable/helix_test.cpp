@@ -3,6 +3,7 @@
 #include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 #include "tests/pipeline/cable/space_curve.h"
 
@@ -10,8 +11,6 @@ using namespace dresslife::helices;
 using dresslife::pipeline::Kinematics;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 struct State {
   double elongation, curvature1, curvature2, twist;

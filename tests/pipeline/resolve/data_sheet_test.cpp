@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/job/dresspack.h"
 #include "pipeline/settings/fields.h"
@@ -17,7 +17,6 @@ using namespace dresslife::pipeline;
 namespace {
 
 constexpr double straight = std::numeric_limits<double>::infinity();
-constexpr double pi = std::numbers::pi;
 
 int count_of(const std::vector<CoreRing>& rings) {
   int count = 0;

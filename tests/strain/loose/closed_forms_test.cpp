@@ -1,7 +1,7 @@
 // A loose cable against what is known in closed form.
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 #include "tests/strain/loose/hoses.h"
 
@@ -11,7 +11,6 @@ using dresslife::strain::test::signal_cable;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double step = 0.04;  // between samples [s]
 
 double largest_offset(const CableState& state, int direction) {
