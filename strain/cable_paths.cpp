@@ -62,7 +62,8 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
       lengths_(std::move(lengths)),
       stride_(padded(samples) + padding),
       all_(samples),
-      known_ends_(job.known_ends) {
+      known_ends_(job.known_ends),
+      relief_stiffness_(job.relief_stiffness) {
   const std::size_t segments = lengths_.size();
   std::vector<LooseCable> loose;
   std::vector<PathMember> held;
@@ -519,6 +520,18 @@ void CablePaths::find_bent() {
     }
 }
 
+double CablePaths::largest_curvature(std::size_t cable) const {
+  const auto k = static_cast<std::size_t>(std::ranges::find(loosened_, cable) - loosened_.begin());
+  std::vector<double> one(next_), other(next_);
+  double most = 0;
+  for (std::size_t segment = 0; segment < lengths_.size() && k < loosened_.size(); ++segment) {
+    curvature_->read(wires_at(segment), 2 * k, 0, next_, one.data());
+    curvature_->read(wires_at(segment), 2 * k + 1, 0, next_, other.data());
+    for (std::size_t t = 0; t < next_; ++t) most = std::max(most, std::hypot(one[t], other[t]));
+  }
+  return most;
+}
+
 std::vector<int> CablePaths::bent_most(std::size_t segment) const {
   std::vector<int> parts;
   const std::size_t loose = loosened_.size();
@@ -649,7 +662,7 @@ void CablePaths::ask_for_forces() {
   for (int clamp = 0; clamp < 2; ++clamp)
     for (std::size_t t = 0; t < next_; ++t) {
       const float* const bent = hose_curvature_.data() + 2 * clamp * all_ + t;
-      hose_moment_[t] = std::max(hose_moment_[t], construction_.hose_bending_stiffness() *
+      hose_moment_[t] = std::max(hose_moment_[t], (construction_.hose_bending_stiffness() + relief_stiffness_[clamp]) *
                                                       std::hypot(bent[0], bent[all_]));
     }
 }

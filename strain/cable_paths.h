@@ -46,6 +46,7 @@ struct CablesInJob {
   bool free_tool_end = false;
   std::size_t elements_per_segment = 0;  ///< of loose cables; 0: as many as their waves ask for
   KnownEnds known_ends{};
+  std::array<double, 2> relief_stiffness{};  ///< of bend reliefs at base and tool end, which bend with the hose [N m2]
 };
 
 class CablePaths {
@@ -121,6 +122,8 @@ class CablePaths {
   const CableRubbing* rubbing(std::size_t cable) const { return cables_[cable].rubbing ? &*cables_[cable].rubbing : nullptr; }
   /// Radius of the helix into which it can wind [m]; 0: it is held.
   double room(std::size_t cable) const { return cables_[cable].room; }
+  /// Of its path, where its wires are evaluated [1/m]; 0: it is held.
+  double largest_curvature(std::size_t cable) const;
   /// Growth of its path over the motion, relative to its length as installed, without its slack: the least, if it
   /// goes as far outward in each bend as its room allows, and the most, if it goes inward. Cables of a ring move by
   /// the gap to their neighbours only. Twist counts by what it would take from the cable's length. A slack between
@@ -194,6 +197,7 @@ class CablePaths {
   std::vector<std::size_t> loosened_;  ///< of cables_, in the order of loose_
   std::shared_ptr<LooseCables> loose_;  ///< null: none lies loose
   KnownEnds known_ends_;
+  std::array<double, 2> relief_stiffness_;
   /// (segment, base end, tool end; loose cable x 2; sample) of their paths [1/m], shared with them
   std::shared_ptr<SegmentRows> curvature_;
   double first_share_ = 1, fed_ = 0;  ///< of its slack, see go_on_from(), and since then [s]

@@ -61,6 +61,7 @@ struct SpanPlace {
   double clamped_length = 0;        ///< of a rig's cable, of which the span is a part [m]; 0: the span is all
   bool free_tool_end = false;       ///< no clamp holds it there
   KnownEnds known_ends{};
+  std::array<double, 2> relief_stiffness{};  ///< as CablesInJob
   // Of the dresspacks before it in the file:
   std::size_t segments_before = 0, sites_before = 0;
   std::size_t dresspack = 0;

@@ -342,6 +342,7 @@ struct Evaluations {
     }
     const std::vector<pipeline::MotionSpan>& spans = reader.spans();
     SpanPlace place;
+    std::size_t first = 0;  // span of its dresspack
     place.levels = levels;
     for (std::size_t k = 0; k < spans.size(); ++k) {
       const std::size_t d = spans[k].dresspack;
@@ -352,12 +353,16 @@ struct Evaluations {
         for (const pipeline::MotionSpan& span : spans)
           if (span.dresspack == d) place.segments_in_all += span.segments;
         place.first_arc = 0;
+        first = k;
         place.dresspack = d;
         place.name = pipeline::name_among(job, d);
       }
       place.first_segment = spans[k].first_segment - place.segments_before;
       place.free_tool_end = reader.ends_freely(job, k);
       place.known_ends = reader.known_ends(k);
+      const std::vector<std::array<pipeline::BendRelief, 2>> reliefs = pipeline::bend_reliefs(job.dresspacks[d].routing);
+      for (std::size_t end = 0; end < 2 && k - first < reliefs.size(); ++end)
+        place.relief_stiffness[end] = reliefs[k - first][end].length > 0 ? reliefs[k - first][end].stiffness : 0;
       place.clamped_length = pipeline::clamped_length(job);
       const std::vector<double> lengths = reader.lengths_of(spans[k]);
       pipeline::Strain settings = settings_of(job, d);
@@ -407,6 +412,7 @@ class CableRows {
       for (const double slipped : cables.grip_slip(k)) slip_.push_back(slipped);
       for (const double gain : cables.path_gain(k)) gain_.push_back(gain);
       room_.push_back(cables.room(k));
+      curvature_.push_back(cables.largest_curvature(k));
       for (const auto& at_clamp : pulled_.back()->place)
         place_.insert(place_.end(), at_clamp.begin(), at_clamp.end());
     }
@@ -424,6 +430,7 @@ class CableRows {
     file.append("/cable/clamp_place", place_);
     file.append("/cable/path_gain", gain_);
     file.append("/cable/room", room_);
+    file.append("/cable/curvature", curvature_);
     std::vector<double> rows;
     for (std::size_t t = 0; t < samples; ++t)
       for (const pipeline::PulledCable* of : pulled_)
@@ -434,7 +441,7 @@ class CableRows {
  private:
   std::vector<std::string> names_;
   std::vector<std::int32_t> span_, dresspack_, component_;
-  std::vector<double> slip_, place_, gain_, room_;
+  std::vector<double> slip_, place_, gain_, room_, curvature_;
   std::vector<const pipeline::PulledCable*> pulled_;
 };
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/errors.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -17,6 +18,19 @@ bool may_be_thousands(const std::string& text) {
   return comma != std::string::npos && text.size() == comma + 4 &&
          std::all_of(text.begin() + static_cast<long>(comma) + 1, text.end(),
                      [](unsigned char letter) { return std::isdigit(letter); });
+}
+
+/// Place of the first byte that is no UTF-8; the size of the text: there is none.
+std::size_t first_no_utf8(const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[at]);
+    const std::size_t length = byte < 0x80 ? 1 : byte < 0xC2 ? 0 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : byte < 0xF5 ? 4 : 0;
+    if (length == 0) return at;
+    for (std::size_t k = 1; k < length; ++k)
+      if (at + k >= text.size() || (static_cast<unsigned char>(text[at + k]) & 0xC0) != 0x80) return at;
+    at += length;
+  }
+  return text.size();
 }
 
 std::optional<Day> day_in_order(int year, int month, int day) {
@@ -47,6 +61,13 @@ std::string day_remedy(const std::string& text) {
       return fmt::format("{}: {} if the day comes first, {} if the month does", date_remedy,
                          day_text(*by_day), day_text(*by_month));
     if (by_day || by_month) return fmt::format("write {}", day_text(by_day ? *by_day : *by_month));
+  }
+  int month = 0, day = 0;
+  if (std::sscanf(text.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &used) == 3 && used == static_cast<int>(text.size())) {
+    int last = 31;
+    while (last > 28 && !day_in_order(year, month, last)) --last;
+    return date_remedy + (month < 1 || month > 12 ? std::string(" (a year has 12 months)")
+                                                  : fmt::format(" ({:04}-{:02} has {} days)", year, month, last));
   }
   constexpr double spreadsheet_1970 = 25569, spreadsheet_2100 = 73051;  // days since 1899-12-30
   if (const std::optional<double> days = number_in(text);
@@ -82,6 +103,14 @@ std::string number_remedy(const std::string& text) {
   return !plain.empty() && plain != text && number_in(plain)
              ? fmt::format("write {}, without unit, blank or comma", plain)
              : "write a number with a decimal point";
+}
+
+void check_utf8(const std::string& text, const std::string& file) {
+  const std::size_t at = std::min(first_no_utf8(text), text.find('\0'));  // each letter of UTF-16 has a 0
+  if (at >= text.size()) return;
+  const bool table = file.ends_with(".csv");
+  throw InputError({file, 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n')), 0},
+                   "is no text in UTF-8", table ? "save the table as CSV UTF-8" : "save it in UTF-8 by the editor");
 }
 
 }  // namespace dresslife::pipeline

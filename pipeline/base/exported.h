@@ -19,4 +19,7 @@ std::optional<double> exported_number(std::string text);
 /// "write 1200 or 1.2", for a text that is no exported_number().
 std::string number_remedy(const std::string& text);
 
+/// Spreadsheets save letters beyond ASCII as Windows-1252, which no page and calendar shows. Errors: InputError at the line of the first such letter.
+void check_utf8(const std::string& text, const std::string& file);
+
 }  // namespace dresslife::pipeline

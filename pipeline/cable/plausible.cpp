@@ -41,6 +41,8 @@ constexpr double same_height =
     0.2;  // of a corrugation: catalogues round diameters to 0.5 mm, heights are 1.5 to 6 mm
 constexpr double largest_bend_radius = 40;  // diameters: makers' limits are 3 to 15
 constexpr double tight_bend = 1.3;          // diameters: the least of corrugated hoses that do not move
+// Diameters, of moved parts by their makers: hoses have 3 to 10, cables 5 to 15. Of cables that lie still makers print 3 to 4.
+constexpr double tightest_hose = 3, widest_hose_bend = 10, tightest_cable = 4.5, widest_cable_bend = 15;
 constexpr double least_torsion = 0.01,
                  most_torsion = 100;      // G J over E I: a solid bar has 0.77, corrugated hoses to 10
 constexpr double largest_friction = 1.5;  // rubber on steel has 1
@@ -338,6 +340,17 @@ void plausible_size(const Dresspack& dresspack, Judge& judge) {
                     1e3 * radius, 1e3 * diameter, 1e3 * largest_bend_radius * diameter, largest_bend_radius),
         meant.cause.empty() ? "the bend radius or diameter_mm of another hose" : meant.cause,
         meant.remedy.empty() ? "least_bend_radius_mm as the maker states" : meant.remedy);
+  } else if (dresspack.least_bend_radius) {
+    const bool hose = dresspack.inner_diameter || dresspack.hose_corrugation;
+    const double low = hose ? tightest_hose : tightest_cable, high = hose ? widest_hose_bend : widest_cable_bend;
+    if (const double times = radius / diameter; times < low * (1 - 1e-9) || times > high * (1 + 1e-9))
+      judge.add(dresspack.where,
+                fmt::format("least_bend_radius_mm is {:.4g}, {:.3g} diameters (limits {:g} .. {:g} of a moved {})", 1e3 * radius, times,
+                            low, high, hose ? "hose" : "cable"),
+                times > high ? "the bend diameter instead of the bend radius" : "half of the radius, or the radius for a part that lies still",
+                times > high ? fmt::format("least_bend_radius_mm: {:.4g} if that was the diameter; leave it if the maker states this radius", 5e2 * radius)
+                             : fmt::format("least_bend_radius_mm: {:.4g} if that was half; leave it if the maker states this radius for motion",
+                                           2e3 * radius));
   }
   if (const double share = dresspack.torsional_stiffness / dresspack.bending_stiffness;
       dresspack.bending_stiffness > 0 && dresspack.torsional_stiffness > 0 && !(share > least_torsion && share < most_torsion))

@@ -214,6 +214,15 @@ std::vector<BendingFriction> friction_of_construction(const Dresspack& dresspack
   return elements;
 }
 
+std::vector<double> bending_moments(const Dresspack& dresspack, double friction, const std::vector<double>& curvature) {
+  const Wires wires(dresspack);
+  const double sliding = stiffness_with(wires, dresspack, SlipState::sliding, 1).bending;
+  std::vector<double> moments;
+  for (const double k : curvature)  // twice the limits hold twice the moment at twice the curvature
+    moments.push_back(sliding * k + (friction > 0 ? friction * wires.friction(k / friction) : 0));
+  return moments;
+}
+
 std::vector<std::string> missing_in_construction(const Dresspack& dresspack) {
   std::vector<std::string> missing;
   if (dresspack.core_diameter > 0 && !dresspack.core_bending_stiffness)

@@ -54,6 +54,9 @@ HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState st
 /// sliding: E I of the hose [N m2].
 std::vector<BendingFriction> friction_of_construction(const Dresspack& dresspack, double sliding);
 
+/// What bends a straight hose for the first time [N m], (bend): E I without friction, and what friction holds, by a factor of it.
+std::vector<double> bending_moments(const Dresspack& dresspack, double friction, const std::vector<double>& curvature);
+
 /// The parts of the construction that those numbers leave out, as words: "what fills its core (...)". Empty:
 /// nothing.
 std::vector<std::string> missing_in_construction(const Dresspack& dresspack);

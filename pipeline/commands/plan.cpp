@@ -24,7 +24,9 @@
 #include "pipeline/commands/duties_run.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/learned_settings.h"
+#include "pipeline/life/planning.h"
 #include "pipeline/report/plan_page.h"
+#include "pipeline/settings/problems.h"
 #include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
@@ -49,10 +51,12 @@ std::vector<Warning> doubts_of(std::optional<double> risk_percent) {
   return {warning_of(
       WarningKind::motion, "--risk",
       fmt::format("the risk is {:g} % (limit {:g} .. {:g})", *risk_percent, least, most),
-      *risk_percent < least ? "a share instead of per cent" : "a dresspack is hardly ever replaced",
-      *risk_percent > 0 && *risk_percent < least
-          ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
-          : "--risk 10")};
+      *risk_percent == 0     ? "a plan without any failure: a new dresspack may fail, too"
+      : *risk_percent < least ? "a share instead of per cent"
+                              : "a dresspack is hardly ever replaced",
+      *risk_percent == 0     ? "--risk 1"
+      : *risk_percent < least ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
+                              : "--risk 10")};
 }
 
 constexpr std::size_t most_named = 3;  // duties or programs of a plant, which may have hundreds
@@ -145,11 +149,15 @@ std::string block(const std::vector<std::string>& texts) {
 int plan(const PlanOptions& options) {
   const Day day = day_of(options.today);
   note_input(options.fleet);
-  const Fleet fleet = read_fleet(options.fleet, day);
+  Fleet fleet = read_fleet(options.fleet, day);
   const std::vector<Window> windows = windows_from(options.windows, day);
-  const DutyFile file = read_duties(named_file(options.study, "duties"));
+  const DutyFile file = read_duties(named_file(options.study, "duties"), day);
   std::set<std::string> needed;
   std::optional<Fleet> changed;
+  Problems problems;
+  const auto need_duties = [&](const Fleet& of) {
+    for (const Installed& row : of.rows) problems.attempt("", row.where, [&] { needed.insert(duty_named(file, row.duty, row.where).name); });
+  };
   if (!options.what_if.empty()) {
     note_input(options.what_if);
     changed = read_fleet(options.what_if, day);
@@ -158,21 +166,32 @@ int plan(const PlanOptions& options) {
                        fmt::format("has {}costs, but {} has {}", fleet.has_costs ? "no " : "", options.fleet,
                                    fleet.has_costs ? "some" : "none"),
                        "give both tables the columns planned_cost and unplanned_cost, or none");
-    for (const Installed& row : changed->rows) needed.insert(duty_named(file, row.duty, row.where).name);
+    need_duties(*changed);
   }
-  for (const Installed& row : fleet.rows) needed.insert(duty_named(file, row.duty, row.where).name);
+  need_duties(fleet);
+  problems.finish(options.fleet);
+  if (!fleet.unused.empty())
+    tell(shown(fmt::format("note: {}: a plan does not use the columns {}\n", options.fleet, joined(fleet.unused, ", "))));
+  const std::set<std::string> planned = needed;
+  for (const Duty& duty : file.duties)
+    for (const PastDuty& past : duty.history)
+      if (planned.contains(duty.name)) needed.insert(past.duty);
   for (const Warning& warning :
        joined(doubts_of(options.risk_percent), joined(doubtful_fleet(fleet, day), doubtful_duties(file))))
     tell(shown(warning.line() + "\n"));
   const DutiesRun made = run_duties(file, options);
   std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed);
   for (const auto& [name, table] : tables)
-    if (const double half = table.median(); half < table.hours_per_week)
+    if (const double half = table.median(); planned.contains(name) && half < table.hours_per_week)
       throw InputError(
           {options.study},
           fmt::format("half of the dresspacks under duty '{}' fail within {}", name, hours_text(half)),
           "no plan helps; see dresslife improve");
-  const std::vector<DutyResult> duties = outlines(file, made.study, made.rows, needed);
+  const std::vector<DutyResult> duties = outlines(file, made.study, made.rows, planned);
+  const auto add_past = [&](Fleet& of) {
+    for (const Warning& warning : add_histories(of, file, tables, day)) tell(shown(warning.line() + "\n"));
+  };
+  add_past(fleet);
   const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent,
                       knows_survivors(made.study)};
   if (effective_worlds(fleet, tables, day, rule) < enough_worlds) {  // many survivors leave few worlds
@@ -186,9 +205,20 @@ int plan(const PlanOptions& options) {
         fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",
                     found.effective_worlds, tables.begin()->second.worlds),
         "learn from them first: dresslife calibrate");
+  if (found.reach_their_age < usual_reach)
+    tell(shown(
+        warning_of(
+            WarningKind::motion, options.fleet,
+            fmt::format("by the model {} of new dresspacks reach the ages of these {} (limit {})",
+                        percent_text(found.reach_their_age), fleet.rows.size(), percent_text(usual_reach)),
+            "a job or hours per week that are not theirs, or a calibration with records that begin after most of their life",
+            "dresslife calibrate with an earlier day (--records-since), from which the table has every removal")
+            .line() +
+        "\n"));
   std::optional<Plan> other;
   std::string what_if;
   if (changed) {
+    add_past(*changed);
     keep_ages(*changed, fleet, tables, day);
     PlanRule same = rule;
     same.weights = found.weights;  // of the plant as it is
@@ -223,7 +253,9 @@ int plan(const PlanOptions& options) {
     write_text_if_changed(beside, plan_csv(*changed, *other));
     write_text_if_changed(
         its_page, with_mark(plan_page(fs::path(options.what_if).stem().string(), *changed, *other,
-                                      {notes.doubts, "", notes.paragraphs}, beside.filename().string()),
+                                      {notes.doubts, "", notes.paragraphs, fs::path(options.fleet).stem().string(),
+                                       beside_rows(fleet, found, *changed, *other)},
+                                      beside.filename().string()),
                             Mark::page));
     what_if += fmt::format("Table: {}\nPage: {}\n", beside.string(), its_page.string());
   }

@@ -239,6 +239,8 @@ Format make_strain_format() {
      "length that slips through its base and its tool clamp per repeat, sum of both directions"},
     {"/cable/room",              f64,  "cable",              "m",    maybe | endless,
      "radius of the largest helix that it can form; 0: it is held"},
+    {"/cable/curvature",         f64,  "cable",              "1/m",  maybe,
+     "largest curvature of its path in the motion, at a clamp or at the centre of a segment; 0: it is held; absent: an older file"},
     {"/cable/path_gain",         f64,  "cable, 2",           "1",    maybe,
      "smallest and largest gain in length of its path over the motion, without its slack and after it has moved "
      "within its room; a slack between the two is never too long nor too short"},

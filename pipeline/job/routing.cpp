@@ -7,6 +7,13 @@
 
 namespace dresslife::pipeline {
 
+void describe(Fields& f, BendRelief& relief) {
+  constexpr double stiffest = 1e6;  // [N m2] a bar of steel 100 mm thick
+  f.number("length_mm", relief.length, Need::required, at_least(0), "The length of the relief from the clamp. At most half the dresspack between two clamps.");
+  f.number("bending_stiffness_Nm2", relief.stiffness, Need::required, between(0, stiffest),
+           "The bending stiffness of the relief alone: M/curvature of the sleeve or spring without the dresspack.");
+}
+
 void describe(Fields& f, Clamp& clamp) {
   f.place(clamp.where);
   f.text("mounting_point", clamp.mounting_point, Need::optional,
@@ -20,6 +27,8 @@ void describe(Fields& f, Clamp& clamp) {
   f.maybe_number("roll_deg", clamp.roll, between(-360, 360),
                  "The angle of the clamp about the direction. Default: 0 at the base clamp, and the angle "
                  "without twist at the others.");
+  f.maybe_group("bend_relief", clamp.bend_relief,
+                "A sleeve or spring that makes the dresspack stiffer beside the clamp, on its free side. Default: none.");
 }
 
 void describe(Fields& f, IntermediateClamp& between) {
@@ -201,6 +210,23 @@ void check_intermediate_clamps(const Routing& routing, const Robot& robot, Probl
   }
 }
 
+/// Each relief ends within its half of the piece between two clamps.
+void check_bend_reliefs(const Routing& routing, Problems& problems) {
+  double begin = 0;
+  const Clamp* before = routing.base_clamp ? &*routing.base_clamp : nullptr;
+  const auto check_piece = [&](double end, const Clamp* after) {
+    for (const Clamp* const clamp : {before, after})
+      if (clamp && clamp->bend_relief && begin < end && clamp->bend_relief->length > (end - begin) / 2)
+        problems.add(clamp->where,
+                     fmt::format("bend_relief.length_mm is {:.4g} (at most {:.4g}, half the dresspack between this clamp and the next)",
+                                 1e3 * clamp->bend_relief->length, 5e2 * (end - begin)),
+                     "give the length from the clamp's edge to the end of the sleeve");
+    begin = end, before = after;
+  };
+  for (const IntermediateClamp& between : routing.clamps) check_piece(between.at_length, &between.clamp);
+  check_piece(routing.free_length, routing.tool_clamp ? &*routing.tool_clamp : nullptr);
+}
+
 }  // namespace
 
 void place_clamps(Routing& routing, const Robot& robot) {
@@ -212,6 +238,17 @@ void place_clamps(Routing& routing, const Robot& robot) {
     if (*clamp) place(**clamp);
   for (IntermediateClamp& between : routing.clamps) place(between.clamp);
   problems.finish();
+}
+
+std::vector<std::array<BendRelief, 2>> bend_reliefs(const Routing& routing) {
+  const auto of = [](const std::optional<Clamp>& clamp) { return clamp ? clamp->bend_relief.value_or(BendRelief{}) : BendRelief{}; };
+  std::vector<std::array<BendRelief, 2>> reliefs{{of(routing.base_clamp), {}}};
+  for (const IntermediateClamp& between : routing.clamps) {
+    reliefs.back()[1] = of(between.clamp);
+    reliefs.push_back({of(between.clamp), {}});
+  }
+  reliefs.back()[1] = of(routing.tool_clamp);
+  return reliefs;
 }
 
 void check_routing(const Routing& routing, double diameter, const Robot& robot, bool recorded) {
@@ -228,6 +265,7 @@ void check_routing(const Routing& routing, double diameter, const Robot& robot, 
   if (recorded) attempt([&] { check_robot_only(routing); });
   check_intermediate_clamps(routing, robot, problems);
   check_rings(routing, diameter, robot, problems);
+  check_bend_reliefs(routing, problems);
   if (!is_clamped(routing.tool_end) && routing.tool_clamp)
     problems.add(routing.tool_clamp->where, "routing.tool_clamp is given although routing.tool_end is free",
                  "keep one of the two");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,13 @@ namespace dresslife::pipeline {
 
 class Fields;
 
+/// A sleeve or spring around the dresspack beside a clamp, on its free side (both sides of a clamp between the ends): it makes
+/// the dresspack stiffer in bending there (S24). Without a length or a stiffness it does nothing.
+struct BendRelief {
+  double length = 0;     ///< from the clamp [m]
+  double stiffness = 0;  ///< beside the dresspack's own [N m2]
+};
+
 struct Clamp {
   std::string link;                        ///< of the robot
   Vector3d position = Vector3d::Zero();    ///< in the link's frame [m]
@@ -23,6 +31,7 @@ struct Clamp {
   std::optional<double> roll;  ///< about the direction [rad]; absent: 0 at the base clamp, else twist-free
   Where where;
   std::string mounting_point{};  ///< of the robot, instead of link, position, direction; empty once read
+  std::optional<BendRelief> bend_relief{};
 };
 
 /// A clamp between the two ends: the dresspack is gripped there, in position, direction and twist.
@@ -78,6 +87,7 @@ inline double longest_bracket_of(const Routing& routing) {
   return routing.longest_bracket.value_or(usual_longest_bracket);
 }
 
+void describe(Fields& f, BendRelief& relief);
 void describe(Fields& f, Clamp& clamp);
 void describe(Fields& f, IntermediateClamp& between);
 void describe(Fields& f, GuideRing& ring);
@@ -87,6 +97,9 @@ void describe(Fields& f, Routing& routing);
 /// Clamps at mounting points of the robot become clamps with link, position and direction. Errors: InputError
 /// with the names of the robot's mounting points.
 void place_clamps(Routing& routing, const Robot& robot);
+
+/// (piece between two clamps) at its base and at its tool end.
+std::vector<std::array<BendRelief, 2>> bend_reliefs(const Routing& routing);
 
 /// recorded: the motion brings the clamps' poses. diameter: of the dresspack [m]. Errors: InputError at the
 /// clamp or ring that the robot or the dresspack does not fit.

@@ -19,4 +19,9 @@ inline double months(double hours, double operating_hours_per_week) {
   return hours / operating_hours_per_week / weeks_per_month;
 }
 
+/// Share of new dresspacks that reach the ages of those in use. Where it is less, a prediction contradicts them. Where dresspacks are
+/// replaced at failure alone, it is 48 % if ln of their lives has the deviation 1, 29 % at 1.5 and 16 % at 2: the integral of S^2 over
+/// that of S is 2 Phi(-s/2^0.5).
+constexpr double usual_reach = 0.1;
+
 }  // namespace dresslife::pipeline

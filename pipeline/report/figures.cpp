@@ -9,6 +9,7 @@
 #include "pipeline/base/plain_file.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
+#include "pipeline/report/bending_chart.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/known_history.h"
 #include "pipeline/report/life_charts.h"
@@ -164,6 +165,12 @@ std::string curvature_figure(const JobFiles& files) {
   return picture.svg();
 }
 
+std::string bending_figure(const JobFiles& files) {
+  const auto worst = kind_of(files.life) != FileKind::absent ? find_worst(files.life) : std::nullopt;
+  if (!worst) return bending_chart(files.strain, 0);
+  return bending_chart(files.strain, dresspack_of_segments(FileReader(files.strain, strain_format())).at(worst->segment));
+}
+
 std::string scene_figure(const JobFiles& files, std::optional<double> time) {
   const auto worst = kind_of(files.life) != FileKind::absent ? find_worst(files.life) : std::nullopt;
   return scene_picture(files.motion, time.value_or(worst ? worst->time : 0), worst ? worst->from_tool : 0,
@@ -182,6 +189,8 @@ std::string chart(Figure what, const JobFiles& files, std::optional<double> time
       return deformation_figure(files, time);
     case Figure::curvature:
       return curvature_figure(files);
+    case Figure::bending:
+      return bending_figure(files);
     case Figure::scene:
       return scene_figure(files, time);
   }

@@ -10,9 +10,9 @@
 
 namespace dresslife::pipeline {
 
-enum class Figure { strain, cycles, damage, deformation, curvature, scene };
+enum class Figure { strain, cycles, damage, deformation, curvature, bending, scene };
 constexpr std::string_view word(Figure value) {
-  return word_at({"strain", "cycles", "damage", "deformation", "curvature", "scene"}, value);
+  return word_at({"strain", "cycles", "damage", "deformation", "curvature", "bending", "scene"}, value);
 }
 
 /// Result files of a job.
@@ -31,6 +31,7 @@ JobFiles job_files(const std::filesystem::path& place);
 ///   deformation  curvature, twist and elongation along the dresspack at a time (figure 14 shows their effect
 ///                on a wire)
 ///   curvature    strain of the worst wire over the curvature of its segment (figure 15 multiplies by E)
+///   bending      moment over curvature of the hose and its cables (bending_chart.h)
 ///   scene        robot and dresspack at a time, the worst segment marked (figures 18 and 19)
 /// time: [s], the nearest sample; absent: when the most damaging cycle closes. Errors: InputError for a file
 /// that is missing or cannot be read, or a job without a damaged wire where the figure needs one.

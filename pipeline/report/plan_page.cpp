@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "pipeline/advise/plan/plan_words.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/plot.h"
@@ -154,12 +153,22 @@ class Calendar {
   std::size_t weeks_per_cell_ = 1;
 };
 
+std::string beside_table(const PlanNotes& notes) {
+  std::string rows;
+  for (const BesideRow& row : notes.beside)
+    rows += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n", row.what, row.now, row.then, row.more);
+  return fmt::format(
+      "<h3>Beside today's fleet</h3>\n<div class=\"wide\"><table>\n<thead><tr><th></th><th class=\"number\">{}</th><th class=\"number\">what if</th>"
+      "<th class=\"number\">difference</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
+      escaped(notes.today), rows);
+}
+
 std::string windows_table(const Fleet& fleet, const Plan& plan) {
   std::string rows;
   for (std::size_t n = 0; n < plan.windows.size(); ++n) {
     const std::vector<std::string> replaced = replaced_in(fleet, plan, n);
     rows += fmt::format("<tr><td style=\"white-space: nowrap\">{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
-                        window_text(plan.windows[n]), replaced.size(), escaped(joined(replaced, ", ")));
+                        window_text(plan.windows[n]), replaced.size(), replaced.empty() ? "nothing to replace" : escaped(joined(replaced, ", ")));
   }
   return "<h3>What to replace</h3>\n<div class=\"wide\"><table>\n<thead><tr><th>window</th><th class=\"number\">dresspacks</th><th>names</th></tr></thead>\n<tbody>\n" +
          rows + "</tbody></table></div>\n";
@@ -211,7 +220,7 @@ std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& p
   const Calendar calendar(fleet, plan);
   std::string body = shade_rules;
   for (const std::string& doubt : notes.doubts) body += "<p><b>" + escaped(doubt) + "</b></p>\n";
-  body += "<p>" + escaped(expected_words(plan)) + "</p>\n" + windows_table(fleet, plan);
+  body += "<p>" + escaped(expected_words(plan)) + "</p>\n" + (notes.beside.empty() ? "" : beside_table(notes)) + windows_table(fleet, plan);
   if (const std::string kept = kept_words(fleet, plan); !kept.empty()) body += "<p class=\"soft\">" + escaped("In no window. " + kept) + "</p>\n";
   if (!notes.values.empty()) body += "<p style=\"white-space: pre-line\">" + escaped(notes.values) + "</p>\n";
   for (const std::string& note : notes.paragraphs) body += "<p class=\"soft\">" + escaped(note) + "</p>\n";
@@ -221,7 +230,10 @@ std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& p
       plan.rows.size() > most_rows ? fmt::format("the {} dresspacks with the greatest risk", most_rows) : "each dresspack, the greatest risk first",
       calendar.weeks_per_cell() > 1 ? fmt::format("A cell is {} weeks, its colour their mean. ", calendar.weeks_per_cell()) : "");
   body += chart_in_page(calendar.svg()) + years_table(fleet, plan) + dresspacks_table(fleet, plan, table);
-  return table_page("Plan: " + name, fmt::format("{}: which dresspacks to replace, and when", name), body);
+  return table_page((notes.beside.empty() ? "Plan: " : "What if: ") + name,
+                    notes.beside.empty() ? fmt::format("{}: which dresspacks to replace, and when", name)
+                                         : fmt::format("What if {} were the fleet: which dresspacks to replace, and when, beside {}", name, notes.today),
+                    body);
 }
 
 }  // namespace dresslife::pipeline

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/advise/plan/plan.h"
+#include "pipeline/advise/plan/plan_words.h"
 
 namespace dresslife::pipeline {
 
@@ -14,6 +14,8 @@ struct PlanNotes {
   std::vector<std::string> doubts;
   std::string values;
   std::vector<std::string> paragraphs;
+  std::string today{};              ///< of a changed fleet: the name of today's
+  std::vector<BesideRow> beside{};  ///< its plan, and that of the changed fleet
 };
 /// name: of the fleet. table: the file with all dresspacks.
 std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& plan, const PlanNotes& notes, const std::string& table);

@@ -41,6 +41,7 @@ constexpr double gravity_spread = 0.01;    // of it: it varies by 0.5 % over the
 constexpr double down = 0.999;             // cosine of 2.6 deg, more than floors slope
 constexpr double least_robot_life = 1000;  // [h]: half a year of one shift
 constexpr double least_week = 5;           // [h]: an hour per working day
+constexpr double hours_of_day = 24;        // robots of plants move 40 h a week and more
 constexpr double largest_endurance = 5e-3;  // of polymers 9e-3 at ten million cycles, of metals a fifth of this
 constexpr double largest_factor = 30;      // 100 is per cent; trials take 0.1 to 10
 constexpr double largest_tolerance = 0.05;  // [m] between the starts of two repeats: a hose's width
@@ -247,10 +248,16 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
   Seen seen;
   look_at(motion.steps, seen);
   std::vector<Warning> warnings;
+  // A controller's program has no keys.
+  const auto key = [](const char* in_job, const char* in_program, const MotionStep& step) {
+    const std::string& file = step.where.file;
+    return file.empty() || file.ends_with(".yaml") || file.ends_with(".yml") ? in_job : in_program;
+  };
   if (const MotionStep* step = seen.slow.first)
     warnings.push_back(seen.slow.warning(
         fmt::format("speed_percent is {:g} (limit {:g} or more)", *step->speed_percent, least_percent),
-        "a share instead of a percentage", fmt::format("speed_percent: {:g} if that was a share", 100 * *step->speed_percent)));
+        "a share instead of a percentage",
+        fmt::format("{}{:g}{} if that was a share", key("speed_percent: ", "", *step), 100 * *step->speed_percent, key("", " %", *step))));
   if (const MotionStep* step = seen.fast.first)
     warnings.push_back(seen.fast.warning(
         fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool),
@@ -264,7 +271,8 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
     warnings.push_back(seen.creeping.warning(
         fmt::format("the tool's speed is {:.4g} mm/s (limit {:g} or more)", 1e3 * *step->tool_speed,
                     1e3 * slowest_tool),
-        "m/s instead of mm/s", fmt::format("speed_mm_per_s: {:g} if that was m/s", 1e6 * *step->tool_speed)));
+        "m/s instead of mm/s",
+        fmt::format("{}{:g}{} if that was m/s", key("speed_mm_per_s: ", "a speed of ", *step), 1e6 * *step->tool_speed, key("", " mm/s", *step))));
   if (const MotionStep* step = seen.turning.first)
     warnings.push_back(seen.turning.warning(
         fmt::format("speed_deg_per_s is {:.4g} (limit {:g} or more)", *step->speed / degree,
@@ -273,14 +281,15 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         fmt::format("speed_deg_per_s: {:.3g} if that was rad/s", *step->speed / degree / degree)));
   if (const MotionStep* step = seen.waits.first)
     warnings.push_back(
-        seen.waits.warning(fmt::format("dwell_s is {:g} (limit {:g} or less)", step->dwell, longest_dwell),
+        seen.waits.warning(fmt::format("{} is {:g} (limit {:g} or less)", key("dwell_s", "the wait in seconds", *step), step->dwell, longest_dwell),
                            "milliseconds instead of seconds",
-                           fmt::format("dwell_s: {:g} if that was milliseconds", step->dwell / 1000)));
+                           fmt::format("{}{:g} if that was milliseconds", key("dwell_s: ", "a wait of ", *step), step->dwell / 1000)));
   if (motion.speed_percent != 100 && seen.moves > 0 && !seen.default_speed)
     warnings.push_back(warning_of(WarningKind::motion, motion.where.text(),
                                   fmt::format("motion.speed_percent {:g} has no effect", motion.speed_percent),
                                   "each move of the program has its own speed",
-                                  fmt::format("motion.override_percent: {:g} for the speed override of the controller", motion.speed_percent)));
+                                  fmt::format("motion.override_percent: {:g} for the speed override of the controller",
+                                              motion.speed_percent < least_percent ? 100 * motion.speed_percent : motion.speed_percent)));
   doubt_single_targets(motion.steps, warnings);
   doubt_small_steps(motion.steps, warnings);
   doubt_frames(motion.tools, "tool", motion.where, warnings);
@@ -579,9 +588,20 @@ std::optional<double> distance_to(const Robot& robot, const std::string& name, c
 /// A clamp in the air, farther from its link than a bracket or a tool is long.
 void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, const Robot& robot,
                  const AddDoubt& add) {
-  const double limit = std::max(longest_tool, routing.longest_bracket.value_or(0));
+  const double bracket = routing.longest_bracket.value_or(0), limit = std::max(longest_tool, bracket);
   const auto away = distance_to(robot, clamp.link, clamp.position);
-  if (!away || *away <= limit) return;
+  if (!away) return;
+  for (const auto& [one, other] : {std::pair{0, 2}, {0, 1}, {1, 2}}) {
+    Vector3d exchanged = clamp.position;
+    std::swap(exchanged[one], exchanged[other]);
+    if (*away <= std::max(near_link, bracket) || *distance_to(robot, clamp.link, exchanged) > *away / 2) continue;
+    return add(clamp.where,
+               fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g})", key, *away, clamp.link, std::max(near_link, bracket)),
+               "exchanged coordinates",
+               fmt::format("position_m: [{:g}, {:g}, {:g}] if so, or routing.longest_bracket_mm: {:.0f} if a bracket is so long", exchanged.x(),
+                           exchanged.y(), exchanged.z(), std::ceil(1e2 * *away) * 10));
+  }
+  if (*away <= limit) return;
   // Slips of the decimal point in one, then two, then three numbers: the first that leads near to the link.
   Vector3d best = clamp.position;
   double nearest = *away;
@@ -607,13 +627,27 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, co
                                  std::ceil(1e2 * *away) * 10)));
 }
 
+/// Angles about the axes, as a controller shows them.
+void doubt_direction(const char* key, const Clamp& clamp, const AddDoubt& add) {
+  constexpr double round_angle = 5, most = 360;
+  const Vector3d& to = clamp.direction;
+  for (const double number : to)
+    if (std::abs(number) > most || std::abs(std::remainder(number, round_angle)) > 1e-9) return;
+  const Vector3d unit = to.normalized();
+  add(clamp.where, fmt::format("routing.{}.direction is [{:g}, {:g}, {:g}] (limit: numbers below {:g})", key, to.x(), to.y(), to.z(), round_angle),
+      "angles in degrees instead of a vector",
+      fmt::format("direction: [{:.3g}, {:.3g}, {:.3g}] if it points there from the base to the tool, in the frame of the link; [1, 0, 0] is its x axis",
+                  unit.x(), unit.y(), unit.z()));
+}
+
 void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Robot& robot, int segments,
                    const AddDoubt& add) {
   doubt_mounting(routing, add);
   if (const double length = routing.free_length; length > longest_hose)
     add(routing.where, fmt::format("routing.free_length_m is {:.6g} (limit {:g})", length, longest_hose),
         "millimetres instead of metres", fmt::format("routing.free_length_m: {:g} if that was millimetres", length / 1e3));
-  for (const auto& [key, clamp] : {std::pair{"base_clamp", &routing.base_clamp}, {"tool_clamp", &routing.tool_clamp}})
+  for (const auto& [key, clamp] : {std::pair{"base_clamp", &routing.base_clamp}, {"tool_clamp", &routing.tool_clamp}}) {
+    if (*clamp) doubt_direction(key, **clamp, add);
     if (*clamp && (*clamp)->position.norm() > farthest_clamp) {
       const Eigen::Vector3d& at = (*clamp)->position;
       add((*clamp)->where,
@@ -624,6 +658,7 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
     } else if (*clamp) {
       doubt_place(key, **clamp, routing, robot, add);
     }
+  }
   if (const double limit = least_bend_radius(dresspack), segment = routing.free_length / segments;
       routing.base_clamp && segments < few_segments && limit > 0 && segment > limit)
     add(routing.where,
@@ -709,6 +744,11 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
     add(WarningKind::material, "fatigue.operating_hours_per_week", fatigue.operating_hours_per_week,
         fmt::format("{:g} or more", least_week), "a share of the week, or another unit",
         "fatigue.operating_hours_per_week: 80, or the hours of motion in a week");
+  else if (fatigue.operating_hours_per_week <= hours_of_day)
+    add(WarningKind::material, "fatigue.operating_hours_per_week", fatigue.operating_hours_per_week,
+        fmt::format("more than {:g}", hours_of_day), "hours of a day",
+        fmt::format("fatigue.operating_hours_per_week: {:g} if that was per working day; leave it if the robot moves so little",
+                    5 * fatigue.operating_hours_per_week));
   if (fatigue.endurance_strain > largest_endurance)
     add(WarningKind::material, "fatigue.endurance_strain", fatigue.endurance_strain, fmt::format("{:g} or less", largest_endurance),
         "per cent instead of a share", fmt::format("fatigue.endurance_strain: {:g} if that was per cent", fatigue.endurance_strain / 100));
@@ -773,6 +813,27 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
   return warnings;
 }
 
+/// Up to the fourth segment the parabola that gives the bend at a clamp (W39) contains links outside the relief.
+void doubt_bend_reliefs(const Routing& routing, int segments, std::vector<Warning>& warnings) {
+  constexpr int fewest = 4;
+  std::vector<const Clamp*> clamps;
+  for (const std::optional<Clamp>* end : {&routing.base_clamp, &routing.tool_clamp})
+    if (*end) clamps.push_back(&**end);
+  for (const IntermediateClamp& between : routing.clamps) clamps.push_back(&between.clamp);
+  for (const Clamp* const clamp : clamps) {
+    if (!clamp->bend_relief || clamp->bend_relief->length == 0 || clamp->bend_relief->stiffness == 0) continue;
+    const double length = clamp->bend_relief->length, within = length * segments / routing.free_length;
+    if (within >= fewest) continue;
+    warnings.push_back(warning_of(
+        WarningKind::mesh, clamp->where.text(),
+        fmt::format("bend_relief.length_mm is {:.4g}: {:.2g} segments (limit {}): the bend at the clamp is uncertain", 1e3 * length,
+                    within, fewest),
+        length < 1e-3 ? "metres instead of millimetres" : "the segments are too long for it",
+        length < 1e-3 ? fmt::format("bend_relief.length_mm: {:.4g} if that was metres", 1e6 * length)
+                      : fmt::format("simulation.segments: {:.0f}", std::ceil(fewest * routing.free_length / length))));
+  }
+}
+
 }  // namespace
 
 std::vector<Warning> plausibility_warnings(const Job& job) {
@@ -784,6 +845,8 @@ std::vector<Warning> plausibility_warnings(const Job& job) {
                                               job.simulation.sample_rate, least_rate),
                                   "seconds instead of 1/s; the samples miss the hose's swing",
                                   "simulation.sample_rate_Hz: 25"));
+  if (!motion.is_prescribed())
+    for (const MountedDresspack& mounted : job.dresspacks) doubt_bend_reliefs(mounted.routing, job.simulation.segments, warnings);
   if (job.strain.gate > largest_gate)
     warnings.push_back(
         warning_of(WarningKind::strain, "",

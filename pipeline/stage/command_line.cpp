@@ -8,6 +8,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/joined.h"
@@ -97,7 +98,8 @@ std::string meant_command(const Command& program, int argc, char** argv) {
   return nearest_word(argv[1], names);
 }
 
-/// "'--trial' is no option of improve; did you mean '--trials'?" for the first that is like one; empty: none is.
+/// "'--trial' is no option of improve; did you mean '--trials'?" for the first that is like one, or a number behind an option that takes
+/// none; empty: neither.
 std::string meant_option(const Command& program, int argc, char** argv) {
   const auto called =
       std::find_if(program.commands.begin(), program.commands.end(),
@@ -113,6 +115,11 @@ std::string meant_option(const Command& program, int argc, char** argv) {
     if (const std::string near = nearest_word(word, names); !near.empty())
       return fmt::format("'{}' is no option of {}; did you mean '{}'?\n", shown(word), command.name, near);
   }
+  // "run -n 2": a number behind an option that takes none.
+  for (int k = 2; k < argc; ++k)
+    for (const Option& option : command.options)
+      if (std::holds_alternative<bool*>(option.target) && number_in(argv[k]) && (',' + option.names + ',').find(fmt::format(",{},", argv[k - 1])) != std::string::npos)
+        return fmt::format("'{}' takes no number ({}); leave out '{}'\n", argv[k - 1], option.meaning, argv[k]);
   return "";
 }
 

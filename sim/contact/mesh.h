@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/base/mesh_file.h"
+#include "pipeline/job/shapes.h"
 #include "sim/rod/rotation.h"
 
 namespace dresslife::sim {
@@ -24,6 +25,9 @@ struct NearestToTriangle {
 };
 Vector3 nearest_point(const Triangle& triangle, const Vector3& point);
 NearestToTriangle nearest_points(const Triangle& triangle, const Vector3& from, const Vector3& to);
+
+/// The triangles of a job's mesh [m]. Errors: InputError of read_triangles(), and for a mesh that is longer than a cell: its unit is no metre.
+std::vector<Triangle> scaled_triangles(const pipeline::MeshFile& file);
 
 class Mesh {
  public:

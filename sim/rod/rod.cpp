@@ -34,6 +34,22 @@ double compliance_length(const RodProperties& p, int link, double l) {
   return l;
 }
 
+// (S24) E I of a link is that of its piece of hose as springs in series: stiff where a stiff end covers it, bare elsewhere.
+// In a span shorter than both stiff ends the one at the base counts.
+double stiffened(const RodProperties& p, int link, double l) {
+  const double begin = std::max(0.0, (link - 0.5) * l), end = std::min(p.length, (link + 0.5) * l);
+  double bare = 1, compliance = 0;  // share of the piece; mean of E I/(E I + that of the stiff end)
+  for (const bool at_tool : {false, true}) {
+    const StiffEnd& stiff = p.stiff_ends[at_tool];
+    if (stiff.bending_stiffness == 0) continue;
+    const double covered = at_tool ? end - (p.length - stiff.length) : stiff.length - begin;
+    const double share = std::clamp(covered / (end - begin), 0.0, bare);
+    bare -= share;
+    compliance += share * p.bending_stiffness / (p.bending_stiffness + stiff.bending_stiffness);
+  }
+  return p.bending_stiffness * (1 / (bare + compliance) - 1);
+}
+
 Vector3 end_mask(const RodProperties& p, int link) {
   const End end = link == 0 ? p.base_end : link == p.segments ? p.tool_end : End::clamped;
   switch (end) {
@@ -82,7 +98,8 @@ void Rod::add(const RodProperties& p, bool new_dresspack) {
   for (int j = 0; j <= n; ++j) {
     const bool end = j == 0 || j == n, tied = j < n || p.tool_end != End::free;
     const double length = compliance_length(p, j, l);
-    const Vector3 stiffness{bending, bending, p.torsional_stiffness};
+    const double stiff = bending + stiffened(p, j, l);
+    const Vector3 stiffness{stiff, stiff, p.torsional_stiffness};
     bending_length_.push_back(length);
     // before a free end the last link stretches for the half segment beyond it too
     const bool before_free = j == n - 1 && p.tool_end == End::free;

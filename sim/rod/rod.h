@@ -16,6 +16,7 @@
 // strain in each link, any rotation. SI units.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,6 +42,12 @@ struct SlidingClamp {
   double mass = 1;      ///< of the clamp [kg]
 };
 
+/// Makes the hose stiffer beside an end (S24).
+struct StiffEnd {
+  double length = 0;             ///< from the end [m]
+  double bending_stiffness = 0;  ///< elastic, beside the hose's own [N m2]
+};
+
 struct RodProperties {
   int segments = 50;               ///< n >= 2
   double length = 0;               ///< unstretched, clamp to clamp [m]
@@ -59,6 +66,7 @@ struct RodProperties {
   End tool_end = End::clamped;
   double tip_mass = 0;             ///< a point at the tip of a free tool end [kg]
   std::optional<SlidingClamp> slider{};  ///< of the base end
+  std::array<StiffEnd, 2> stiff_ends{};  ///< at the base and at the tool end
 
   bool is_hysteretic() const { return !friction.empty() || loss_factor > 0; }
 };

@@ -50,10 +50,7 @@ template <class Shapes>
 Solid solid_of(const Shapes& shapes) {
   Solid solid{shapes.capsules, shapes.boxes, {}};
   for (const pipeline::MeshFile& file : shapes.meshes) {
-    std::vector<Triangle> triangles = read_triangles(file.file);
-    for (Triangle& triangle : triangles)
-      for (auto& corner : triangle) corner *= file.scale;
-    if (!triangles.empty())
+    if (std::vector<Triangle> triangles = scaled_triangles(file); !triangles.empty())
       solid.meshes.push_back({Mesh(std::move(triangles)), {file.position, pipeline::from_roll_pitch_yaw(file.orientation)}});
   }
   return solid;

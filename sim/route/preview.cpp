@@ -65,6 +65,7 @@ class Previewer {
     write_spans(file);
     write_scan(file);
     QuickWarnings quick = quick_warnings(setup_);
+    if (robot_ && !robot_->note().empty()) quick.notes.push_back(robot_->note());
     if (robot_ && setup_.simulation.contact)
       if (std::string note = gripper_note(setup_, robot_->tools()); !note.empty())
         quick.notes.push_back(std::move(note));

@@ -109,6 +109,8 @@ std::vector<RodProperties> pieces_of(const Thread& thread, const Frames& frames,
   std::vector<RodProperties> pieces(ways.size(), thread.span->properties);
   for (std::size_t k = 0; k < ways.size(); ++k) {
     pieces[k].slider.reset();
+    if (k > 0) pieces[k].stiff_ends[0] = {};
+    if (k + 1 < ways.size()) pieces[k].stiff_ends[1] = {};
     pieces[k].tool_end = tool_end;
     pieces[k].length *= ways[k] / whole;
     pieces[k].segments =

@@ -1,8 +1,11 @@
 #include "sim/run/clamp_path.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/resolve/plausible_job.h"
@@ -166,6 +169,48 @@ std::vector<pipeline::Warning> too_fast(const pipeline::Motion& motion, const pi
       "times that the robot can keep, or the axis' limit in robot.joints if it is larger")};
 }
 
+struct Waits {
+  double time = 0;  ///< [s]
+  const pipeline::MotionStep* longest = nullptr;
+};
+
+void add_waits(const std::vector<pipeline::MotionStep>& steps, int times, Waits& waits) {
+  for (const pipeline::MotionStep& step : steps) {
+    add_waits(step.steps, times * std::max(1, step.repeat), waits);
+    waits.time += times * step.dwell;
+    if (step.dwell > 0 && (!waits.longest || step.dwell > waits.longest->dwell)) waits.longest = &step;
+  }
+}
+
+/// Whether there are poses, and all of them lead the flange itself.
+bool leads_flange(const std::vector<pipeline::MotionStep>& steps, const pipeline::Motion& motion, bool& poses) {
+  return std::ranges::all_of(steps, [&](const pipeline::MotionStep& step) {
+    if (!leads_flange(step.steps, motion, poses)) return false;
+    if (step.position.empty()) return true;
+    poses = true;
+    const auto tool = std::ranges::find(motion.tools, step.tool, &pipeline::MotionFrame::name);
+    return tool == motion.tools.end() || tool->position.isZero();
+  });
+}
+
+/// What a run notes of its program, and of what may be an input in another unit or one that is missing.
+std::string note_of(const RunMotion& run, double cycle) {
+  constexpr double most = 0.5, long_wait = 1;  // [s]: the controller's own steps wait less
+  std::vector<std::string> notes;
+  Waits waits;
+  add_waits(run.motion.steps, 1, waits);
+  if (waits.time > most * cycle && waits.longest->dwell >= long_wait)
+    notes.push_back(fmt::format(
+        "The waits of the program take {:.4g} s, {:.0f} % of its cycle of {:.4g} s; the longest one is {:g} s, at {}. It counts in seconds: "
+        "correct it if that was milliseconds or a decimal point is missing",
+        waits.time, 100 * waits.time / cycle, cycle, waits.longest->dwell, waits.longest->where.text()));
+  if (bool poses = false; leads_flange(run.motion.steps, run.motion, poses) && poses)
+    notes.push_back("The poses of the program lead the flange, because their tool is [0, 0, 0]. Was it taught with a tool? Then give that tool's data, "
+                    "in the program or as motion.tools: without them the flange comes too near to every place");
+  if (!run.note.empty()) notes.push_back(run.note);
+  return pipeline::joined(notes, ". ");
+}
+
 /// Origins of the tools that the flange carries, in its frame.
 std::vector<Vector3> tool_points(const pipeline::Motion& motion) {
   std::vector<Vector3> points;
@@ -205,7 +250,7 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
               pipeline::joined(other_maker(setup.motion, setup.robot), too_fast(run.motion, setup.robot))),
           setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
                                        : pipeline::plausibility_of_steps(run.motion))),
-      note_(run.note),
+      note_(note_of(run, motion_.duration())),
       tools_(tool_points(run.motion)) {
   hold_joint(setup);
   mounting_pose_ = motion_.position(0);

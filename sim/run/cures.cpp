@@ -329,6 +329,22 @@ std::string limit_remark(const CheckedMotion& motion, const Check& broken) {
                      dresspack.hose_corrugation && !dresspack.components.empty() ? " of the parts in the hose" : "");
 }
 
+/// Nearer to a clamp without a relief than a bend of the limit reaches.
+std::string relief_remark(const CheckedMotion& motion, const Check& broken) {
+  const pipeline::Routing& routing = mounted_of(motion, broken).routing;
+  std::vector<std::pair<double, std::string>> bare;
+  const auto add = [&](const std::optional<pipeline::Clamp>& clamp, double at, const std::string& key) {
+    if (clamp && !clamp->bend_relief && std::abs(at - broken.position) < broken.limit) bare.emplace_back(std::abs(at - broken.position), key);
+  };
+  add(routing.base_clamp, 0, "routing.base_clamp");
+  for (std::size_t k = 0; k < routing.clamps.size(); ++k)
+    add(routing.clamps[k].clamp, routing.clamps[k].at_length, fmt::format("routing.clamps.{}", k + 1));
+  add(routing.tool_clamp, routing.free_length, "routing.tool_clamp");
+  if (broken.position < 0 || bare.empty()) return "";
+  return fmt::format("; beside the clamp a sleeve or spring may spread the bend, not tried: {}.bend_relief",
+                     key_of(motion.setup, broken.dresspack, std::min_element(bare.begin(), bare.end())->second));
+}
+
 /// The acceleration that keeps the limit, if one is found; 0: none.
 double slower(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken, double k_rest) {
   constexpr int most = 3;
@@ -344,7 +360,7 @@ double slower(const CheckedMotion& motion, const std::vector<Check>& checks, con
 }
 
 Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
-  const std::string remark = limit_remark(motion, broken);
+  const std::string remark = (motion.rod ? relief_remark(motion, broken) : "") + limit_remark(motion, broken);
   if (!motion.rod)
     return {"the prescribed deformation bends it so", "a larger radius in motion.rig or motion.deformation" + remark};
   const pipeline::Routing& routing = mounted_of(motion, broken).routing;

@@ -55,13 +55,8 @@ void add_shapes(World& world, int link, const Shapes& shapes) {
     world.add(link, CapsuleShape{capsule.from, capsule.to, capsule.radius});
   for (const pipeline::Box& box : shapes.boxes)
     world.add(link, BoxShape{frame_of(box.position, box.orientation), box.sides});
-  for (const pipeline::MeshFile& file : shapes.meshes) {
-    std::vector<Triangle> triangles = read_triangles(file.file);
-    for (Triangle& triangle : triangles)
-      for (Vector3& corner : triangle) corner *= file.scale;
-    world.add(link, std::make_shared<const Mesh>(std::move(triangles)),
-              frame_of(file.position, file.orientation));
-  }
+  for (const pipeline::MeshFile& file : shapes.meshes)
+    world.add(link, std::make_shared<const Mesh>(scaled_triangles(file)), frame_of(file.position, file.orientation));
 }
 
 WorldSettings world_settings(const pipeline::Setup& setup) {
@@ -219,7 +214,8 @@ class Mounting {
       piece.properties.slider.reset();
       piece.properties.segments = counts[p];
       piece.properties.length = counts[p] * span.segment_length;
-      if (!last) piece.properties.tool_end = End::clamped, piece.properties.tip_mass = 0;
+      if (!last) piece.properties.tool_end = End::clamped, piece.properties.tip_mass = 0, piece.properties.stiff_ends[1] = {};
+      if (p > 0) piece.properties.stiff_ends[0] = {};
       piece.end = ends[p];
       piece.begin_link = p == 0 ? end_links[2 * k] : links[p - 1];
       piece.end_link = links[p];

@@ -59,9 +59,13 @@ class QuickChecks {
 
   QuickFindings findings() {
     QuickFindings found;
-    found.run = short_run(setup_, short_run_segments);
     add_slack(found.checks);
     if (robot_) found.others = robot_->doubts();
+    if (std::ranges::any_of(found.checks, [](const Check& check) { return check.name == check_name::too_long && check.value > 2 * check.limit; })) {
+      found.notes.push_back("The short run of the checks was left out, because the hose is far too long. Correct the length first");
+      return found;
+    }
+    found.run = short_run(setup_, short_run_segments);
     add_rests(found);
     add_bends(found);
     if (found.run.stopped_at)

@@ -34,6 +34,7 @@ std::vector<RodProperties> spans_of(const RodProperties& whole, const pipeline::
   std::vector<double> ends;
   for (const pipeline::IntermediateClamp& clamp : routing.clamps) ends.push_back(clamp.at_length);
   ends.push_back(whole.length);
+  const std::vector<std::array<pipeline::BendRelief, 2>> reliefs = pipeline::bend_reliefs(routing);
   std::vector<RodProperties> spans;
   double begin = 0;
   for (const double end : ends) {
@@ -43,6 +44,8 @@ std::vector<RodProperties> spans_of(const RodProperties& whole, const pipeline::
     RodProperties span = whole;
     span.length = end - begin;
     span.segments = std::max(fewest_segments, before(end) - before(begin));
+    const std::array<pipeline::BendRelief, 2> relief = reliefs[spans.size()];
+    span.stiff_ends = {StiffEnd{relief[0].length, relief[0].stiffness}, StiffEnd{relief[1].length, relief[1].stiffness}};
     spans.push_back(span);
     begin = end;
   }

@@ -228,6 +228,18 @@ TEST_CASE("calibrate: a maintenance system's table in one command teaches the jo
   // The prior of ln life has a deviation of ln 6 to ln 10, the mean of ten lives one of some tenths.
   CHECK(after > 6 * before);
   CHECK(after < 13 * before);
+  // Eight that live thirty times as long as predicted, and records of their last hours: what is learned contradicts them.
+  std::string alive = "robot,installed,replaced\n";
+  for (int k = 0; k < 8; ++k) alive += fmt::format("R{},2000-01-03,\n", k);
+  scratch.write("alive.csv", alive);
+  const auto of_alive = [&](double since) {
+    return must_run(scratch, "dresslife", "calibrate alive.csv --job job.yaml --quiet --today " + day(before * 30) + " --records-since " + day(before * since)).out;
+  };
+  const std::string late = of_alive(28), all = of_alive(0);
+  INFO(late << all);
+  CHECK(late.find("warning: 'job': 8 dresspacks were in use when the records begin") != std::string::npos);
+  CHECK(all.find("were in use when the records begin") == std::string::npos);
+  CHECK(all.find("warning: 'job': fewer failures than predicted (0 of 8 failed): without the calibration 1 of ") != std::string::npos);
   CHECK(run(scratch, "dresslife", "calibrate plant.csv --quiet --today 2999-01-01").err.find("plant.csv:2:1: error: it is not known which job") !=
         std::string::npos);
   CHECK(run(scratch, "dresslife", "calibrate plant.csv --job job.yaml --records-since soon").err.find("'soon' is no date") !=

@@ -2,6 +2,9 @@
 
 #include "tests/cli/process.h"
 
+#include <cmath>
+
+#include "pipeline/cable/polymer.h"
 #include "tests/catch.h"
 
 using namespace dresslife::tests;
@@ -13,7 +16,8 @@ TEST_CASE("plot draws each figure of a job into a file that needs no page") {
   const std::string job = "runs/job/job";
   const std::pair<std::string, std::string> figures[] = {
       {"strain", "class=\"curve\""},      {"cycles", "class=\"bar\""},      {"damage", "class=\"bar-hot\""},
-      {"deformation", "class=\"curve\""}, {"curvature", "class=\"curve\""}, {"scene", "class=\"hose-hot\""}};
+      {"deformation", "class=\"curve\""}, {"curvature", "class=\"curve\""},
+      {"scene", "class=\"hose-hot\""}};
   for (const auto& [what, draws] : figures) {
     const Outcome drawn =
         run(scratch, "dresslife", "plot " + job + " --what " + what + " -o " + what + ".svg");
@@ -44,6 +48,26 @@ TEST_CASE("plot draws each figure of a job into a file that needs no page") {
   CHECK(no_picture.err.find("s.txt: error: is neither an .svg nor a .png; name") == 0);
   CHECK(run(scratch, "dresslife", "plot " + job + " --what strain -o " + job + "/life.h5.svg").status == 0);
   CHECK(run(scratch, "dresslife", "plot " + job + " --what strain -o job.yaml").status == 1);
+}
+
+TEST_CASE("plot draws the moment over curvature of a hose and its cable") {
+  Scratch scratch;
+  write_small_job(scratch);
+  must_run(scratch, "dresslife", "run job.yaml --quiet");
+  const std::string plot = "plot runs/job/job --what bending -o bending.svg";
+  CHECK(run(scratch, "dresslife", plot).err.find("strain.h5: error: comes from a job without friction in its cables (strain.slip); set") !=
+        std::string::npos);
+  scratch.write("dresspacks/thin.yaml", thin_hose);
+  must_run(scratch, "dresslife", "run job.yaml --quiet --set strain.slip=friction --set dresspack=thin");
+  must_run(scratch, "dresslife", plot);
+  // E I without friction: the polymer, and six wires of copper, each about its own axis on a lay of 15 degrees (within 1 % of
+  // the sum); held: they have E A R^2/2 besides.
+  const std::string bending = unmarked_content(scratch / "bending.svg"), words = "cable: E I ";
+  REQUIRE(bending.find(words) != std::string::npos);
+  const double pi = std::acos(-1.0), polymer = dresslife::pipeline::jacketed_modulus * pi / 4 * std::pow(2e-3, 4), wire = 117e9 * pi / 4 * std::pow(1e-4, 4);
+  CHECK(std::stod(bending.substr(bending.find(words) + words.size())) == Approx(polymer + 6 * wire).epsilon(0.01));
+  const double held = std::stod(bending.substr(bending.find("sliding, ", bending.find(words)) + 9));
+  CHECK(held == Approx(polymer + 6 * (wire + 117e9 * pi * 1e-8 * 1e-6 / 2 * std::pow(std::cos(pi / 12), 3))).epsilon(0.05));
 }
 
 TEST_CASE("show tells what lies in a file, with shapes, units, ranges and meanings") {

@@ -179,6 +179,7 @@ const Wrong wrong[] = {
     {"cable.yaml", "7 x 0.5 mm2", "7 x 20 mm2", "cable.yaml:6:17: error: ", "a conductor 5.807 mm wide", "give cross_section_mm2: 0.518 if 20 is a wire gauge (AWG)", "dresslife draw cable.yaml"},
     {"cable.yaml", "7 x 0.5 mm2", "0.5 x 7 mm2", "cable.yaml:6:17: error: ", "'0.5 x 7 mm2' of a data sheet is not understood", "write '7 x 0.5 mm2'", "dresslife draw cable.yaml"},
     {"hose.yaml", "diameter_mm: 50\ninner", "diameter_m: 0.05\ninner", "hose.yaml:3:1: error: ", "unknown key 'dresspack.diameter_m'", "its unit is mm, write 'diameter_mm: 50'"},
+    {"job.yaml", "simulation: {segments: 24, contact: false}", "cell: {meshes: [{file: box.obj}]}\nsimulation: {segments: 24}", "", "box.obj: error: the mesh is 300 m long with scale 1 (limit 30 m)", "give the mesh scale: 0.001 if its unit is the millimetre", "dresslife-sim job.yaml -o out.h5"},
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_g_per_m: 1200", "hose.yaml:5:1: error: ", "unknown key 'dresspack.mass_g_per_m'", "write 'mass_kg_per_m: 1.2'"},
     {"axes.csv", "", "t,a,b,c,d,e,f" + axes.substr(axes.find('\n')), "axes.csv:1:1: error: ", "names axes without their order", "motion.values: [{name: joints, value: 'NAME,NAME,...'}]", "dresslife check axes.yaml"},
     {"spot.mod", "MoveAbsJ a", "MoveAbsJ b", "spot.mod:4:", "'b'", "motion.values: [{name: b, value: VALUE}]", "dresslife check module.yaml"},
@@ -228,6 +229,7 @@ void write_inputs(const Scratch& scratch) {
   scratch.write("fleet.yaml", "base: job.yaml\ntable: fleet.csv\n");
   scratch.write("fleet.csv", fleet);
   scratch.write("study.yaml", study);
+  scratch.write("box.obj", "v 0 0 0\nv 300 0 0\nv 0 200 100\nf 1 2 3\n");
   scratch.write("cable.yaml",
                 "name: c\nsource: a data sheet\ncomponents:\n  - name: cable\n    helix_radius_mm: 0\n"
                 "    data_sheet: 7 x 0.5 mm2, wire 0.1 mm, outer diameter 8.2 mm, jacket 1.1 mm\n");
@@ -339,6 +341,7 @@ const Doubtful doubtful[] = {
     setting("fatigue: {failed_wires_percent: 0.1}", "fatigue.failed_wires_percent is 0.1 (limit 0, or 1 or more)", "fatigue.failed_wires_percent: 10"),
     setting("fatigue: {robot_life_hours: 10}", "fatigue.robot_life_hours is 10 (limit 1000 or more). Likely cause: years", "fatigue.robot_life_hours: 40000"),
     setting("fatigue: {operating_hours_per_week: 0.5}", "fatigue.operating_hours_per_week is 0.5 (limit 5 or more)", "fatigue.operating_hours_per_week: 80"),
+    setting("fatigue: {operating_hours_per_week: 8}", "fatigue.operating_hours_per_week is 8 (limit more than 24). Likely cause: hours of a day", "fatigue.operating_hours_per_week: 40 if"),
     setting("fatigue: {endurance_strain: 0.05}", "fatigue.endurance_strain is 0.05 (limit 0.005 or less)", "fatigue.endurance_strain: 0.0005"),
     setting("fatigue: {strength_factor: 100}", "fatigue.strength_factor is 100 (limit 0.033 .. 30)", "fatigue.strength_factor: 1 if that was per cent"),
     setting("strain: {friction_factor: 0.01}", "strain.friction_factor is 0.01 (limit 0.033 .. 30)", "strain.friction_factor: 1"),
@@ -349,6 +352,8 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "inner_diameter_mm: 42", "inner_diameter_mm: 49.99", "hose.yaml:1:1", "the wall is 0.005 mm thick", "inner_diameter_mm: 42.5 (ESTIMATE)"},
     {"hose.yaml", "torsional_stiffness_Nm2: 1.6", "torsional_stiffness_Nm2: 0.000016", "hose.yaml:1:1", "torsional_stiffness_Nm2 is 8e-06 times bending_stiffness_Nm2", "torsional_stiffness_Nm2: from_construction"},
     {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 5000", "hose.yaml:1:1", "least_bend_radius_mm is 5000 (limits 50 .. 2000: 1 to 40 diameters)", "least_bend_radius_mm: 500 if"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 600", "hose.yaml:1:1", "least_bend_radius_mm is 600, 12 diameters (limits 3 .. 10 of a moved hose). Likely cause: the bend diameter", "least_bend_radius_mm: 300 if that was the diameter"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 100", "hose.yaml:1:1", "least_bend_radius_mm is 100, 2 diameters (limits 3 .. 10 of a moved hose). Likely cause: half of the radius", "least_bend_radius_mm: 200 if that was half"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 15", "hose.yaml:12:5", "slack_percent of 'lead' is 15 (limit 5). Likely cause: millimetres in a metre", "slack_percent: 1.5"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 30\n    radial_line_load_N_per_m: 5", "hose.yaml:12:5", "friction_coefficient of 'lead' is 30 (limit 1.5)", "friction_coefficient: 0.3"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    base_grip_N: 1e9", "hose.yaml:12:5", "base_grip_N of 'lead' is 1e+09 (limit 100000)", "no base_grip_N"},
@@ -393,6 +398,8 @@ const Doubtful doubtful[] = {
     {"job.yaml", "position_m: [0.15, 0, 0.18]", "position_m: [1.5, 0, 0.18]", "job.yaml:12:15", "routing.tool_clamp.position_m lies 1.5 m from all shapes of link_6", "position_m: [0.15, 0, 0.18] if a decimal point slipped"},
     setting("cell: {boxes: [{position_m: [50, 0, 0], sides_m: [800, 600, 10]}]}", "cell.boxes[1] is 800 m long (limit 60)", "sides_m: [0.8, 0.6, 0.01] if those were millimetres"),
     setting("robot.joints.3.upper_deg: 4010.7", "joint_3 turns from -180 to 4010.7 deg (limit 4 turns)", "lower_deg: -3.1416 and upper_deg: 70"),
+    {"job.yaml", "direction: [1, 0, 0.45]", "direction: [90, 0, 45]", "job.yaml:11:15", "routing.base_clamp.direction is [90, 0, 45] (limit: numbers below 5). Likely cause: angles", "direction: [0.894, 0, 0.447] if it points there"},
+    {"job.yaml", "[-0.1, 0, 0.45]", "[0.45, 0, -0.1]", "job.yaml:11:15", "routing.base_clamp.position_m lies 0.271 m from all shapes of link_3 (limit 0.25). Likely cause: exchanged coordinates", "position_m: [-0.1, 0, 0.45] if so"},
     {"job.yaml", "direction: [1, 0, -0.35]", "direction: [-1, 0, 0.35]", "", "smallest bend radius at rest: 52.2 mm", "direction"},
 };
 
@@ -478,6 +485,17 @@ TEST_CASE("plausible mistakes that make a job are warned of, with place, limit a
   }
 }
 
+TEST_CASE("waits of a program that take more than half of its cycle are named with their share, others are not") {
+  const auto told = [](const std::string& wait) {
+    const Scratch scratch;
+    write_inputs(scratch);
+    scratch.write("spot.mod", replaced_all(module, "ENDPROC", "  WaitTime " + wait + ";\n  MoveAbsJ [[20,0,0,0,60,90],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\nENDPROC"));
+    return run(scratch, "dresslife", "check module.yaml").out;
+  };
+  CHECK_THAT(told("60"), Contains("note: The waits of the program take 60 s, 9") && Contains("the longest one is 60 s, at spot.mod:5:"));
+  CHECK_THAT(told("0.06"), !Contains("The waits of the program"));
+}
+
 TEST_CASE("files as other systems write them are read: byte order marks, line ends, letters, separators") {
   const auto is_quiet = [](const std::string& file, const std::string& text, const std::string& command) {
     const Scratch scratch;
@@ -506,6 +524,7 @@ TEST_CASE("a misspelt option is answered with the nearest one, a dry run names j
   };
   CHECK(answer("dresslife", "improve job.yaml --trial 2") == "'--trial' is no option of improve; did you mean '--trials'?");
   CHECK(answer("dresslife", "run job.yaml --job=2") == "'--job' is no option of run; did you mean '--jobs'?");
+  CHECK(answer("dresslife", "run job.yaml -n 2") == "'-n' takes no number (print what would be made and why, and run nothing); leave out '2'");
   CHECK(answer("dresslife-import", "spot.mod --anwsers x") ==
         "'--anwsers' is no option of dresslife-import; did you mean '--answers'?");
   scratch.write("study.yaml", "base: job.yaml\nvary:\n  routing.free_length_m: [2.0, 2100]\n");

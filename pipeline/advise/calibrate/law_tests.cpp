@@ -7,7 +7,9 @@
 
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
+#include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/kink.h"
+#include "pipeline/job/uncertainty.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/document_kind.h"
 #include "pipeline/settings/fields.h"
@@ -36,6 +38,11 @@ void describe(Fields& f, WearTest& test) {
                  "The volume that something rougher than `against` wore off. The law must say less.");
 }
 
+void describe(Fields& f, BendingTest& test) {
+  f.number("curvature_1_per_m", test.curvature, Need::required, above(0), "The curvature to which the cable was bent.");
+  f.number("moment_mNm", test.moment, Need::required, above(0), "The moment that bent it.");
+}
+
 void describe(Fields& f, LawTest& test) {
   f.place(test.where);
   f.text("name", test.name, Need::required, "A short name.");
@@ -45,6 +52,7 @@ void describe(Fields& f, LawTest& test) {
             "Whether a constant of the law comes from this test.");
   f.maybe_group("tube", test.tube, "A tube that was bent.");
   f.maybe_group("wear", test.wear, "A surface that was rubbed.");
+  f.maybe_group("bending", test.bending, "A cable that was bent.");
 }
 
 namespace {
@@ -52,9 +60,8 @@ namespace {
 constexpr const char* key = "law_tests";
 
 void check(const LawTest& test) {
-  if (test.tube.has_value() == test.wear.has_value())
-    throw InputError(test.where, fmt::format("'{}' must have either tube or wear", test.name),
-                     "give one of the two");
+  if (test.tube.has_value() + test.wear.has_value() + test.bending.has_value() != 1)
+    throw InputError(test.where, fmt::format("'{}' must have one of tube, wear and bending", test.name), "give one");
   const int radii = test.tube ? test.tube->kinks_at.has_value() + test.tube->oval_at.has_value() +
                                     test.tube->allowed_at.has_value()
                               : 1;
@@ -99,6 +106,35 @@ LawPrediction predicted(const WearTest& test, const Where& where) {
   return lognormal(rate->rate * test.force * test.way, std::log10(rate->factor));
 }
 
+/// What is not known without a measurement is the friction; polymer and wires count as the construction has them.
+LawPrediction predicted(const BendingTest& test) {
+  const auto moment = [&](double share) {
+    const UncertainParameter& friction = uncertain_parameters()[index_of(Uncertain::friction_inside)];
+    return bending_moments(test.cable, test.cable.components.front(), friction.value(normal_quantile(share)), {test.curvature}).front();
+  };
+  return {moment(0.1), moment(0.5), moment(0.9)};
+}
+
+/// Takes the cable out of a row of the document, resolved as in a job.
+Dresspack take_cable(Node& row) {
+  Node* const bending = row.is_map() ? row.find("bending") : nullptr;
+  const Node* const cable = bending && bending->is_map() ? bending->find("cable") : nullptr;
+  if (!bending) return {};
+  if (!cable)
+    throw InputError(bending->where, "bending has no cable", "give it as in the key dresspack of a job");
+  Node job;
+  job.where = cable->where;
+  job["dresspack"]["cable"] = *cable;
+  std::erase_if(bending->entries, [](const Entry& entry) { return entry.key == "cable"; });
+  resolve_job(job);
+  Dresspack dresspack;
+  read_fields(*job.find("dresspack"), dresspack);
+  check_dresspack(dresspack, {Slip::friction});
+  if (!has_wires(dresspack))
+    throw InputError(dresspack.where, "bending.cable has no wires", "give its data_sheet, or components with wires");
+  return dresspack;
+}
+
 struct Observed {
   double value = 0;
   bool bounds_above = true, bounds_below = true;  ///< what the law must not exceed, not fall short of
@@ -112,6 +148,7 @@ Observed observed_in(const LawTest& test) {
     return {bound ? *test.wear->worn_more : *test.wear->worn, true, !bound, 1e9,
             bound ? "mm3 by something rougher" : "mm3"};
   }
+  if (test.bending) return {test.bending->moment, true, true, 1e3, "mN m"};
   if (test.tube->kinks_at) return {*test.tube->kinks_at, true, true, 1e3, "mm, kinked"};
   if (test.tube->oval_at) return {*test.tube->oval_at, true, true, 1e3, "mm, oval"};
   return {*test.tube->allowed_at, true, false, 1e3, "mm, allowed by its maker"};
@@ -125,20 +162,27 @@ bool holds_law_tests(const std::filesystem::path& file) {
 }
 
 std::vector<LawTest> read_law_tests(const std::filesystem::path& file) {
-  const Node document = read_yaml(file);
+  Node document = read_yaml(file);
   struct {
     std::vector<LawTest> tests;
   } all;
+  std::vector<Dresspack> cables;
+  if (Node* const rows = document.is_map() ? document.find(key) : nullptr)
+    for (Node& row : rows->items) cables.push_back(take_cable(row));
   read_fields(document,
               [&](Fields& f) { f.list(key, all.tests, Need::required, "Published tests of laws."); });
   if (all.tests.empty())
     throw InputError(document.where, "holds no law_tests",
-                     "write a list of rows with name, what, source, and tube or wear");
-  for (const LawTest& test : all.tests) check(test);
+                     "write a list of rows with name, what, source, and tube, wear or bending");
+  for (std::size_t k = 0; k < all.tests.size(); ++k) {
+    check(all.tests[k]);
+    if (all.tests[k].bending) all.tests[k].bending->cable = std::move(cables[k]);
+  }
   return all.tests;
 }
 
 LawPrediction predicted(const LawTest& test) {
+  if (test.bending) return predicted(*test.bending);
   return test.tube ? predicted(*test.tube) : predicted(*test.wear, test.where);
 }
 

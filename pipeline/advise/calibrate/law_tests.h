@@ -1,4 +1,4 @@
-// Published tests of the laws of kinks and wear, which need no robot and no rig, beside what the laws say.
+// Published tests of the laws of kinks, wear and bending, which need no robot and no rig, beside what the laws say.
 //
 //   law_tests:
 //     - name: smc_6x4
@@ -9,6 +9,10 @@
 //       what: ...
 //       wear: {material: hose_polyamide, against: dresspack, force_N: 10, way_m: 1000, worn_mm3: 0.12}
 //       source: ...
+//     - name: hm3_core_20
+//       what: ...
+//       bending: {cable: {radius_mm: 1.2, components: [...]}, curvature_1_per_m: 20, moment_mNm: 4.62}    cable: as in a dresspack
+//       source: ...
 #pragma once
 
 #include <filesystem>
@@ -16,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job/material.h"
+#include "pipeline/job/dresspack.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
@@ -43,16 +47,25 @@ struct WearTest {
 };
 void describe(Fields& f, WearTest& test);
 
+/// A cable by itself that was bent from straight for the first time, in one plane.
+struct BendingTest {
+  Dresspack cable;         ///< as `dresspack: {cable: ..}` of a job, with the friction that is estimated without a measurement
+  double curvature = 0;    ///< [1/m]
+  double moment = 0;       ///< [N m]
+};
+void describe(Fields& f, BendingTest& test);
+
 struct LawTest {
   std::string name, what, source;
   bool sets_constant = false;  ///< the constants of the law come from this test: it cannot confirm them
   std::optional<TubeTest> tube;
   std::optional<WearTest> wear;
+  std::optional<BendingTest> bending;
   Where where;
 };
 void describe(Fields& f, LawTest& test);
 
-/// The prediction of a law for a test: percentiles 10, 50, 90 of a radius [m] or a volume [m3].
+/// The prediction of a law for a test: percentiles 10, 50, 90 of a radius [m], a volume [m3] or a moment [N m].
 struct LawPrediction {
   double low = 0, median = 0, high = 0;
 };

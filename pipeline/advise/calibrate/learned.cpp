@@ -10,6 +10,7 @@
 #include "pipeline/base/statistics.h"
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/job/wall_strength.h"
+#include "pipeline/life/planning.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -30,6 +31,30 @@ std::string parameter_lines(const Learned& learned) {
                         axis.learned ? fmt::format("{:.0f} %", 100 * axis.narrowed) : why_not_learned(axis));
   }
   return text;
+}
+
+/// Records that the model hardly expected, and dresspacks that live longer than the calibration predicts.
+void add_service_doubts(const LearnedTest& test, double surprising, Learned& learned) {
+  const ServiceChance &before = test.chance_before, &after = test.chance_after;
+  const std::string name = test.observation.name, seen = observed_text(test.observation);
+  const auto percent = [](double share) { return readable(100 * share, 2) + " %"; };
+  if (const double chance = std::min(before.few, before.many); chance < surprising)
+    learned.warnings.push_back(fmt::format(
+        "'{}': {} failures than predicted ({}): without the calibration 1 of {} such plants has as {}. The predicted life of half of them "
+        "changed from {} to {}. Correct the job, the dates or the hours per week if one of them is wrong",
+        name, before.few < before.many ? "fewer" : "more", seen, readable(1 / chance, 2), before.few < before.many ? "few" : "many",
+        life_text(test.before[1], 2), life_text(test.after[1], 2)));
+  if (after.reach < usual_reach) {
+    std::vector<double> ages;
+    for (const ServiceRecord& one : test.observation.service)
+      if (one.entry_hours > 0) ages.push_back(one.entry_hours);
+    learned.warnings.push_back(fmt::format(
+        "'{}': {} dresspacks were in use when the records begin, half of them {} old or older. By this calibration {} of new ones reach such "
+        "ages (before: {}), half of them live {}. The hours before the records do not count, because the table may lack dresspacks that were "
+        "removed then. If it has every removal from an earlier day on, give that day: --records-since DATE. Otherwise do not plan with this "
+        "calibration: these dresspacks live longer than it predicts",
+        name, ages.size(), hours_text(quantile(ages, 0.5)), percent(after.reach), percent(before.reach), life_text(test.after[1], 2)));
+  }
 }
 
 }  // namespace
@@ -76,6 +101,7 @@ std::string words_of(const PredictedDeciles& deciles) {
 
 void add_doubts(Learned& learned, const Axes& axes) {
   constexpr double surprising = 2, skewed = 0.3;  // deviations
+  for (const LearnedTest& test : learned.tests) add_service_doubts(test, normal_share(-surprising), learned);
   for (const LearnedTest& test : learned.tests)
     if (const double off = surprise(test); off > surprising)
       learned.notes.push_back(fmt::format(
@@ -130,6 +156,7 @@ std::string learned_table(const Learned& learned) {
   if (!learned.settled)
     text += fmt::format("warning: after {} rounds the result still changes: it is less exact than usual\n",
                         learned.rounds);
+  for (const std::string& warning : learned.warnings) text += "warning: " + warning + "\n";
   for (const std::string& note : learned.notes) text += "note: " + note + "\n";
   return text;
 }

@@ -23,6 +23,7 @@ struct LearnedTest {
   Observation observation;
   PredictedDeciles before{}, after{};  ///< over all variants; after: weighted by their likelihood
   PredictedDeciles by_others{};        ///< over all variants, from the posterior of all tests but this one
+  ServiceChance chance_before{}, chance_after{};  ///< of dresspacks in service
   double measured = 0;         ///< measured value; 0 for a life
   std::string fails_first{}, moved_by{};  ///< EmulatedTest
 };
@@ -35,7 +36,7 @@ struct Learned {
   Calibration calibration;
   int rounds = 0;
   bool settled = false;  ///< the centre has converged
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, warnings;
 };
 
 std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes);

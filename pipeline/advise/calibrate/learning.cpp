@@ -103,6 +103,10 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
       const EmulatedTest& emulated = emulated_tests[t];
       if (learned.rounds == 1) learned.tests[t].before = predicted_deciles(emulated, prior_draws(), false);
       learned.tests[t].after = predicted_deciles(emulated, posterior_draws(learned.posterior, axes), true);
+      if (const std::vector<ServiceRecord>& records = tests[t].observation.service; !records.empty()) {
+        if (learned.rounds == 1) learned.tests[t].chance_before = service_chance(*emulated.life, records, prior_draws());
+        learned.tests[t].chance_after = service_chance(*emulated.life, records, posterior_draws(learned.posterior, axes));
+      }
       learned.tests[t].fails_first = emulated.fails_first;
       learned.tests[t].moved_by = emulated.moved_by;
       if (!emulated.life)

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "pipeline/advise/calibrate/life_over_parameters.h"
 #include "pipeline/base/random.h"
+#include "pipeline/base/statistics.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -60,6 +62,33 @@ PredictedDeciles predicted_deciles(const EmulatedTest& test, const Eigen::Matrix
                      test.per_shown);
   }
   return quantiles(values);
+}
+
+ServiceChance service_chance(const ObservedLife& life, const std::vector<ServiceRecord>& records, const Eigen::MatrixXd& draws) {
+  int failures = 0;
+  for (const ServiceFactor& one : life.service) failures += one.failed ? one.count : 0;
+  std::map<long, int> entries;  // ages within 5 % count as one
+  int begun = 0;
+  for (const ServiceRecord& one : records)
+    if (one.entry_hours > 0) ++entries[std::lround(std::log(one.entry_hours) / 0.05)], ++begun;
+  ServiceChance chance{0, 0, begun > 0 ? 0.0 : 1.0};
+  const auto all = static_cast<double>(draws.rows());
+  for (Index k = 0; k < draws.rows(); ++k) {
+    std::vector<LifeAt> lives;
+    for (const LifeVariant& variant : life.variants) lives.push_back(variant(draws.row(k).transpose()));
+    const auto log_alive = [&](double log_age) {
+      std::vector<double> terms;
+      for (const LifeAt& at : lives) terms.push_back(log_normal_share((at.log_median - log_age) / at.spread));
+      return log_mean(terms);
+    };
+    double mean = 0;
+    for (const ServiceFactor& one : life.service) mean -= one.count * log_alive(one.log_age);
+    double below = 0, term = std::exp(-mean);  // of fewer failures; of this number
+    for (int n = 1; n <= failures; ++n) below += term, term *= mean / n;
+    chance.few += (below + term) / all, chance.many += (1 - below) / all;
+    for (const auto& [bin, count] : entries) chance.reach += count * std::exp(log_alive(0.05 * double(bin))) / begun / all;
+  }
+  return chance;
 }
 
 Eigen::MatrixXd prior_draws() {

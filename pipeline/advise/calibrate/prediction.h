@@ -21,4 +21,13 @@ Eigen::MatrixXd posterior_draws(const Posterior& posterior, const Axes& axes);
 /// in each sample; else equally.
 PredictedDeciles predicted_deciles(const EmulatedTest& test, const Eigen::MatrixXd& draws, bool weighed);
 
+/// How likely the records of dresspacks in service are, means over samples. Their number of failures is Poisson's with the mean
+/// sum of ln S(e) - ln S(x), of (P5).
+struct ServiceChance {
+  double few = 1, many = 1;  ///< P(as many failures as in the records or fewer), P(as many or more)
+  double reach = 1;          ///< P(a new dresspack reaches the age e), mean over those that the records begin with; 1: none
+};
+/// Precondition: life.service is of these records.
+ServiceChance service_chance(const ObservedLife& life, const std::vector<ServiceRecord>& records, const Eigen::MatrixXd& draws);
+
 }  // namespace dresslife::pipeline

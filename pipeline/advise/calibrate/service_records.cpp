@@ -13,6 +13,7 @@
 #include "pipeline/base/joined.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
@@ -122,12 +123,22 @@ std::optional<End> end_in(const std::string& text) {
   return std::nullopt;
 }
 
+/// Whether a hose, sleeve or jacket is named, and not the whole dresspack ("hose pack", "Schlauchpaket").
+bool names_hose(const std::string& text) {
+  std::string words = " ";
+  for (const unsigned char letter : text) words += letter < 128 && std::isalpha(letter) ? static_cast<char>(std::tolower(letter)) : ' ';
+  for (const std::string_view whole : {"hose pack", "hosepack", "schlauchpaket", "paquete de mangueras", "dress pack"})
+    for (std::size_t at = words.find(whole); at != words.npos; at = words.find(whole)) words.erase(at, whole.size());
+  return has_any(words + " ", {" hose ", " hoses ", "conduit", "sleeve", "jacket", "schlauch", "wellrohr", "mantel", "manguera"});
+}
+
 struct Row {
   int line = 0;
   Where where;
   std::string name;  ///< of the place: robot and dresspack
   Day from{}, to{};
   End end = End::in_use;
+  bool of_hose = false;  ///< its reason names a hose
   std::optional<double> hours_per_week;
   std::string job;
   Where job_where;
@@ -254,6 +265,7 @@ class Export {
              day_remedy(written) + ", or nothing while it is in use");
     row.to = is_date ? day(cells, replaced) : request_.today;
     row.end = *why_end;
+    row.of_hose = names_hose(why);
     if (is_date && row.end == End::in_use)
       refuse(cells, at_[reason] ? reason : replaced, "a dresspack was removed and no reason is given",
              "write failed or preventive as its reason");
@@ -349,6 +361,8 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   std::set<std::string> names;
   std::map<std::string, double> hours_per_week;
   std::size_t failed = 0, removed = 0, in_use = 0, before = 0, early = 0;
+  std::vector<std::string> hoses;  // lines of failures whose reason names a hose
+  Where first_hose;
   for (const Row& row : rows) {
     const auto [at, is_new] = known.try_emplace(row.job, read.tests.size());
     if (is_new) {
@@ -382,6 +396,10 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
     const ServiceRecord record{days * hours_per_day, entry_days * hours_per_day, row.end == End::failed};
     ++(row.end == End::failed ? failed : row.end == End::removed ? removed : in_use);
     before += record.entry_hours > 0;
+    if (record.failed && row.of_hose) {
+      if (hoses.empty()) first_hose = row.where;
+      hoses.push_back(std::to_string(row.line));
+    }
     ObservedTest& test = read.tests[at->second];
     test.observation.service.push_back(record);
     test.text += fmt::format("{} {} {}\n", record.hours, record.entry_hours, record.failed);
@@ -406,6 +424,13 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
         "{} removed {} do not count{}.\n", early, request.since ? "before" : "on that day",
         request.since ? ""
                       : ": --records-since DATE gives an earlier day from which the records are complete");
+  if (!hoses.empty())
+    read.words += warning_of(WarningKind::calibration, first_hose.text(),
+                             fmt::format("the reason names a hose, sleeve or jacket and counts as broken wires (line {})", joined(hoses, ", ")),
+                             "a hose that cracked ends a dresspack before its wires do (competing risks)",
+                             "if no wire had broken, write preventive: the wires lived at least so long. If a hose of a job with "
+                             "hose_material cracked, leave the row out: its wall would count as whole")
+                      .line() + "\n";
   return read;
 }
 

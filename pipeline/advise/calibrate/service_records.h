@@ -33,7 +33,7 @@ struct ServiceRequest {
 
 struct ServiceTests {
   std::vector<ObservedTest> tests;  ///< one per cell of the column job
-  std::string words;                ///< what was read from which columns, and which rows count
+  std::string words;                ///< what was read from which columns, which rows count, and a warning of failures whose reason names a hose
 };
 
 /// Errors: InputError at line and column for a missing column, two columns for one thing, a date that is none or is not

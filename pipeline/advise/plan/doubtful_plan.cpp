@@ -14,6 +14,7 @@ namespace {
 constexpr double least_percent = 1;     // of time: 48 minutes of a week of 80 hours
 constexpr double shares_at_most = 1.5;  // percent of repeats of all programs together, if they were shares
 constexpr double least_week = 5;        // [h]: an hour per working day
+constexpr double day = 24;              // [h]: robots of plants run 40 h a week and more
 constexpr double least_shift = 2, most_shift = 24;  // [h]
 constexpr double longest_history = 175'000;         // [h]: 20 years day and night
 constexpr double most_times_cost = 100;             // between the largest and the smallest cost of one kind
@@ -68,14 +69,13 @@ class Doubts {
   }
   void of(const Fleet& fleet, Day today) {
     std::map<std::string, const Installed*> names;
-    const Installed *new_today = nullptr, *thousands = nullptr;
-    int new_ones = 0, of_thousands = 0;
+    const Installed *new_today = nullptr, *thousands = nullptr, *short_week = nullptr;
+    int new_ones = 0, of_thousands = 0, short_weeks = 0;
     const auto [low_planned, high_planned] = std::minmax_element(
         fleet.rows.begin(), fleet.rows.end(),
         [](const Installed& a, const Installed& b) { return a.planned_cost < b.planned_cost; });
     for (const Installed& row : fleet.rows) {
-      if (row.hours_per_week)
-        week(row.where, fmt::format("hours_per_week of '{}'", row.name), *row.hours_per_week);
+      if (row.hours_per_week && *row.hours_per_week <= day && short_weeks++ == 0) short_week = &row;
       if (today - row.since > oldest)
         add(row.where,
             fmt::format("'{}' was installed {} days ago (limit {}: 20 years)", row.name,
@@ -95,6 +95,8 @@ class Doubts {
       if (row.since == today && new_ones++ == 0) new_today = &row;
     }
     const auto more = [](int count) { return count > 1 ? fmt::format(" (and {} more)", count - 1) : std::string(); };
+    if (short_week)
+      week(short_week->where, fmt::format("hours_per_week of '{}'{}", short_week->name, more(short_weeks)), *short_week->hours_per_week);
     if (thousands)
       add(thousands->where,
           fmt::format("unplanned_cost of '{}' is {:.4g} times its planned_cost (limit {:g}){}", thousands->name,
@@ -140,6 +142,9 @@ class Doubts {
           "hours of a day, or a share of the week",
           fmt::format("hours_per_week: {:g} if that was {}", hours < 1 ? 168 * hours : 5 * hours,
                       hours < 1 ? "a share" : "per working day"));
+    else if (hours <= day)
+      add(where, fmt::format("{} is {:g} (limit more than {:g})", key, hours, day), "hours of a day",
+          fmt::format("hours_per_week: {:g} if that was per working day; leave it if the robot runs so little", 5 * hours));
   }
   /// Small letters and digits alone.
   static std::string plain(const std::string& name) {

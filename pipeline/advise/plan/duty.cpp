@@ -6,6 +6,7 @@
 #include <set>
 
 #include "pipeline/base/exported.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/resolve/document_kind.h"
 #include "pipeline/settings/fields.h"
 
@@ -100,7 +101,7 @@ void describe(Fields& f, Duty& duty) {
   f.list("order", duty.order, Need::optional,
          "One round of the programs, which begins again after the last of them. With it the changes between programs count.");
   f.list("history", duty.history, Need::optional,
-         "What the dresspack has done so far. With it the remaining life is predicted.");
+         "What the dresspack has done so far. With it the remaining life is predicted, and a plan counts it.");
 }
 
 namespace {
@@ -159,6 +160,7 @@ double DutyProgram::rate(double repeat_seconds, double shift_hours, std::optiona
 }
 
 DutyFile read_duties(const std::filesystem::path& name, Day today) {
+  check_utf8(read_text(name), name.string());  // else the names of duties are not those of a fleet
   const Node document = read_yaml(name);
   if (document.is_map() && !document.find("duties")) refuse_other_kind(document, DocumentKind::duties);
   DutyFile file;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <map>
 #include <memory>
@@ -67,12 +68,17 @@ std::string text_beside_motion(Job job) {
   return job_text(job);
 }
 
-void check_same_dresspack(const Duty& duty, const Jobs& jobs) {
+void check_same_dresspack(const DutyFile& file, const Duty& duty, const Jobs& jobs) {
   const StudyJob& first = jobs.of(duty.programs.front());
   if (!first.job) return;
   const std::string same = text_beside_motion(*first.job);
   std::set<const Job*> known{first.job.get()};
-  for (const DutyProgram& program : duty.programs) {
+  std::vector<DutyProgram> programs = duty.programs;
+  for (const PastDuty& past : duty.history) {
+    const std::vector<DutyProgram>& before = duty_named(file, past.duty, past.where).programs;
+    programs.insert(programs.end(), before.begin(), before.end());
+  }
+  for (const DutyProgram& program : programs) {
     const StudyJob& job = jobs.of(program);
     if (!job.job || !known.insert(job.job.get()).second || text_beside_motion(*job.job) == same) continue;
     const auto expected = beside_motion(*first.job);
@@ -400,11 +406,18 @@ void check_programs(const DutyFile& file, const Study& study) {
                      "keep: histories, or all, in the study");
   Problems problems;
   const Jobs jobs(study);
-  for (const Duty& duty : file.duties)
-    problems.attempt("", duty.where, [&] {
-      for (const DutyProgram& program : duty.programs) jobs.of(program);
-      check_same_dresspack(duty, jobs);
-    });
+  std::vector<std::exception_ptr> refused(file.duties.size());  // texts of thousands of jobs take a second
+  const std::size_t threads = std::min(thread_count(), refused.size());
+  in_parallel(threads, [&](std::size_t part) {
+    for (std::size_t d = part; d < refused.size(); d += threads) try {
+        for (const DutyProgram& program : file.duties[d].programs) jobs.of(program);
+        check_same_dresspack(file, file.duties[d], jobs);
+      } catch (const InputError&) {
+        refused[d] = std::current_exception();
+      }
+  });
+  for (std::size_t d = 0; d < refused.size(); ++d)
+    if (refused[d]) problems.attempt("", file.duties[d].where, [&] { std::rethrow_exception(refused[d]); });
   problems.finish(file.where.file);
 }
 
@@ -487,11 +500,6 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study,
     for (const PastDuty& past : file.duties[d].history) {
       const auto& named = duty_named(file, past.duty, past.where);
       const DutyResult& before = results[static_cast<std::size_t>(&named - file.duties.data())];
-      if (before.modes != results[d].modes)
-        throw InputError(
-            past.where,
-            fmt::format("duties '{}' and '{}' are of different dresspacks", past.duty, file.duties[d].name),
-            "give a duty with the same dresspack");
       history.push_back({&before.damage, past.hours.value_or(0)});
       results[d].past_hours += past.hours.value_or(0);
     }

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/exported.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/settings/fields.h"
+#include "pipeline/settings/problems.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -22,7 +25,7 @@ class Row {
     if (row.size() != titles.size())
       throw InputError(table.where(row.back()),
                        fmt::format("a row of {} cells (the table has {} columns)", row.size(), titles.size()),
-                       "fill or quote its cells");
+                       "fill its cells, and quote those that contain the separator, such as \"12,5\"");
     for (std::size_t k = 0; k < row.size(); ++k) cells_[titles[k].text] = &row[k];
   }
   Where where(const std::string& title) const { return table_.where(*cells_.at(title)); }
@@ -60,42 +63,46 @@ class Row {
   std::map<std::string, const CsvCell*> cells_;
 };
 
-/// Its place; the size of the text: there is none. Spreadsheets save letters beyond ASCII as Windows-1252, which no page and calendar shows.
-std::size_t first_no_utf8(const std::string& text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const auto byte = static_cast<unsigned char>(text[at]);
-    const std::size_t length = byte < 0x80 ? 1 : byte < 0xC2 ? 0 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : byte < 0xF5 ? 4 : 0;
-    if (length == 0) return at;
-    for (std::size_t k = 1; k < length; ++k)
-      if (at + k >= text.size() || (static_cast<unsigned char>(text[at + k]) & 0xC0) != 0x80) return at;
-    at += length;
-  }
-  return text.size();
+Day installed_on(const Row& row, Day today) {
+  const std::string date = row.text("installed");
+  if (date.empty()) return today;
+  const std::optional<Day> day = exported_day(date);
+  if (!day && exported_day(row.text("duty")))
+    throw InputError(row.where("installed"),
+                     fmt::format("'{}' is no date, and duty is the date {}", date, row.text("duty")),
+                     "exchange the titles 'duty' and 'installed'");
+  if (!day)
+    throw InputError(row.where("installed"), fmt::format("'{}' is no date", date), day_remedy(date));
+  if (*day > today)
+    throw InputError(row.where("installed"), fmt::format("'{}' was installed after today, {}", row.text("name"), day_text(today)),
+                     "correct the date, or give --today");
+  return *day;
 }
 
-Installed installed_from(const Row& row, Day today, bool has_costs) {
-  Installed one{row.where("name"), row.needed("name"), row.needed("duty"), today, row.number("hours_per_week", 0.1, 168), 0, 0};
-  if (const std::string date = row.text("installed"); !date.empty()) {
-    const std::optional<Day> day = exported_day(date);
-    if (!day && exported_day(one.duty))
-      throw InputError(row.where("installed"),
-                       fmt::format("'{}' is no date, and duty is the date {}", date, one.duty),
-                       "exchange the titles 'duty' and 'installed'");
-    if (!day)
-      throw InputError(row.where("installed"), fmt::format("'{}' is no date", date), day_remedy(date));
-    if (*day > today)
-      throw InputError(row.where("installed"), fmt::format("'{}' was installed after today, {}", one.name, day_text(today)),
-                       "correct the date, or give --today");
-    one.since = *day;
-  }
+Installed installed_from(const Row& row, Day today, bool has_costs, Problems& problems) {
+  Installed one;
+  one.where = row.where("name");
+  const auto attempt = [&](const char* title, const auto& act) { return problems.attempt("", row.where(title), act); };
+  attempt("name", [&] { one.name = row.needed("name"); });
+  attempt("duty", [&] { one.duty = row.needed("duty"); });
+  attempt("installed", [&] { one.since = installed_on(row, today); });
+  attempt("name", [&] { one.hours_per_week = row.number("hours_per_week", 0.1, 168); });
   if (!has_costs) return one;
-  row.needed("planned_cost"), row.needed("unplanned_cost");
-  one.planned_cost = row.cost("planned_cost"), one.unplanned_cost = row.cost("unplanned_cost");
-  if (!(one.unplanned_cost > one.planned_cost))
-    throw InputError(row.where("unplanned_cost"),
-                     fmt::format("an unplanned replacement costs {:g}, a planned one {:g}", one.unplanned_cost, one.planned_cost),
-                     "unplanned_cost must be larger; else no plan saves anything");
+  const auto cost = [&](const char* title, double& value) {
+    return attempt(title, [&] { row.needed(title), value = row.cost(title); });
+  };
+  const bool planned = cost("planned_cost", one.planned_cost), unplanned = cost("unplanned_cost", one.unplanned_cost);
+  if (planned && unplanned && !(one.unplanned_cost > one.planned_cost))
+    problems.add(row.where("unplanned_cost"),
+                 fmt::format("an unplanned replacement costs {:g}, a planned one {:g}", one.unplanned_cost, one.planned_cost),
+                 "unplanned_cost must be larger; else no plan saves anything");
   return one;
+}
+
+/// Whether the title may stand for a column that is known, so that leaving it out would change the plan.
+bool may_be_known(const std::string& title) {
+  return std::ranges::any_of(std::initializer_list<std::string_view>{"hour", "stunde", "week", "woche", "cost", "kosten", "instal", "date", "datum"},
+                             [&](std::string_view word) { return title.find(word) != title.npos; });
 }
 
 Day needed_day(const std::string& text) {
@@ -109,38 +116,46 @@ Day needed_day(const std::string& text) {
 
 Fleet read_fleet(const std::filesystem::path& file, Day today) {
   const std::string text = read_text(file);
-  if (const std::size_t at = std::min(first_no_utf8(text), text.find('\0')); at < text.size())  // each letter of UTF-16 has a 0
-    throw InputError({file.string(), 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n')), 0},
-                     "is no text in UTF-8", "save the table as CSV UTF-8");
+  check_utf8(text, file.string());
   CsvReader reader(text, file.string());
-  const CsvRow titles = reader.next();
+  CsvRow titles = reader.next();
   if (titles.empty())
     throw InputError({file.string(), 1, 1}, "holds no table",
                      "write the line 'name,duty,installed', then a row per dresspack");
   const std::vector<std::string> known{"name", "duty", "installed", "hours_per_week", "planned_cost", "unplanned_cost"};
+  Fleet fleet;
+  const CsvRow written = titles;
+  for (CsvCell& title : titles)
+    std::ranges::transform(title.text, title.text.begin(), [](unsigned char letter) { return std::tolower(letter); });
   const auto has = [&](const std::string& title) {
     return std::any_of(titles.begin(), titles.end(), [&](const CsvCell& cell) { return cell.text == title; });
   };
-  for (const CsvCell& title : titles)
-    if (!title.text.empty() && std::find(known.begin(), known.end(), title.text) == known.end()) {
-      const std::string near = nearest_word(title.text, known);
-      throw InputError(reader.where(title), fmt::format("unknown column '{}'", title.text),
-                       near.empty()
-                           ? "columns: name, duty, installed, hours_per_week, planned_cost, unplanned_cost"
-                           : fmt::format("did you mean '{}'?", near));
-    }
+  std::vector<std::string> missing = known;
+  std::erase_if(missing, has);
+  for (std::size_t k = 0; k < titles.size(); ++k) {
+    const std::string& title = titles[k].text;
+    if (title.empty() || std::ranges::find(known, title) != known.end()) continue;
+    const std::string near = nearest_word(title, missing);
+    if (!near.empty() || (!missing.empty() && may_be_known(title)))
+      throw InputError(reader.where(titles[k]), fmt::format("unknown column '{}'", written[k].text),
+                       near.empty() ? fmt::format("columns: {}", joined(known, ", ")) : fmt::format("did you mean '{}'?", near));
+    fleet.unused.push_back(written[k].text);
+  }
   check_titles(reader, titles, {"name", "duty", "installed"});
-  Fleet fleet;
   fleet.has_costs = has("planned_cost") || has("unplanned_cost");
   if (fleet.has_costs) check_titles(reader, titles, {"planned_cost", "unplanned_cost"});
   std::map<std::string, int> lines;
+  Problems problems;
   for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {
-    fleet.rows.push_back(installed_from(Row(reader, titles, row), today, fleet.has_costs));
-    const auto [same, is_new] = lines.try_emplace(fleet.rows.back().name, reader.line());
-    if (!is_new)
-      throw InputError(reader.where(row.front()), fmt::format("'{}' is the name of line {}, too", same->first, same->second),
-                       "give each dresspack a name of its own");
+    const Where where = reader.where(row.front());
+    problems.attempt("", where, [&] {
+      fleet.rows.push_back(installed_from(Row(reader, titles, row), today, fleet.has_costs, problems));
+      const std::string& name = fleet.rows.back().name;
+      if (const auto [same, is_new] = lines.try_emplace(name, reader.line()); !is_new && !name.empty())
+        throw InputError(where, fmt::format("'{}' is the name of line {}, too", name, same->second), "give each dresspack a name of its own");
+    });
   }
+  problems.finish(file.string());
   if (fleet.rows.empty()) throw InputError({file.string(), 1, 1}, "has titles and no row", "write a row per dresspack");
   return fleet;
 }
@@ -161,7 +176,7 @@ std::vector<Window> windows_from(const std::string& text, Day today) {
       throw InputError({"--windows"},
                        fmt::format("'{}' does not begin after {}, which is {}", one, day_text(before),
                                    windows.size() > 1 ? "in the window before it" : "today"),
-                       "give windows after today, in order");
+                       windows.size() > 1 ? "give windows in order" : "give windows after today, or another --today");
     if (windows.back().last > today + longest_plan)
       throw InputError({"--windows"}, fmt::format("'{}' is more than ten years ahead", one), "give nearer windows");
     begin = end + 1;

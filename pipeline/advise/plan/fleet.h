@@ -29,9 +29,10 @@ struct Installed {
 struct Fleet {
   std::vector<Installed> rows;
   bool has_costs = false;
+  std::vector<std::string> unused;  ///< titles of columns that a plan does not need
 };
 
-/// Errors: InputError at line and column: a missing column, two equal names, a date that is none or after `today`, an
+/// Titles in any capitals. Errors: InputError at line and column, all rows' at once: a missing column, two equal names, a date that is none or after `today`, an
 /// unplanned cost that is not above the planned one.
 Fleet read_fleet(const std::filesystem::path& file, Day today);
 

@@ -1,18 +1,23 @@
 #include "pipeline/advise/plan/plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/random.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
+#include "pipeline/base/warning_words.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 constexpr std::size_t plants = 1000;  // simulated: a mean of counts is known to 3 % of their deviation
-constexpr double shortest_life = 1;  // [h] of a new dresspack in a simulated plant, so that each plant ends
+constexpr double shortest_life = 1;   // [h] of a new dresspack in a simulated plant, so that each plant ends
 constexpr double days_per_year = 365.2425;
 constexpr std::size_t ages = 400;  // of (D6), between a tenth of the shortest life and the robot's: 2 % steps
 
@@ -34,6 +39,15 @@ class Worlds {
     double sum = 0;
     for (std::size_t w = 0; w < weight_.size(); ++w) sum += weight_[w] = std::exp(log_weight_[w] - most);
     for (double& weight : weight_) weight /= sum;
+    all_alive_ = sum / static_cast<double>(weight_.size()) * std::exp(most);
+  }
+  /// P(all dresspacks have survived), before the weights.
+  double all_alive() const { return all_alive_; }
+  /// P(a new dresspack reaches an age).
+  double reaches(const LifeTable& table, double age) const {
+    double sum = 0;
+    for (std::size_t w = 0; w < weight_.size(); ++w) sum += weight_[w] * table.alive(w, age);
+    return sum;
   }
   double effective() const {
     double squares = 0;
@@ -48,32 +62,64 @@ class Worlds {
     for (std::size_t w = 0; w < weight_.size(); ++w)
       if (const double lives = table.alive(w, now); lives > 0)
         sum += weight_[w] * (table.alive(w, from) - table.alive(w, to)) / lives, all += weight_[w];
-    return all > 0 ? sum / all : 0;
+    if (all > 0) return sum / all;
+    return from <= now && to > from ? 1 : 0;  // no world has a life of its age: it fails at once
   }
-  /// (interval) P(failure in it | it lives at `now`), of intervals of so many hours.
+  /// (interval) P(failure in it | it lives at `now`), of intervals of so many hours. Each life is spread evenly between the middles to its
+  /// neighbours: an interval of few lives would otherwise show their chance.
   std::vector<double> fails_in(const LifeTable& table, double now, double hours, std::size_t intervals) const {
     std::vector<double> fails(intervals, 0.0);
+    const double last = now + hours * double(intervals);
     double all = 0;
     for (std::size_t w = 0; w < weight_.size(); ++w) {
-      const float *const end = table.hours.data() + (w + 1) * table.draws, *life = table.first_after(w, now);
-      if (life == end) continue;
-      const double share = weight_[w] / double(end - life);
+      const float *const begin = table.hours.data() + w * table.draws, *const end = begin + table.draws, *const first = table.first_after(w, now);
+      if (first == end) continue;
       all += weight_[w];
-      for (; life != end && *life < now + hours * double(intervals); ++life)
-        fails[std::min(intervals - 1, static_cast<std::size_t>((*life - now) / hours))] += share;
+      const auto above = [&](const float* life) -> double {  // the end of its part
+        if (life + 1 != end && std::isfinite(life[1])) return (double(life[0]) + life[1]) / 2;
+        return life == begin ? life[0] : life[0] + (double(life[0]) - life[-1]) / 2;
+      };
+      const auto below = [&](const float* life) -> double {
+        return life == begin ? std::max(life[0] / 2.0, 2 * double(life[0]) - above(life)) : above(life - 1);
+      };
+      const auto left = [&](const float* life) {  // share of its part that lies after `now`
+        const double from = std::isinf(*life) ? now : below(life), to = std::isinf(*life) ? now : above(life);
+        return to > from ? std::clamp((to - now) / (to - from), 0.0, 1.0) : *life > now ? 1.0 : 0.0;
+      };
+      const float* life = first == begin ? first : first - 1;
+      const double share = weight_[w] / (left(first) + double(end - first - 1) + (life == first ? 0 : left(life)));
+      for (; life != end && std::isfinite(*life) && below(life) < last; ++life) {
+        const double from = below(life), to = above(life), per_hour = to > from ? share / (to - from) : 0;
+        double at = std::max(from, now);
+        if (per_hour == 0 && *life > now) fails[std::min(intervals - 1, static_cast<std::size_t>((*life - now) / hours))] += share;
+        for (auto k = static_cast<std::size_t>((at - now) / hours); per_hour > 0 && at < to && k < intervals; ++k) {
+          const double until = std::min(to, now + hours * double(k + 1));
+          fails[k] += per_hour * std::max(0.0, until - at);
+          at = std::max(at, until);
+        }
+      }
     }
+    if (!(all > 0)) fails.front() = 1;
     for (double& of_interval : fails) of_interval /= all > 0 ? all : 1;
     return fails;
   }
 
  private:
   std::vector<double> log_weight_, weight_;
+  double all_alive_ = 1;
 };
 
 double hours_in_day(const Installed& row, const LifeTable& table) { return row.hours_per_week.value_or(table.hours_per_week) / 7; }
 
 double age_of(const Installed& row, const LifeTable& table, Day today) {
   return row.age_hours.value_or(days_between(row.since, today) * hours_in_day(row, table));
+}
+
+/// Hours under a duty that wear as much as these under another one, by the median lives of both.
+double age_under(const LifeTable& duty, double hours, const LifeTable& before) {
+  const double life = before.median(), new_life = duty.median();
+  if (&duty == &before || std::isinf(new_life)) return hours;
+  return hours / life * new_life;
 }
 
 Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, Day today, const PlanRule& rule) {
@@ -137,9 +183,7 @@ class Decision {
   Decision(const Worlds& worlds, const PlanRule& rule, double hours) : worlds_(worlds), rule_(rule), hours_(hours) {}
 
   /// What follows for a dresspack that lives at this age, until the ages at which replace() asks.
-  LaterLife later_life(const Installed& row, const LifeTable& table, double age) {
-    return later_life(table, policy(row, table).rate, age);
-  }
+  LaterLife later_life(const Installed& row, const LifeTable& table, double age) { return later_life(table, policy(row, table).rate, age); }
   /// Whether a dresspack is replaced at the age `from`, of which `life` is known. interval: to the next window [h]. Both
   /// ages of a window lie within the plan.
   bool replace(const Installed& row, const LifeTable& table, const LaterLife& life, double from, double interval) {
@@ -194,7 +238,7 @@ std::size_t weeks_until(double days) { return static_cast<std::size_t>(std::ceil
 /// One simulated plant.
 struct Outcome {
   std::vector<int> planned, unplanned;  ///< (year)
-  std::vector<int> failures;            ///< (week)
+  std::vector<int> failures;            ///< (week) of dresspacks that were put in later
   double cost = 0;
 };
 
@@ -234,7 +278,7 @@ class Simulation {
     bool is_first = true;
     const auto put_in = [&](double day, bool planned) {
       ++(planned ? outcome.planned : outcome.unplanned)[std::min(years_ - 1, static_cast<std::size_t>(day / days_per_year))];
-      if (!planned) ++outcome.failures[std::min(weeks_ - 1, static_cast<std::size_t>(day / 7))];
+      if (!planned && !is_first) ++outcome.failures[std::min(weeks_ - 1, static_cast<std::size_t>(day / 7))];
       outcome.cost += planned ? fleet_.rows[i].planned_cost : fleet_.rows[i].unplanned_cost;
       begun = day, is_first = false;
       fails = begun + std::max(shortest_life, draw(table, world, 0, random)) / rate;
@@ -248,8 +292,8 @@ class Simulation {
         continue;
       }
       const double hours = (times_[window + 1] - times_[window]) * rate;
-      const bool replaces = is_first ? rows_[i].window == window
-                                     : decision->replace_new(fleet_.rows[i], table, (next - begun) * rate, hours);
+      const bool replaces =
+          is_first ? rows_[i].window == window : decision->replace_new(fleet_.rows[i], table, (next - begun) * rate, hours);
       if (replaces) put_in(next, true);
       ++window;
     }
@@ -334,10 +378,49 @@ void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, Lif
     const auto old = std::find_if(now.rows.begin(), now.rows.end(), [&](const Installed& one) { return one.name == row.name; });
     if (old == now.rows.end() || old->since != row.since) continue;
     const LifeTable &before = tables.at(old->duty), &after = tables.at(row.duty);
-    const double age = days_between(old->since, today) * old->hours_per_week.value_or(before.hours_per_week) / 7;
-    const double life = before.median(), new_life = after.median();
-    row.age_hours = old->duty == row.duty || std::isinf(new_life) ? age : age / life * new_life;
+    const double age = age_of(*old, before, today);
+    row.age_hours = old->duty == row.duty ? age : age_under(after, age, before);
   }
+}
+
+std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std::map<std::string, LifeTable>& tables, Day today) {
+  const Installed* younger = nullptr;
+  std::string words;
+  std::size_t count = 0;
+  for (Installed& row : fleet.rows) {
+    const Duty& duty = duty_named(file, row.duty, row.where);
+    if (duty.history.empty()) continue;
+    const LifeTable& table = tables.at(row.duty);
+    const auto hours_in = [&](double days, const std::string& of) { return days * hours_in_day(row, tables.at(of)); };
+    double days = days_between(row.since, today), given = 0;
+    std::vector<double> past_hours;
+    for (const PastDuty& past : duty.history) {
+      past_hours.push_back(past.hours.value_or(0));
+      if (past.from.empty()) {
+        given += past_hours.back();
+        continue;
+      }
+      const std::array<Day, 2> dates = past.days(today);
+      const double under = std::max(0.0, days_between(std::max(dates[0], row.since), std::min(dates[1] + std::chrono::days(1), today)));
+      days -= under;
+      past_hours.back() = hours_in(under, past.duty);
+    }
+    const double all = hours_in(std::max(0.0, days), row.duty), counted = given > all ? all / given : 1;
+    double age = all - counted * given;
+    for (std::size_t k = 0; k < past_hours.size(); ++k) {
+      const PastDuty& past = duty.history[k];
+      age += age_under(table, past_hours[k] * (past.from.empty() ? counted : 1), tables.at(past.duty));
+    }
+    row.age_hours = age;
+    if (days > 0 && given > all + hours_in(7, row.duty) && count++ == 0)  // a week: dates are seldom exact to the day
+      younger = &row, words = fmt::format("{}, of which its history by hours has {}", hours_text(all), hours_text(given));
+  }
+  if (!younger) return {};
+  return {warning_of(WarningKind::motion, younger->where.text(),
+                     fmt::format("'{}' was installed on {} and has run {}{}", younger->name, day_text(younger->since), words,
+                                 count > 1 ? fmt::format(" (and {} more)", count - 1) : ""),
+                     "a history of another dresspack, or another week; all of its hours count as those of the history",
+                     "a history by dates (from, to), which counts from the day on which each dresspack was installed")};
 }
 
 double effective_worlds(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, Day today, const PlanRule& rule) {
@@ -354,12 +437,14 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   const Worlds worlds = worlds_of(fleet, tables, today, rule);
   plan.weights = worlds.weights();
   plan.effective_worlds = worlds.effective();
+  plan.all_alive = worlds.all_alive();
   std::vector<const LifeTable*> of_row;
   std::vector<double> hours_per_day;
   for (const Installed& row : fleet.rows) {
     of_row.push_back(&tables.at(row.duty));
     hours_per_day.push_back(hours_in_day(row, *of_row.back()));
     plan.rows.emplace_back().age_hours = age_of(row, *of_row.back(), today);
+    plan.reach_their_age += worlds.reaches(*of_row.back(), plan.rows.back().age_hours) / double(fleet.rows.size());
   }
   Decision decision(worlds, rule, times.back() * *std::max_element(hours_per_day.begin(), hours_per_day.end()));
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
@@ -374,16 +459,21 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
       const double lives = 1 - failed, from = age_at(times[n]), to = age_at(times[n + 1]);
       const double fails = worlds.fails(table, row.age_hours, from, to);
       row.fails_until_next.push_back(lives > 0 ? fails / lives : 1);
-      if (!row.window && decision.replace(fleet.rows[i], table, life, from, to - from))
-        row.window = n, row.fails_before = failed;
+      if (!row.window && decision.replace(fleet.rows[i], table, life, from, to - from)) row.window = n, row.fails_before = failed;
       failed += fails;
     }
     if (!row.window) row.fails_before = failed;
   }
+  plan.failures_in_week.resize(weeks_until(times.back()));
+  plan.failures_in_week_without_windows = plan.failures_in_week;
+  for (const RowPlan& row : plan.rows)
+    for (std::size_t week = 0; week < row.fails_in_week.size(); ++week) {
+      const double until = row.window ? times[*row.window] / 7 - double(week) : 1;  // its replacement [weeks]
+      plan.failures_in_week[week] += std::clamp(until, 0.0, 1.0) * row.fails_in_week[week];
+      plan.failures_in_week_without_windows[week] += row.fails_in_week[week];
+    }
   const Simulation simulation(fleet, of_row, hours_per_day, plan.rows, times, worlds);
   std::vector<std::vector<double>> replaced;  // (year, plant)
-  plan.failures_in_week.resize(weeks_until(times.back()));
-  plan.failures_in_week_without_windows.resize(plan.failures_in_week.size());
   for (std::size_t p = 0; p < plants; ++p) {
     RandomNumbers random(mixed(seed + p)), same(mixed(seed + p));  // costs are compared plant by plant
     const Outcome outcome = simulation.plant(random, &decision);

@@ -24,7 +24,9 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/advise/plan/duty.h"
 #include "pipeline/advise/plan/fleet.h"
+#include "pipeline/base/warnings.h"
 
 namespace dresslife::pipeline {
 
@@ -82,12 +84,14 @@ struct Plan {
   std::vector<Window> windows;
   std::vector<RowPlan> rows;
   std::vector<YearOfPlan> years;
-  std::vector<double> failures_in_week, failures_in_week_without_windows;  ///< (week) of all, mean over simulated plants
+  std::vector<double> failures_in_week, failures_in_week_without_windows;  ///< (week) of all; of later ones the mean over simulated plants
   double risk = 0;                                                         ///< of the rule (D4)
   bool by_cost = false;                                                    ///< (D5)
   double cost = 0, cost_without_windows = 0;  ///< mean over simulated plants: by this plan; if only failures are replaced
   std::vector<double> weights;                ///< (world) (D3), their sum is 1
   double effective_worlds = 0;                ///< (sum of weights)^2 / sum of their squares
+  double all_alive = 1;        ///< P(all have survived) before the weights of (D3); 1: they are not of this fleet
+  double reach_their_age = 0;  ///< P(a new dresspack reaches the age of one of these), mean
 };
 
 /// Fewer are no sample: percentiles would rest on chance.
@@ -109,6 +113,11 @@ std::vector<double> times_of(const std::vector<Window>& windows, Day today);
 /// The dresspacks of a plant under other duties: one that is in `now`, too, under another duty or for other hours, keeps its damage. Its age
 /// are the hours under the new duty that wear it as much, by the median lives of both. A date of its own makes it a new dresspack.
 void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today);
+
+/// The ages of dresspacks whose duty has a history: hours under their duty of today that wear them as much, by the median lives of both.
+/// A history by dates counts from the day on which a dresspack was installed. One in hours has the first hours of each; a warning
+/// names a dresspack that has run less. tables: also of the duties in histories.
+std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std::map<std::string, LifeTable>& tables, Day today);
 
 /// Plan::effective_worlds of plan_of().
 double effective_worlds(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, Day today, const PlanRule& rule);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <numeric>
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/digest.h"
@@ -65,8 +67,15 @@ std::string percent_text(double share) { return readable(100 * share, 2) + " %";
 std::string expected_words(const Plan& plan) {
   double before = 0;
   for (const RowPlan& row : plan.rows) before += row.fails_before_first;
-  return fmt::format("{} dresspacks, from {} to {}. Before the first window {} of them are expected to fail.",
-                     plan.rows.size(), day_text(plan.today), day_text(plan.end), readable(before, 2));
+  constexpr double surprising = 0.023;  // beyond two deviations
+  std::string alive;
+  if (plan.all_alive < surprising)
+    alive = fmt::format(
+        " That all of them live today was unlikely by the model: 1 of {} such plants. This plan is of such plants alone. If a job or a "
+        "date is wrong, correct it; dresslife calibrate learns from more records.",
+        readable(1 / plan.all_alive, 2));
+  return fmt::format("{} dresspacks, from {} to {}. Before the first window {} of them are expected to fail.{}",
+                     plan.rows.size(), day_text(plan.today), day_text(plan.end), readable(before, 2), alive);
 }
 
 std::string kept_words(const Fleet& fleet, const Plan& plan) {
@@ -234,28 +243,42 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
   return text;
 }
 
-std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
-  std::string text = fmt::format("{:<32}  {:>20}  {:>20}\n", "", "today's fleet", "what if");
-  const auto line = [&](const std::string& what, const std::string& now, const std::string& then) {
-    text += fmt::format("{:<32}  {:>20}  {:>20}\n", what, now, then);
+std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
+  std::vector<BesideRow> rows;
+  // digits: 0: a count.
+  const auto add = [&](const std::string& what, double now, double then, int digits, const std::string& now_range = "", const std::string& then_range = "") {
+    const auto text = [&](double value) { return digits == 0 ? fmt::format("{:.0f}", value) : readable(value, digits); };
+    rows.push_back({what, text(now) + now_range, text(then) + then_range,
+                    then == now ? "0" : (then > now ? "+ " : "- ") + text(std::abs(then - now))});
   };
-  const auto failing = [](const Plan& of) {
-    double sum = 0;
-    for (const RowPlan& row : of.rows) sum += row.fails_before_first;
-    return readable(sum, 2);
+  const auto before_first = [](const Plan& of) {
+    return std::accumulate(of.rows.begin(), of.rows.end(), 0.0, [](double sum, const RowPlan& row) { return sum + row.fails_before_first; });
   };
-  const auto spares = [](const YearOfPlan& year) {
-    return fmt::format("{} ({:g} .. {:g})", readable(year.planned + year.unplanned, 2), year.low, year.high);
+  const auto failures = [](const Plan& of) {
+    return std::accumulate(of.years.begin(), of.years.end(), 0.0, [](double sum, const YearOfPlan& year) { return sum + year.unplanned; });
   };
-  line("dresspacks", std::to_string(plan.rows.size()), std::to_string(other.rows.size()));
-  line("fail before the first window", failing(plan), failing(other));
+  const auto range = [](const YearOfPlan& year) { return fmt::format(" ({:g} .. {:g})", std::floor(year.low), std::ceil(year.high)); };
+  add("dresspacks", double(plan.rows.size()), double(other.rows.size()), 0);
+  add("fail before the first window", before_first(plan), before_first(other), 2);
+  add("failures until " + day_text(plan.end), failures(plan), failures(other), 2);
   for (std::size_t n = 0; n < plan.windows.size(); ++n)
-    line("replaced from " + day_text(plan.windows[n].first),
-         std::to_string(replaced_in(fleet, plan, n).size()),
-         std::to_string(replaced_in(changed, other, n).size()));
-  for (std::size_t y = 0; y < std::min(plan.years.size(), other.years.size()); ++y)
-    line(fmt::format("spare dresspacks in year {}", y + 1), spares(plan.years[y]), spares(other.years[y]));
-  if (fleet.has_costs) line("cost until " + day_text(plan.end), readable(plan.cost), readable(other.cost));
+    add("replaced from " + day_text(plan.windows[n].first), double(replaced_in(fleet, plan, n).size()), double(replaced_in(changed, other, n).size()), 0);
+  for (std::size_t y = 0; y < std::min(plan.years.size(), other.years.size()); ++y) {
+    const YearOfPlan &now = plan.years[y], &then = other.years[y];
+    add(fmt::format("spare dresspacks in year {}", y + 1), now.planned + now.unplanned, then.planned + then.unplanned, 2, range(now), range(then));
+  }
+  if (fleet.has_costs) {
+    add("cost until " + day_text(plan.end), plan.cost, other.cost, 3);
+    add("cost if only failures are replaced", plan.cost_without_windows, other.cost_without_windows, 3);
+  }
+  return rows;
+}
+
+std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
+  const auto name = [](const Fleet& of) { return std::filesystem::path(of.rows.front().where.file).stem().string(); };
+  std::string text = fmt::format("What if {} were the fleet\n{:<34}  {:>20}  {:>20}  {:>12}\n", name(changed), "", "today's fleet", "what if", "difference");
+  for (const BesideRow& row : beside_rows(fleet, plan, changed, other))
+    text += fmt::format("{:<34}  {:>20}  {:>20}  {:>12}\n", row.what, row.now, row.then, row.more);
   const auto when = [](const Plan& of, std::size_t i) {
     return of.rows[i].window ? day_text(of.windows[*of.rows[i].window].first) : std::string("in no window");
   };
@@ -315,16 +338,16 @@ std::string plan_calendar(const Fleet& fleet, const Plan& plan) {
   const Installed& first = fleet.rows.front();
   const std::string plant = xxh3(std::filesystem::path(first.where.file).stem().string() + "\n" + first.name);
   for (std::size_t n = 0; n < plan.windows.size(); ++n) {
+    // A window without work has an event, too: it says so, and takes the place of that of an earlier plan.
     const std::vector<std::string> names = replaced_in(fleet, plan, n);
-    if (names.empty()) continue;
     const Window& window = plan.windows[n];
     text += "BEGIN:VEVENT\r\n";
     text += fmt::format("UID:{}-{}@dresslife\r\nDTSTAMP:{}T000000Z\r\n", compact(window.first), plant.substr(0, 16),
                         compact(plan.today));
     text += fmt::format("DTSTART;VALUE=DATE:{}\r\nDTEND;VALUE=DATE:{}\r\n", compact(window.first),
                         compact(window.last + std::chrono::days(1)));  // the end is the day after
-    text += folded(fmt::format("SUMMARY:Replace {} dresspack{}", names.size(), names.size() == 1 ? "" : "s"));
-    text += folded("DESCRIPTION:" + escaped(fmt::format("{}", fmt::join(names, ", "))));
+    text += folded(names.empty() ? "SUMMARY:No dresspack to replace" : fmt::format("SUMMARY:Replace {} dresspack{}", names.size(), names.size() == 1 ? "" : "s"));
+    text += folded("DESCRIPTION:" + escaped(names.empty() ? expected_words(plan) : fmt::format("{}", fmt::join(names, ", "))));
     text += "END:VEVENT\r\n";
   }
   return text + "END:VCALENDAR\r\n";

@@ -43,7 +43,13 @@ struct AgeLimit {
 std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::string, std::vector<AgeLimit>>& limits,
                       const std::map<std::string, double>& week_hours);
 
-/// A plan beside the one of today's fleet: failures, windows, spare dresspacks, cost, and the dresspacks with another window.
+/// A number of two plans, and how much larger the second is; "": no difference of numbers.
+struct BesideRow {
+  std::string what, now, then, more;
+};
+/// A plan beside the one of today's fleet: failures, windows, spare dresspacks, cost.
+std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
+/// The same as text, and the dresspacks with another window.
 std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
 
 /// One row per dresspack and one column per week from today: P(failure in it) of today's dresspack, if it is not replaced.

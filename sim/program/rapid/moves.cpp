@@ -13,6 +13,14 @@ namespace {
 
 constexpr double no_axis = 9e8;  // 9E9 means: no such axis
 
+/// What RAPID itself declares, for a number that is like its names, as in v15000 and z500; else empty.
+std::string predefined(const std::string& type, const std::string& name) {
+  const bool speed = type == "speeddata";
+  if ((!speed && type != "zonedata") || name.size() < 2 || name[0] != (speed ? 'v' : 'z') || name.find_first_not_of("0123456789", 1) != name.npos)
+    return "";
+  return speed ? "write one of RAPID's own speeds, v5 .. v7000 and vmax, or " : "write one of RAPID's own zones, z0 .. z200 and fine, or ";
+}
+
 constexpr auto J = Instruction::Kind::joint;
 constexpr auto L = Instruction::Kind::linear;
 constexpr auto C = Instruction::Kind::circular;
@@ -97,8 +105,9 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
     } else if (written.kind == Expression::Kind::name && !run.variable(written.text)) {
       run.miss(written.text, written.place,
                fmt::format("names {} '{}' that no module read declares", what, written.text),
-               fmt::format("give the module that declares it too (--module, motion.modules), or {} (motion.values)",
-                           run.remedy_for(value)),
+               predefined(type, written.text) +
+                   fmt::format("give the module that declares it too (--module, motion.modules), or {} (motion.values)",
+                               run.remedy_for(value)),
                run.questions_for(value, form_of(type)));
     } else {
       // What else it depends on is written in another way than the argument itself.

@@ -221,6 +221,21 @@ TEST_CASE("stiffness: friction's elements follow the construction's own moment o
   }
 }
 
+TEST_CASE("stiffness: a hose's moment with more friction is that of a hose whose coefficients are higher") {
+  Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/spot_welding.yaml"), rougher = dresspack;
+  for (Component* part : {&rougher.components[0], &rougher.components[0].components[0]})
+    for (Component& inner : part->components) *inner.friction *= 3;
+  const std::vector<double> bends{1e-3, 0.03, 0.1, 0.5, 5};
+  const auto one = bending_moments(dresspack, 1, bends), three = bending_moments(dresspack, 3, bends), none = bending_moments(dresspack, 0, bends);
+  for (std::size_t k = 0; k < bends.size(); ++k) {
+    CAPTURE(bends[k]);
+    CHECK(one[k] == Approx(bends[k] * stiffness_of_construction(dresspack, SlipState::friction, bends[k]).bending));
+    CHECK(three[k] == Approx(bends[k] * stiffness_of_construction(rougher, SlipState::friction, bends[k]).bending).epsilon(1e-9));
+    CHECK(none[k] == Approx(bends[k] * in_state(dresspack, SlipState::sliding).bending));
+  }
+  CHECK(three[2] > 1.1 * one[2]);
+}
+
 TEST_CASE("stiffness: a hose from its construction keeps its secant, and its links get spring and friction apart") {
   const std::string words = "dresspack.bending_stiffness_Nm2=from_construction", loss = "dresspack.loss_factor=0.3";
   const Job job = job_with({words, loss});

@@ -148,6 +148,25 @@ TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hide
   CHECK(doubts_of(1, 0.1, false) == 2);
 }
 
+TEST_CASE("plausible jobs: a bend relief of fewer than four segments") {
+  const auto words_of = [](double length, double stiffness) {
+    Job job;
+    Routing& routing = job.dresspacks[0].routing;
+    routing.free_length = 2;
+    routing.base_clamp.emplace().bend_relief = {length, stiffness};
+    job.simulation.segments = 64;
+    std::string words;
+    for (const Warning& warning : plausibility_warnings(job)) words += warning.words + "\n";
+    return words;
+  };
+  CHECK(words_of(0.126, 15) == "");
+  CHECK_THAT(words_of(0.124, 15), Catch::Contains("bend_relief.length_mm is 124: 4 segments (limit 4)") &&
+                                      Catch::Contains("Remedy: simulation.segments: 65"));
+  CHECK_THAT(words_of(0.0002, 15), Catch::Contains("bend_relief.length_mm: 200 if that was metres"));
+  CHECK(words_of(0.05, 0) == "");
+  CHECK(words_of(0, 15) == "");
+}
+
 TEST_CASE("plausible jobs: a mounting pose in rounded radians, segments longer than a bend") {
   const auto words_of = [](const std::vector<double>& degrees, int segments) {
     Job job;

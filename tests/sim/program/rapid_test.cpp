@@ -177,6 +177,8 @@ TEST_CASE("rapid: problems are collected, with place, reason and remedy") {
   CHECK(r.problems[1].what == "names a zone 'z77' that no module read declares");
   CHECK(r.problems[2].what == "names a tool 'torch' that no module read declares");
   CHECK(r.problems[3].what == "names a speed 'v1' that no module read declares");
+  CHECK_THAT(r.problems[1].remedy, Catch::StartsWith("write one of RAPID's own zones, z0 .. z200 and fine, or give the module"));
+  CHECK_THAT(r.problems[3].remedy, Catch::StartsWith("write one of RAPID's own speeds, v5 .. v7000 and vmax, or give the module"));
   CHECK(r.problems[4].what == "gives MoveL 1 arguments, too few");
   const Reading broken = run("MoveL p1,,v100 v5;\nIF TRUE THEN\n MoveL (p1,v5,fine,tool0;\n");
   CHECK(broken.problems.size() >= 2);

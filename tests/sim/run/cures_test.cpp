@@ -240,6 +240,16 @@ TEST_CASE("cures: ten diameters count where no bend radius is given, and the war
              Catch::Contains("dresspack.least_bend_radius_mm is not given, so that ten diameters count"));
 }
 
+TEST_CASE("cures: a bend beside a clamp names its bend relief, unless it has one or the bend is far from it") {
+  pipeline::Job job = swinging_job(1.3);
+  job.dresspacks[0].routing.base_clamp->direction = {0, -1, 0};  // away from the other clamp
+  job.dresspacks[0].dresspack.least_bend_radius = 0.25;
+  const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
+  CHECK_THAT(words, Catch::Contains("not tried: routing.base_clamp.bend_relief"));
+  job.dresspacks[0].routing.base_clamp->bend_relief = {0.1, 0};  // of no stiffness: the same run
+  CHECK_THAT(words_of(job, pipeline::WarningKind::bend_radius), Catch::Contains("Remedy") && !Catch::Contains("bend_relief"));
+}
+
 TEST_CASE("cures: a hose that is pulled tight is cured by its length, one that its weight pulls by its limit") {
   pipeline::Job job = swinging_job(0.952);
   job.dresspacks[0].dresspack.most_tension = 20;

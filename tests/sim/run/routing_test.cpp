@@ -85,6 +85,14 @@ Run run(const std::string& text, const std::filesystem::path& folder = {}) {
   return result;
 }
 
+/// Largest difference of places [m] and quaternions.
+double furthest(const RodState& a, const RodState& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.position.size(); ++i)
+    most = std::max({most, (a.position[i] - b.position[i]).norm(), (a.orientation[i].coeffs() - b.orientation[i].coeffs()).norm()});
+  return most;
+}
+
 double twist_of(const Rod& rod, const RodState& state, const Span& span) {
   double twist = 0;
   for (int j = span.first_link; j <= span.last_link(); ++j) twist += rod.link_state(state, j).turn.z();
@@ -349,6 +357,70 @@ TEST_CASE("routing: the guided example rests on the forearm and in its ring") {
   CHECK(depth < 1e-3);
 }
 
+namespace {
+
+/// `ends`, with a bend relief of each of its clamps and of one in between.
+std::string with_reliefs(const std::string& base, const std::string& between, const std::string& tool) {
+  return "  free_length_m: 1.3\n"
+         "  base_clamp: {link: bench, position_m: [0, 0, 1], direction: [1, 0, 0]" + base + "}\n"
+         "  clamps: [{link: bench, position_m: [0.5, 0, 1], direction: [1, 0, 0], at_length_m: 0.65" + between + "}]\n"
+         "  tool_clamp: {link: spindle, position_m: [1.1, 0, 0], direction: [1, 0, 0]" + tool + "}\n";
+}
+std::string relief_text(const std::string& length, const std::string& stiffness) {
+  return ", bend_relief: {length_mm: " + length + ", bending_stiffness_Nm2: " + stiffness + "}";
+}
+
+}  // namespace
+
+TEST_CASE("routing: bend reliefs stiffen the links beside their clamps, on both sides of one in between") {
+  const pipeline::Scratch scratch;
+  const auto job_of = [&](const std::string& routing) {
+    std::ofstream(scratch / "job.yaml") << job_text(routing);
+    return pipeline::read_job(scratch / "job.yaml");
+  };
+  const pipeline::Job job = job_of(with_reliefs(relief_text("130", "6"), relief_text("97.5", "10"), ""));
+  const std::string text = pipeline::job_text(job);
+  CHECK(pipeline::job_text(pipeline::job_from(pipeline::parse_yaml(text, "echo"))) == text);
+  const Rod rod = rod_of(job), bare = rod_of(job_of(with_reliefs("", "", "")));
+  REQUIRE(rod.links() == 42);  // two spans of 20 segments of 32.5 mm
+  const auto factor = [&](int link) { return rod.turn_stiffness(link)[0] / bare.turn_stiffness(link)[0]; };
+  const double half_covered = 1 / (0.5 + 0.5 * 2 / (2 + 6.0)), half_between = 1 / (0.5 + 0.5 * 2 / (2 + 10.0));
+  for (int link = 0; link < 4; ++link) CHECK(factor(link) == Approx(4));  // (2 + 6)/2
+  CHECK(factor(4) == Approx(half_covered));
+  for (int link = 5; link < 17; ++link) CHECK(factor(link) == 1);
+  for (const int link : {17, 24}) CHECK(factor(link) == Approx(half_between));
+  for (int link = 18; link < 24; ++link) CHECK(factor(link) == Approx(6));
+  for (int link = 25; link < 42; ++link) CHECK(factor(link) == 1);
+  for (int link = 0; link < 42; ++link) CHECK(rod.turn_stiffness(link)[2] == bare.turn_stiffness(link)[2]);
+}
+
+TEST_CASE("routing: a bend relief bends less; without length or stiffness it changes no bit") {
+  const auto routing = [](const std::string& relief) {
+    return "  free_length_m: 1.3\n"
+           "  base_clamp: {link: bench, position_m: [0, 0, 1], direction: [1, 0, 0.8]" + relief + "}\n"
+           "  tool_clamp: {link: spindle, position_m: [1.1, 0, 0], direction: [1, 0, 0]" + relief + "}\n";
+  };
+  const auto same = [](const Run& a, const Run& b) {
+    if (a.rows.size() != b.rows.size()) return false;
+    for (std::size_t t = 0; t < a.rows.size(); ++t)
+      if (furthest(a.rows[t].state, b.rows[t].state) != 0) return false;
+    return true;
+  };
+  const Run bare = run(job_text(routing(""))), stiff = run(job_text(routing(relief_text("150", "2"))));
+  CHECK(same(bare, run(job_text(routing(relief_text("0", "2"))))));
+  CHECK(same(bare, run(job_text(routing(relief_text("150", "0"))))));
+  CHECK(!same(bare, stiff));
+  // Twice as stiff beside the clamps: the bends there fall, and what is left of them moves to the bare middle.
+  const auto bend = [](const Run& of, int link) {
+    double most = 0;
+    const Rod& rod = of.simulation->rod();
+    for (const Row& row : of.rows) most = std::max(most, rod.curvature(rod.turn(row.state, link), link));
+    return most;
+  };
+  for (const int clamp : {0, 40}) CHECK(bend(stiff, clamp) < 0.85 * bend(bare, clamp));
+  CHECK(bend(stiff, 20) > bend(bare, 20));
+}
+
 TEST_CASE("routing: what cannot be is refused with its place and a remedy") {
   const std::string ring = "link: bench, position_m: [0.5, 0, 1], direction: [1, 0, 0]";
   const std::vector<std::pair<std::string, std::string>> cases = {
@@ -376,6 +448,13 @@ TEST_CASE("routing: what cannot be is refused with its place and a remedy") {
        "routing.tool_mass_kg is given although the tool end is clamped; add tool_end: free"},
       {ends + "  retraction: {force_N: 10, stroke_m: 0}\n",
        "routing.retraction.stroke_m is 0 (must be > 0 m)"},
+      {with_reliefs(relief_text("326", "1"), "", ""),
+       "bend_relief.length_mm is 326 (at most 325, half the dresspack between this clamp and the next)"},
+      {with_reliefs("", "", relief_text("-1", "1")), "routing.tool_clamp.bend_relief.length_mm is -1 (must be >= 0 mm)"},
+      {with_reliefs(relief_text("100", "-1"), "", ""), "routing.base_clamp.bend_relief.bending_stiffness_Nm2 is -1"},
+      {with_reliefs(", bend_relief: {length_mm: 100}", "", ""),
+       "routing.base_clamp.bend_relief.bending_stiffness_Nm2 is missing"},
+      {with_reliefs("", ", bend_relief: {bending_stiffness_Nm2: 100}", ""), "bend_relief.length_mm is missing"},
   };
   for (const auto& [routing, words] : cases) {
     const std::string message = message_of(job_text(routing));

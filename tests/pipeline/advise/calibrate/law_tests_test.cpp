@@ -1,9 +1,10 @@
-// Laws of kinks and wear beside published tests: verdicts, mistakes in the file, and the shipped file.
+// Laws of kinks, wear and bending beside published tests: verdicts, mistakes in the file, and the shipped file.
 #include "pipeline/advise/calibrate/law_tests.h"
 
 #include <cmath>
 
 #include "pipeline/cable/kink.h"
+#include "pipeline/cable/polymer.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
@@ -54,7 +55,7 @@ TEST_CASE("law tests: mistakes are refused at their line") {
     return [file] { return read_law_tests(file); };
   };
   CHECK_THROWS_WITH(reading("{name: a, what: b, source: c}")(),
-                    Contains("laws.yaml:2") && Contains("either tube or wear"));
+                    Contains("laws.yaml:2") && Contains("one of tube, wear and bending"));
   CHECK_THROWS_WITH(
       reading("{name: a, what: b, source: c, tube: {outer_mm: 8, bore_mm: 9, kinks_at_mm: 20}}")(),
       Contains("bore"));
@@ -66,6 +67,39 @@ TEST_CASE("law tests: mistakes are refused at their line") {
   const auto pair = reading(
       "{name: a, what: b, source: c, wear: {material: pvc, against: dresspack, force_N: 1, way_m: 1, worn_mm3: 1}}")();
   CHECK_THROWS_WITH(predicted(pair.at(0)), Contains("no wear rate against dresspack"));
+  CHECK_THROWS_WITH(reading("{name: a, what: b, source: c, bending: {curvature_1_per_m: 1, moment_mNm: 1}}")(),
+                    Contains("laws.yaml:2") && Contains("bending has no cable"));
+  CHECK_THROWS_WITH(
+      reading("{name: a, what: b, source: c, bending: {cable: {name: a, source: b, radius_mm: 3, without_wires: {kind: hose, bore_mm: 2}}, "
+              "curvature_1_per_m: 1, moment_mNm: 1}}")(),
+      Contains("laws.yaml:2") && Contains("has no wires"));
+}
+
+TEST_CASE("law tests: a bent cable, whose friction alone is uncertain") {
+  const Scratch scratch;
+  const auto test_of = [&](const std::string& friction, const std::string& moment) {
+    const std::string wire = "{name: wire, count: 1, radius_mm: 0.5, helix_radius_mm: 0, material: copper_halved}";
+    const std::string strand = "{name: wire, count: 6, radius_mm: 0.5, helix_radius_mm: 1, lay_angle_deg: 5, material: copper_halved, "
+                               "radial_line_load_N_per_m: 100, friction_coefficient: " + friction + "}";
+    return read_law_tests(scratch.write(
+        "laws.yaml", "law_tests:\n  - {name: a, what: b, source: c, bending: {cable: {name: strand, source: d, radius_mm: 2, components: [" +
+                         wire + (friction == "none" ? "" : ", " + strand) + "]}, curvature_1_per_m: 3, moment_mNm: " + moment + "}}\n"))
+        .front();
+  };
+  // One wire on the axis in polymer has E I alone.
+  const auto second_moment = [](double radius) { return std::acos(-1.0) / 4 * std::pow(radius, 4); };
+  const LawTest straight = test_of("none", "1");
+  const double E = straight.bending->cable.materials.at(0).youngs_modulus;
+  const double moment = 3 * (E * second_moment(0.5e-3) + jacketed_modulus * second_moment(2e-3));
+  CHECK(predicted(straight).low == Approx(moment).epsilon(1e-6));
+  CHECK(predicted(straight).high == Approx(moment).epsilon(1e-6));
+  CHECK(verdict_of(straight, {1e-3, 1e-3, 1e-3}) == "agrees");
+  CHECK(verdict_of(straight, {2e-3, 2e-3, 2e-3}) == "MISS: too large by 2.0");
+  // Sliding wires hold a moment in proportion to the friction: its quantiles are those of the friction.
+  const double none = predicted(test_of("0", "1")).median;
+  const LawPrediction rubs = predicted(test_of("0.003", "1"));
+  CHECK((rubs.high - none) / (rubs.median - none) == Approx(std::pow(2.2, 1.28155)).epsilon(1e-3));
+  CHECK((rubs.median - none) / (rubs.low - none) == Approx(std::pow(2.2, 1.28155)).epsilon(1e-3));
 }
 
 TEST_CASE("law tests: the shipped file, with its misses") {
@@ -78,10 +112,11 @@ TEST_CASE("law tests: the shipped file, with its misses") {
     ++independent;
     if (!verdict.starts_with("MISS")) continue;
     ++misses;
-    // PTFE yields before it is oval, the widest tube is oval later than predicted, a lubricated pair wears less.
-    CHECK(
-        (test.name.starts_with("zeus_") || test.name == "smc_16x13_oval" || test.name == "pa66_on_pom_ptfe"));
+    // PTFE yields before it is oval, the widest tube is oval later than predicted, a lubricated pair wears less, and bent
+    // cables are stiffer than predicted at 5 1/m and more.
+    const bool soft = test.bending && test.bending->curvature >= 5 && verdict.find("too small") != std::string::npos;
+    CHECK((soft || test.name.starts_with("zeus_") || test.name == "smc_16x13_oval" || test.name == "pa66_on_pom_ptfe"));
   }
-  CHECK(independent == 33);
-  CHECK(misses == 8);
+  CHECK(independent == 49);
+  CHECK(misses == 23);
 }

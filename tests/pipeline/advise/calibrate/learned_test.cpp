@@ -216,3 +216,19 @@ TEST_CASE("learned: a life says of the hoses' walls that they lived at least as 
   Made below("    hours: 300\n    outcome: broken_by\n");
   CHECK(walls_of(below).empty());  // the wires failed before, and of the hose nothing is known
 }
+
+TEST_CASE("learned: failures of a plant are as likely as Poisson's numbers, and those in use reach their ages as often as new ones") {
+  // Lives of a known median and deviation of ln: one failed, two live, one of them since before the records.
+  constexpr double median = 1000, spread = 0.8;
+  const std::vector<ServiceRecord> records{{800, 0, true}, {1500, 0, false}, {3000, 2000, false}};
+  const auto alive = [&](double hours) { return normal_share(std::log(median / hours) / spread); };
+  ObservedLife life;
+  life.variants.push_back([](const Eigen::VectorXd&) { return LifeAt{std::log(median), spread}; });
+  life.service = {{std::log(800.0), true, 1}, {std::log(1500.0), false, 1}, {std::log(3000.0), false, 1}, {std::log(2000.0), false, -1}};
+  const ServiceChance chance = service_chance(life, records, Eigen::MatrixXd::Zero(3, uncertain_count));
+  const double mean = -std::log(alive(800) * alive(1500) * alive(3000) / alive(2000));
+  CHECK(chance.few == Approx(std::exp(-mean) * (1 + mean)).epsilon(1e-9));
+  CHECK(chance.many == Approx(1 - std::exp(-mean)).epsilon(1e-9));
+  CHECK(chance.reach == Approx(alive(2000)).epsilon(0.06));  // ages of a bin differ by 2.5 %, S by 2.3 times as much
+  CHECK(service_chance(life, {{3000, 0, false}}, Eigen::MatrixXd::Zero(1, uncertain_count)).reach == 1);
+}

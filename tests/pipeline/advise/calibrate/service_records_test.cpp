@@ -154,6 +154,20 @@ TEST_CASE("service records: reasons in German, and reasons that two readings exp
                Contains("does not say whether the dresspack failed"));
 }
 
+TEST_CASE("service records: a failure of a hose does not silently count as broken wires") {
+  const auto words_of = [](const std::string& reason) {
+    return read("robot;installed;replaced;reason\nA;2024-01-01;2025-01-06;failed\nB;2024-01-01;2025-01-07;" + reason +
+                    "\nC;2024-01-01;2025-01-08;" + reason + "\nD;2024-01-01;;\n",
+                "2024-01-01")
+        .words;
+  };
+  for (const char* hose : {"hose cracked - failure", "Schlauch geplatzt", "Wellrohr gebrochen", "Rotura de la manguera", "broken: outer jacket"})
+    CHECK_THAT(words_of(hose), Contains("plant.csv:3:1: warning: ") && Contains("counts as broken wires (line 3, 4)") &&
+                                   Contains("write preventive") && Contains("3 failed"));
+  for (const char* other : {"cable broke", "those cables failed", "hose pack failed", "Schlauchpaket defekt", "preventive: hose worn"})
+    CHECK_THAT(words_of(other), !Contains("warning"));
+}
+
 TEST_CASE("service records: titles and reasons in Spanish") {
   const auto of = [](const std::string& titles, const std::string& reason) {
     return read(titles + "\nA;x;2024-01-01;2025-01-06;" + reason + ";76\nB;x;2024-01-01;;;76\n",
