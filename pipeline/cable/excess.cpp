@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"

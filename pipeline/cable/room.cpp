@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "pipeline/base/constants.h"
 
 namespace dresslife::pipeline {
 namespace {
