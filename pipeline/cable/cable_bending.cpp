@@ -129,10 +129,10 @@ double held_by_friction(double away, double cap) {
 
 void refuse_straight(const Component& layer) {
   throw InputError(layer.where,
-                   fmt::format("'{}' lies straight beside the axis of a cable with measured_bending_stiffness_Nm2 (how far "
-                               "it slides in a bent sample depends on the sample's length)",
+                   fmt::format("'{}' lies straight beside the axis of its cable (how far it slides in a bent sample depends on "
+                               "the sample's length)",
                                layer.name),
-                   "give its lay_angle_deg, or leave out the measured stiffness");
+                   "give its lay_angle_deg, or leave out measured_bending_stiffness_Nm2");
 }
 
 }  // namespace

@@ -9,9 +9,11 @@ namespace dresslife::pipeline {
 
 void describe(Fields& f, BendRelief& relief) {
   constexpr double stiffest = 1e6;  // [N m2] a bar of steel 100 mm thick
-  f.number("length_mm", relief.length, Need::required, at_least(0), "The length of the relief from the clamp. At most half the dresspack between two clamps.");
+  f.number("length_mm", relief.length, Need::required, at_least(0),
+           "The length of the relief from the clamp. At most half the dresspack between two clamps.");
   f.number("bending_stiffness_Nm2", relief.stiffness, Need::required, between(0, stiffest),
-           "The bending stiffness of the relief alone: M/curvature of the sleeve or spring without the dresspack.");
+           "The bending stiffness of the relief alone: M/curvature of the sleeve or spring without the dresspack. One as stiff as "
+           "the dresspack helps; one that is much stiffer only moves the bend to its end.");
 }
 
 void describe(Fields& f, Clamp& clamp) {
@@ -218,7 +220,7 @@ void check_bend_reliefs(const Routing& routing, Problems& problems) {
     for (const Clamp* const clamp : {before, after})
       if (clamp && clamp->bend_relief && begin < end && clamp->bend_relief->length > (end - begin) / 2)
         problems.add(clamp->where,
-                     fmt::format("bend_relief.length_mm is {:.4g} (at most {:.4g}, half the dresspack between this clamp and the next)",
+                     fmt::format("bend_relief.length_mm is {:.5g} (at most {:.5g}, half the dresspack between this clamp and the next)",
                                  1e3 * clamp->bend_relief->length, 5e2 * (end - begin)),
                      "give the length from the clamp's edge to the end of the sleeve");
     begin = end, before = after;

@@ -3,8 +3,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
@@ -46,7 +49,8 @@ std::string words_of(const Law& law, const std::array<double, 3>& frictions) {
   constexpr double none = 1e-6, all = 1e4;  // [1/m]: nothing slides, all slides to the end of it
   const auto friction = [&](double factor) {
     const Curve at = law.moment(factor, {all, 2 * all});
-    return readable(2 * at[0] - at[1]);
+    const double held = 2 * at[0] - at[1];
+    return readable(held > 1e-12 * at[1] ? held : 0);  // below it is rounding
   };
   const Curve at = law.moment(frictions[1], {none, all, 2 * all});
   return fmt::format("{}: E I {} N m2 sliding, {} held; friction {} N m (10 .. 90 %: {} .. {}); largest curvature {} 1/m", law.name,
@@ -143,13 +147,15 @@ std::string bending_chart(const std::filesystem::path& strain_file, std::size_t 
   const auto friction = [&](double share) {
     const auto at = static_cast<Eigen::Index>(index_of(Uncertain::friction_inside));
     const double deviation = std::sqrt(knowledge_of(job).covariance(at, at));
-    return job.strain.factors.friction * uncertain_parameters()[index_of(Uncertain::friction_inside)].value(deviation * normal_quantile(share));
+    const UncertainParameter& parameter = uncertain_parameters()[index_of(Uncertain::friction_inside)];
+    return job.strain.factors.friction * parameter.value(deviation * normal_quantile(share));
   };
   const std::array<double, 3> frictions{friction(0.1), friction(0.5), friction(0.9)};
   constexpr double width = 960, left = 78, right = 14, height = 300, heading = 44, below = 62;  // [px]
   const std::string title = "Moment over curvature";
   Picture picture(width, heading + (height + below) * static_cast<double>(laws.size()), title, title);
-  picture.text(left, 15, "Blue: first bend; red: loop of the largest bend in the motion; grey: with the friction of 10 .. 90 %; dashed: as simulated", "note");
+  picture.text(left, 15, "Blue: first bend; red: loop of the largest bend in the motion; grey: with the friction of 10 .. 90 %; dashed: as simulated",
+               "note");
   if (!left_out.empty())
     picture.text(left, 32, fmt::format("Left out, because they have no wires that are described: {}", fmt::join(left_out, ", ")), "note");
   for (std::size_t k = 0; k < laws.size(); ++k) {

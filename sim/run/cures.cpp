@@ -334,7 +334,8 @@ std::string relief_remark(const CheckedMotion& motion, const Check& broken) {
   const pipeline::Routing& routing = mounted_of(motion, broken).routing;
   std::vector<std::pair<double, std::string>> bare;
   const auto add = [&](const std::optional<pipeline::Clamp>& clamp, double at, const std::string& key) {
-    if (clamp && !clamp->bend_relief && std::abs(at - broken.position) < broken.limit) bare.emplace_back(std::abs(at - broken.position), key);
+    const double away = std::abs(at - broken.position);
+    if (clamp && !clamp->bend_relief && away < broken.limit) bare.emplace_back(away, key);
   };
   add(routing.base_clamp, 0, "routing.base_clamp");
   for (std::size_t k = 0; k < routing.clamps.size(); ++k)

@@ -64,7 +64,8 @@ TEST_CASE("plot draws the moment over curvature of a hose and its cable") {
   // the sum); held: they have E A R^2/2 besides.
   const std::string bending = unmarked_content(scratch / "bending.svg"), words = "cable: E I ";
   REQUIRE(bending.find(words) != std::string::npos);
-  const double pi = std::acos(-1.0), polymer = dresslife::pipeline::jacketed_modulus * pi / 4 * std::pow(2e-3, 4), wire = 117e9 * pi / 4 * std::pow(1e-4, 4);
+  const double pi = std::acos(-1.0), polymer = dresslife::pipeline::jacketed_modulus * pi / 4 * std::pow(2e-3, 4),
+               wire = 117e9 * pi / 4 * std::pow(1e-4, 4);
   CHECK(std::stod(bending.substr(bending.find(words) + words.size())) == Approx(polymer + 6 * wire).epsilon(0.01));
   const double held = std::stod(bending.substr(bending.find("sliding, ", bending.find(words)) + 9));
   CHECK(held == Approx(polymer + 6 * (wire + 117e9 * pi * 1e-8 * 1e-6 / 2 * std::pow(std::cos(pi / 12), 3))).epsilon(0.05));

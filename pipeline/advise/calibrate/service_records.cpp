@@ -426,7 +426,8 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
                       : ": --records-since DATE gives an earlier day from which the records are complete");
   if (!hoses.empty())
     read.words += warning_of(WarningKind::calibration, first_hose.text(),
-                             fmt::format("the reason names a hose, sleeve or jacket and counts as broken wires (line {})", joined(hoses, ", ")),
+                             fmt::format("the reason names a hose, sleeve or jacket and counts as broken wires (line {})",
+                                         joined(hoses, ", ")),
                              "a hose that cracked ends a dresspack before its wires do (competing risks)",
                              "if no wire had broken, write preventive: the wires lived at least so long. If a hose of a job with "
                              "hose_material cracked, leave the row out: its wall would count as whole")

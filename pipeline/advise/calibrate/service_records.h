@@ -33,7 +33,8 @@ struct ServiceRequest {
 
 struct ServiceTests {
   std::vector<ObservedTest> tests;  ///< one per cell of the column job
-  std::string words;                ///< what was read from which columns, which rows count, and a warning of failures whose reason names a hose
+  /// What was read from which columns, which rows count, and a warning of failures whose reason names a hose.
+  std::string words;
 };
 
 /// Errors: InputError at line and column for a missing column, two columns for one thing, a date that is none or is not

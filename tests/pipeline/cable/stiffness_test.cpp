@@ -226,7 +226,8 @@ TEST_CASE("stiffness: a hose's moment with more friction is that of a hose whose
   for (Component* part : {&rougher.components[0], &rougher.components[0].components[0]})
     for (Component& inner : part->components) *inner.friction *= 3;
   const std::vector<double> bends{1e-3, 0.03, 0.1, 0.5, 5};
-  const auto one = bending_moments(dresspack, 1, bends), three = bending_moments(dresspack, 3, bends), none = bending_moments(dresspack, 0, bends);
+  const auto one = bending_moments(dresspack, 1, bends), three = bending_moments(dresspack, 3, bends),
+             none = bending_moments(dresspack, 0, bends);
   for (std::size_t k = 0; k < bends.size(); ++k) {
     CAPTURE(bends[k]);
     CHECK(one[k] == Approx(bends[k] * stiffness_of_construction(dresspack, SlipState::friction, bends[k]).bending));

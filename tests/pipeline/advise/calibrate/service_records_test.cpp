@@ -161,7 +161,8 @@ TEST_CASE("service records: a failure of a hose does not silently count as broke
                 "2024-01-01")
         .words;
   };
-  for (const char* hose : {"hose cracked - failure", "Schlauch geplatzt", "Wellrohr gebrochen", "Rotura de la manguera", "broken: outer jacket"})
+  for (const char* hose :
+       {"hose cracked - failure", "Schlauch geplatzt", "Wellrohr gebrochen", "Rotura de la manguera", "broken: outer jacket"})
     CHECK_THAT(words_of(hose), Contains("plant.csv:3:1: warning: ") && Contains("counts as broken wires (line 3, 4)") &&
                                    Contains("write preventive") && Contains("3 failed"));
   for (const char* other : {"cable broke", "those cables failed", "hose pack failed", "Schlauchpaket defekt", "preventive: hose worn"})
