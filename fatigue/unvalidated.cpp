@@ -467,9 +467,9 @@ std::vector<UnvalidatedMode> kink_modes(const FileReader& strain, const pipeline
       mode.time = program.time[bend.sample];
       program.put_sample(mode, bend.sample);
       mode.note = fmt::format(
-          "Its tightest bend has a radius of {} mm. {} {} mm.", pipeline::readable(1e3 * radius_of(worst), 3),
-          worst.kinks.log10_spread > 0 ? "By its two diameters it kinks at" : "Its maker allows",
-          pipeline::readable(1e3 * worst.kinks.median, 3));
+          "Its tightest bend has a radius of {} mm. {} {} mm{}.", pipeline::readable(1e3 * radius_of(worst), 3),
+          worst.kinks.log10_spread > 0 ? "By its two diameters half of such tubes kink at" : "Its maker allows",
+          pipeline::readable(1e3 * worst.kinks.median, 3), worst.kinks.log10_spread > 0 ? "" : " or more");
     }
     set_lives(mode, std::move(own), lives, program.repeat());
   }

@@ -30,7 +30,7 @@ int duty(const RunOptions& options) {
   const fs::path page = made.places.folder / ("duty_" + name.stem().string() + ".html");
   write_text_if_changed(page, with_mark(duty_page(name.stem().string(), results, table.filename().string()), Mark::page));
   print(options.json ? json_of_csv(csv).text + "\n"
-                     : shown(fmt::format("{}\nTable: {}\nPage: {}\n", duty_words(results), table.string(), page.string())));
+                     : shown(fmt::format("{}\nTable: {} (columns: comma, decimals: point)\nPage: {}\n", duty_words(results), table.string(), page.string())));
   tell(warning_lines(rows_of(file, made.rows)));
   return 0;
 }

@@ -24,7 +24,6 @@
 #include "pipeline/commands/duties_run.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/learned_settings.h"
-#include "pipeline/life/planning.h"
 #include "pipeline/report/plan_page.h"
 #include "pipeline/settings/problems.h"
 #include "pipeline/study/row_warnings.h"
@@ -194,8 +193,9 @@ int plan(const PlanOptions& options) {
   add_past(fleet);
   const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent,
                       knows_survivors(made.study)};
-  if (effective_worlds(fleet, tables, day, rule) < enough_worlds) {  // many survivors leave few worlds
-    constexpr std::size_t times = 8;                                 // some seconds for 500 dresspacks
+  if (const double effective = effective_worlds(fleet, tables, day, rule); effective < enough_worlds) {  // many survivors leave few worlds
+    constexpr double spare = 1.2, most = 8;  // few worlds tell how many more are needed to a tenth; ten seconds for 500 dresspacks
+    const auto times = static_cast<std::size_t>(std::clamp(std::ceil(spare * enough_worlds / effective), 2.0, most));
     tables = life_tables(file, made.study, made.rows, needed, times * usual_worlds);
   }
   const Plan found = plan_of(fleet, tables, windows, day, rule);
@@ -205,16 +205,7 @@ int plan(const PlanOptions& options) {
         fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",
                     found.effective_worlds, tables.begin()->second.worlds),
         "learn from them first: dresslife calibrate");
-  if (found.reach_their_age < usual_reach)
-    tell(shown(
-        warning_of(
-            WarningKind::motion, options.fleet,
-            fmt::format("by the model {} of new dresspacks reach the ages of these {} (limit {})",
-                        percent_text(found.reach_their_age), fleet.rows.size(), percent_text(usual_reach)),
-            "a job or hours per week that are not theirs, or a calibration with records that begin after most of their life",
-            "dresslife calibrate with an earlier day (--records-since), from which the table has every removal")
-            .line() +
-        "\n"));
+  for (const Warning& warning : doubtful_ages(fleet, found)) tell(shown(warning.line() + "\n"));
   std::optional<Plan> other;
   std::string what_if;
   if (changed) {
@@ -267,7 +258,7 @@ int plan(const PlanOptions& options) {
                  : now + "\n";
   };
   print(options.json ? json()
-                     : shown(fmt::format("{}{}{}\n{}Table: {}\nWeeks: {}\nCalendar: {}\nPage: {}\n",
+                     : shown(fmt::format("{}{}{}\n{}Table: {} (columns: comma, decimals: point)\nWeeks: {}\nCalendar: {}\nPage: {}\n",
                                          block(doubts(duties)), plan_words(fleet, found), tests,
                                          block(cautions(duties)), table.string(), weeks.string(),
                                          calendar.string(), page.string()) +

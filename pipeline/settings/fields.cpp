@@ -377,7 +377,12 @@ class FieldReader final : public Fields {
     for (const Entry& entry : level.map->entries) {
       if (std::find(level.known.begin(), level.known.end(), entry.key) != level.known.end()) continue;
       std::string remedy;
-      const std::string likely = likely_key(level, entry, remedy);
+      std::string likely = likely_key(level, entry, remedy);
+      // "{percent_of_time: 12,5}": YAML takes the comma for the end of the value.
+      if (const Entry* const before = &entry == &level.map->entries.front() ? nullptr : &entry - 1;
+          before && entry.value.kind == Node::Kind::null && entry.key.find_first_not_of("0123456789") == std::string::npos &&
+          !before->value.text.empty() && before->value.text.find_first_not_of("-0123456789") == std::string::npos)
+        likely = "", remedy = fmt::format("write '{}: {}.{}' with a decimal point", before->key, before->value.text, entry.key);
       misnamed.push_back(likely);
       problems_.add(entry.where, fmt::format("unknown key '{}'", path_of(entry.key)), remedy,
                     likely.empty() ? "" : path_of(likely));

@@ -112,7 +112,8 @@ std::string first_inspection_words(const RankingRow& row) {
     return fmt::format("Twist may wind {} into a corkscrew in the hose, {}, after {} (not validated): inspect it there.", mode->place,
                        place, range_text(mode->hours[0], mode->hours[2]));
   if (mode->mode == UnvalidatedMode::kink)
-    return fmt::format("{} may kink in the hose, {}. {} Enlarge the bend radius there, or take a tube with a thicker wall.", mode->place, place,
+    return fmt::format("{}, {}. {} Enlarge the bend radius there, or take a tube with a thicker wall.",
+                       mode->place == "the hose" ? std::string("The hose may kink") : fmt::format("The {} may kink in the hose", mode->place), place,
                        mode->note);
   return fmt::format("{} may come before, {}, after {} (not validated): inspect it there.", mode->mode, place,
                      hours_text(mode->early_hours()));

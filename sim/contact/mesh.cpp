@@ -70,18 +70,18 @@ NearestToTriangle nearest_points(const Triangle& t, const Vector3& from, const V
 
 // ---- the tree of boxes ------------------------------------------------------------------------------------
 
-std::vector<Triangle> scaled_triangles(const pipeline::MeshFile& file) {
+std::vector<Triangle> scaled_triangles(const std::filesystem::path& file, double scale) {
   constexpr double longest = 30;  // [m]: a cell with its fences
-  std::vector<Triangle> triangles = read_triangles(file.file);
+  std::vector<Triangle> triangles = read_triangles(file);
   Eigen::AlignedBox3d box;
   for (Triangle& triangle : triangles)
-    for (Vector3& corner : triangle) box.extend(corner *= file.scale);
+    for (Vector3& corner : triangle) box.extend(corner *= scale);
   if (!triangles.empty() && box.sizes().maxCoeff() > longest)
     throw pipeline::InputError(
-        {file.file.string()},
-        fmt::format("the mesh is {:.4g} m long with scale {:g} (limit {:g} m)", box.sizes().maxCoeff(), file.scale, longest),
-        fmt::format("give the mesh scale: {:g} if its unit is the millimetre (in a URDF scale=\"{:g} {:g} {:g}\")", file.scale / 1e3,
-                    file.scale / 1e3, file.scale / 1e3, file.scale / 1e3));
+        {file.string()},
+        fmt::format("the mesh is {:.4g} m long with scale {:g} (limit {:g} m)", box.sizes().maxCoeff(), scale, longest),
+        fmt::format("give the mesh scale: {:g} if its unit is the millimetre (in a URDF scale=\"{:g} {:g} {:g}\")", scale / 1e3,
+                    scale / 1e3, scale / 1e3, scale / 1e3));
   return triangles;
 }
 

@@ -7,10 +7,10 @@
 // outside: an overlap of a radius. An axis that crosses the surface is reported as deep as a diameter.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "pipeline/base/mesh_file.h"
-#include "pipeline/job/shapes.h"
 #include "sim/rod/rotation.h"
 
 namespace dresslife::sim {
@@ -26,8 +26,9 @@ struct NearestToTriangle {
 Vector3 nearest_point(const Triangle& triangle, const Vector3& point);
 NearestToTriangle nearest_points(const Triangle& triangle, const Vector3& from, const Vector3& to);
 
-/// The triangles of a job's mesh [m]. Errors: InputError of read_triangles(), and for a mesh that is longer than a cell: its unit is no metre.
-std::vector<Triangle> scaled_triangles(const pipeline::MeshFile& file);
+/// The triangles of a file in metres; scale: metres per unit of the file. Errors: InputError of read_triangles(), and for a mesh that is longer
+/// than a cell: its unit is another one.
+std::vector<Triangle> scaled_triangles(const std::filesystem::path& file, double scale);
 
 class Mesh {
  public:

@@ -249,6 +249,26 @@ class Pass {
     clock_words_ = clock.words();
   }
 
+  /// Titles of columns that look like axes, beyond those of the robot.
+  std::vector<std::string> external() const {
+    const auto stem = [](const std::string& title) {
+      std::vector<std::string> words = words_of_name(title);
+      std::erase_if(words, [](const std::string& word) { return word[0] >= '0' && word[0] <= '9'; });
+      return words;
+    };
+    std::vector<std::string> found;
+    for (std::size_t k = 0; k < titles_.size(); ++k) {
+      if (std::ranges::find(columns_.axes, k) != columns_.axes.end() || k == columns_.time || k == columns_.date) continue;
+      const std::vector<std::string> words = stem(titles_[k].text);
+      const bool named = std::ranges::any_of(words, [](const std::string& word) {
+        return word == "e" || word == "ext" || word == "external" || word == "eax" || word == "extax" || word == "rail" || word == "track" || word == "extern";
+      });
+      if ((named || words == stem(titles_[columns_.axes[0]].text)) && words.size() != words_of_name(titles_[k].text).size())
+        found.push_back(titles_[k].text);
+    }
+    return found;
+  }
+
   /// "separator ';', decimal commas; column Zeit: seconds; angles in degrees by the names of the columns". After run().
   std::string words(bool unit_by_size) const {
     const char separator = log_.separator();
@@ -394,6 +414,7 @@ Recording read_log(const std::filesystem::path& file, const pipeline::Robot& rob
   for (std::size_t i = 0; i < made.axes; ++i)
     made.columns[i].column = pass.title(i);  // a row may name the joints
   made.format = pass.words(!known);
+  made.external = pass.external();
   rows.finish();
   made.left_out = pass.left_out;
   made.first_left_out = pass.first_left_out;

@@ -33,6 +33,7 @@ struct Recording {
   std::size_t axes = 0;
   std::vector<AxisOfLog> columns;  ///< (axis)
   std::string format;              ///< words: separator, times, unit of the angles
+  std::vector<std::string> external;  ///< titles of columns that look like further axes than the robot's
   ImpossibleRows impossible;
   std::vector<double> times;         ///< (row) [s], increasing, from 0
   std::vector<double> angles;        ///< (row, axis) [rad]

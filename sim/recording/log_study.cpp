@@ -58,7 +58,7 @@ std::string duty_text(const std::string& name, const std::string& study, const C
     seconds += static_cast<double>(motion.count) * (motion.duration() + last_sample);
   seconds = std::max(seconds, course.log_seconds);
   std::string text = fmt::format(
-      "# hours_per_week: of hours as in the log, with stands and without gaps ({}).\n"
+      "# hours_per_week: of hours as in the log, with stands and without gaps in which the robot moved ({}).\n"
       "study: {}\nduties:\n  - name: {}\n    hours_per_week: 80\n    programs:\n",
       time_words(course.log_seconds), study, name);
   for (const LogMotion& motion : motions)
@@ -138,6 +138,10 @@ std::vector<std::string> read_words(const Recording& log, const Course& course) 
   }
   if (const std::string order = order_words(log.columns, course.fastest); !order.empty())
     lines.push_back("warning: " + order);
+  if (!log.external.empty())
+    lines.push_back(fmt::format(
+        "warning: left out, because the robot of the job has no such axes: {}. If they carry the robot, describe them as robot.external_axes",
+        fmt::join(log.external, ", ")));
   for (std::string words : {radians_words(log), times_words(log, course)})
     if (!words.empty()) lines.push_back(std::move(words));
   return lines;
@@ -174,12 +178,13 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
         jumps.size(), jumps.size() == 1 ? "" : "s", jumps.size() == 1 ? "s" : "", lines_text(jumps)));
   if (log.pauses > 0)
     lines.push_back(fmt::format(
-        "warning: {} pauses without rows, {} together, the longest {} before line {}: they count as standing where the robot keeps its "
-        "pose. If the logger was off or a time is wrong, the rates are too low: cut the log there",
-        log.pauses, time_words(log.pause_seconds), time_words(log.longest_pause), log.line_of_pause));
+        "warning: {} pause{} without rows, {} together, the longest {} before line {}: standing where the robot keeps its "
+        "pose, else no time of the log. If the logger was off or a time is wrong, the rates are too low: cut the log there",
+        log.pauses, log.pauses == 1 ? "" : "s", time_words(log.pause_seconds), time_words(log.longest_pause), log.line_of_pause));
   if (course.gaps > 0)
     lines.push_back(
-        fmt::format("{} gaps of {} together are not counted", course.gaps, time_words(course.gap_seconds)));
+        fmt::format("{} gap{} in which the robot moved, {} together, {} not counted", course.gaps, course.gaps == 1 ? "" : "s",
+                    time_words(course.gap_seconds), course.gaps == 1 ? "is" : "are"));
   lines.push_back(fmt::format("smoothed by at most {:.2g} deg", course.largest_smoothing * degrees));
   for (const TooFast& fast : course.too_fast)
     lines.push_back(fmt::format(

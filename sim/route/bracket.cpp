@@ -50,7 +50,7 @@ template <class Shapes>
 Solid solid_of(const Shapes& shapes) {
   Solid solid{shapes.capsules, shapes.boxes, {}};
   for (const pipeline::MeshFile& file : shapes.meshes) {
-    if (std::vector<Triangle> triangles = scaled_triangles(file); !triangles.empty())
+    if (std::vector<Triangle> triangles = scaled_triangles(file.file, file.scale); !triangles.empty())
       solid.meshes.push_back({Mesh(std::move(triangles)), {file.position, pipeline::from_roll_pitch_yaw(file.orientation)}});
   }
   return solid;

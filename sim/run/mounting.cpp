@@ -56,7 +56,7 @@ void add_shapes(World& world, int link, const Shapes& shapes) {
   for (const pipeline::Box& box : shapes.boxes)
     world.add(link, BoxShape{frame_of(box.position, box.orientation), box.sides});
   for (const pipeline::MeshFile& file : shapes.meshes)
-    world.add(link, std::make_shared<const Mesh>(scaled_triangles(file)), frame_of(file.position, file.orientation));
+    world.add(link, std::make_shared<const Mesh>(scaled_triangles(file.file, file.scale)), frame_of(file.position, file.orientation));
 }
 
 WorldSettings world_settings(const pipeline::Setup& setup) {

@@ -156,6 +156,7 @@ const Wrong wrong[] = {
     {"hose.yaml", "count: 4\n", "count: 400\n", "hose.yaml:12:5: error: ", "the 400 parts 'lead' are 0.2199 mm apart", "give count: 10 or less", draw},
     // Spreadsheets, units and typing habits
     {"job.yaml", "free_length_m: 2.035", "free_length_m: 2,035", "job.yaml:13:18: error: ", "'2,035' (must be a number", "write 2.035 with a point"},
+    {"job.yaml", "dwell_s: 0.5", "dwell_s: 0,5", "job.yaml:8:", "unknown key 'motion.steps[3].5'", "write 'dwell_s: 0.5' with a decimal point"},
     {"job.yaml", "free_length_m: 2.035", "free_length_m: \"2.035\"", "job.yaml:13:18: error: ", "'2.035' (must be a number", "; "},
     {"job.yaml", "position_m: [-0.1, 0", "position_m: [\xE2\x88\x92" "0.1, 0", "job.yaml:11:43: error: ", "(must be a number", "; "},
     {"job.yaml", "dwell_s: 0.5", "dwell_ms: 500", "job.yaml:8:", "unknown key", "; ", "dresslife-sim job.yaml --preview -o out.h5"},

@@ -6,7 +6,9 @@
 #include <cctype>
 #include <map>
 
+#include "pipeline/advise/plan/plan_words.h"
 #include "pipeline/base/warning_words.h"
+#include "pipeline/life/planning.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -167,6 +169,15 @@ std::vector<Warning> doubtful_fleet(const Fleet& fleet, Day today) {
   Doubts doubts;
   doubts.of(fleet, today);
   return doubts.warnings;
+}
+
+std::vector<Warning> doubtful_ages(const Fleet& fleet, const Plan& plan) {
+  if (plan.reach_their_age >= usual_reach) return {};
+  return {warning_of(WarningKind::motion, fleet.rows.front().where.file,
+                     fmt::format("by the model {} of new dresspacks reach the ages of these {} (limit {})", percent_text(plan.reach_their_age),
+                                 fleet.rows.size(), percent_text(usual_reach)),
+                     "a job or hours per week that are not theirs, or a calibration with records that begin after most of their life",
+                     "dresslife calibrate with an earlier day (--records-since), from which the table has every removal")};
 }
 
 }  // namespace dresslife::pipeline

@@ -44,6 +44,14 @@ void check(const Duty& duty, const std::string& key, Problems& problems) {
       problems.add(program.where, fmt::format("percent_of_repeats of '{}' has no number to refer to", program.job),
                    "give repeats_per_hour of the duty: all programs together");
   }
+  const auto in_batches = [](const DutyProgram& program) { return program.batch_size > 0; };
+  const auto batch = std::find_if(duty.programs.begin(), duty.programs.end(), in_batches);
+  if (batch != duty.programs.end() && !duty.order.empty())
+    problems.add(batch->where, fmt::format("'{}' has a batch_size, and duty '{}' an order", batch->job, duty.name),
+                 "remove batch_size and give repeats in the order, or remove the order");
+  else if (std::count_if(duty.programs.begin(), duty.programs.end(), in_batches) == 1)
+    problems.add(batch->where, fmt::format("'{}' alone has a batch_size, so it changes to no other program", batch->job),
+                 "give the batch_size of the other programs, too");
   for (const OrderedProgram& program : duty.order)
     if (!jobs.contains(program.job) && !problems.touch(key + ".order"))
       problems.add(program.where, fmt::format("'{}' in the order is no program of duty '{}'", program.job, duty.name),
@@ -70,6 +78,9 @@ void describe(Fields& f, DutyProgram& program) {
                  "The share of the hours of operation in which the robot runs the program.");
   f.maybe_number("percent_of_repeats", program.percent_of_repeats, between(0, 100),
                  "The share of the duty's `repeats_per_hour`.");
+  f.integer("batch_size", program.batch_size, Need::optional, between(0, most_repeats),
+            "Its repeats in a row before the next program begins: in place of an `order`, where each program runs once in a round. 0: not "
+            "known.");
   f.number("deviation_percent", program.deviation_percent, Need::optional, between(0, 100),
            "The standard deviation of the number of repeats, from one dresspack to the next.");
 }
@@ -177,6 +188,9 @@ DutyFile read_duties(const std::filesystem::path& name, Day today) {
     if (!problems.touch(fmt::format("duties[{}].history", k + 1))) fill_hours(file, file.duties[k].history, today, problems);
   }
   problems.finish(name.string());
+  for (Duty& duty : file.duties)
+    for (const DutyProgram& program : duty.programs)
+      if (program.batch_size > 0) duty.order.push_back({program.where, program.job, program.batch_size});
   return file;
 }
 

@@ -9,7 +9,7 @@
 //         - {job: hard, percent_of_time: 5, deviation_percent: 10}
 //       order:
 //         - {job: spot_robot_1, repeats: 20}   20 times in a row
-//         - {job: hard, repeats: 1}            once; then again the first
+//         - {job: hard, repeats: 1}            once; then again the first. Or batch_size: 20 and 1 in the programs
 //       history:
 //         - {duty: night, hours: 2000}   what the dresspack has done before
 //         - {duty: day, from: 2026-01-05, to: 2026-06-30}   the same by dates, both days included
@@ -35,6 +35,7 @@ struct DutyProgram {
   std::string job;
   std::optional<double> repeats_per_hour, repeats_per_shift, percent_of_time, percent_of_repeats;
   double deviation_percent = 0;  ///< standard deviation of its number of repeats, the same for the whole life of a dresspack
+  int batch_size = 0;  ///< repeats before the next program begins: read_duties() makes an order of them; 0: not given
 
   /// Repeats in an hour of operation. repeat_seconds: of its motion.
   double rate(double repeat_seconds, double shift_hours, std::optional<double> all_repeats_per_hour) const;
@@ -75,7 +76,7 @@ struct DutyFile {
 };
 
 /// Errors: InputError with all problems: unknown keys, a program without a number or with several, two duties of one
-/// name, a history that names no duty, or whose dates overlap.
+/// name, batch sizes beside an order or of one program only, a history that names no duty, or whose dates overlap.
 DutyFile read_duties(const std::filesystem::path& file, Day today = dresslife::pipeline::today());
 
 /// The duty of this name. Errors: InputError at `named_at`.

@@ -261,61 +261,54 @@ class Programs {
       lives_;  ///< by inode and time of change
 };
 
-/// Damage of one repeat for each dresspack of a plant. Programs with one result share it while duties need it, and so do
-/// duties with one program.
-class PlantDamage {
- public:
-  static constexpr std::size_t draws =
-      64;  // dresspacks in each world: a probability of 10 % is known to 3.8 % in one world
+constexpr std::size_t draws = 64;  // dresspacks in each world: a probability of 10 % is known to 3.8 % in one world
 
-  PlantDamage(std::span<const std::vector<EvaluatedProgram>> duties, std::size_t worlds) : worlds_(worlds) {
+/// Damage of one repeat for one dresspack in each world. Programs with one result share it while duties need it, and so do duties with
+/// one program.
+class DrawDamage {
+ public:
+  DrawDamage(std::span<const std::vector<EvaluatedProgram>> duties, std::size_t draw, std::size_t worlds)
+      : dresspack_(fmt::format("dresspack {}", draw)), worlds_(worlds) {
     for (const std::vector<EvaluatedProgram>& duty : duties)
       for (const EvaluatedProgram& program : duty)
         ++damage_[program.modes.get()].duties, ++factors_[program.job].duties;
   }
-  /// (world) of the mode that fails first.
+  /// (world) of the mode that fails first. Each duty is asked for once.
   std::vector<double> under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-                            const std::vector<double>& share, std::size_t draw) {
-    const std::string dresspack = fmt::format("dresspack {}", draw);
-    return first_mode_damage(
+                            const std::vector<double>& share) {
+    std::vector<double> damage = first_mode_damage(
         programs, rates, share,
         [&](const EvaluatedProgram& program) -> const RepeatDamage& {
-          RepeatDamage& damage = damage_[program.modes.get()].at(draw);
-          if (damage.empty()) damage = damage_of_repeat(*program.modes, dresspack, worlds_);
-          return damage;
+          RepeatDamage& of_repeat = damage_[program.modes.get()].value;
+          if (of_repeat.empty()) of_repeat = damage_of_repeat(*program.modes, dresspack_, worlds_);
+          return of_repeat;
         },
         [&](const EvaluatedProgram& program, double deviation_percent) -> const std::vector<double>& {
-          auto& [deviation, factors] = factors_[program.job].at(draw);
+          auto& [deviation, factors] = factors_[program.job].value;
           if (factors.empty() || deviation != deviation_percent)
             deviation = deviation_percent,
-            factors = repeat_factors(program.job, deviation_percent, dresspack, worlds_);
+            factors = repeat_factors(program.job, deviation_percent, dresspack_, worlds_);
           return factors;
         });
-  }
-  /// A duty was evaluated.
-  void release(const std::vector<EvaluatedProgram>& duty) {
-    for (const EvaluatedProgram& program : duty)
+    for (const EvaluatedProgram& program : programs)
       damage_[program.modes.get()].release(), factors_[program.job].release();
+    return damage;
   }
 
  private:
-  /// (draw)
   template <class Value>
   struct Shared {
     std::size_t duties = 0;  ///< that still need it
-    std::vector<Value> of_draw;
+    Value value;
 
-    Value& at(std::size_t draw) {
-      of_draw.resize(draws);
-      return of_draw[draw];
-    }
     void release() {
-      if (--duties == 0) of_draw = {};
+      if (--duties == 0) value = {};
     }
   };
+  std::string dresspack_;
   std::size_t worlds_;
   std::unordered_map<const FailureModes*, Shared<RepeatDamage>> damage_;
-  std::unordered_map<std::string, Shared<std::pair<double, std::vector<double>>>> factors_;  ///< by job
+  std::unordered_map<std::string_view, Shared<std::pair<double, std::vector<double>>>> factors_;  ///< by job
 };
 
 /// (program) per hour.
@@ -451,6 +444,17 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
   result.hours_per_week = duty.hours_per_week;
   result.has_order = !duty.order.empty();
   rates = rates_of(duty, programs, result.parts);
+  if (result.has_order) {
+    result.rounds_per_hour = repeats_in_rounds(duty, repeats_of(result.parts)).back();
+    for (const DutyPart& part : result.parts) {
+      double in_rounds = 0;
+      for (const OrderedProgram& ordered : duty.order)
+        if (ordered.job == part.job) in_rounds += result.rounds_per_hour * ordered.repeats;
+      constexpr double worth_a_word = 0.01;
+      if (const double outside = 1 - in_rounds / part.repeats_per_hour; outside > worth_a_word)
+        result.outside.push_back(fmt::format("{} ({:.0f} %)", part.job, 100 * outside));
+    }
+  }
   result.others = other_modes(result.parts, programs.rows(duty));
   result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
   std::vector<DutyProgram> all = duty.programs;
@@ -553,7 +557,6 @@ std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& prog
 std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study,
                                              const std::vector<RankingRow>& rows,
                                              const std::set<std::string>& needed, std::size_t worlds) {
-  constexpr std::size_t draws = PlantDamage::draws;
   Programs programs(study, rows);
   std::vector<const Duty*> duties;
   std::vector<std::vector<EvaluatedProgram>> all;
@@ -582,23 +585,29 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
     table.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
     tasks.push_back({&table, std::move(rates), std::move(share)});
   }
-  // The lives of a duty depend on no other one, so any number of threads gives the same.
-  const std::size_t threads = std::min(thread_count(), tasks.size());
+  // The lives of a draw depend on no other one, so any number of threads gives the same. Draw after draw, and not duty after duty: what
+  // the programs of one draw need stays in the processor's cache.
+  const std::size_t threads = std::min(thread_count(), draws);
   in_parallel(threads, [&](std::size_t part) {
-    const std::size_t begin = tasks.size() * part / threads, end = tasks.size() * (part + 1) / threads;
-    PlantDamage plant({all.data() + begin, end - begin}, worlds);
-    for (std::size_t k = begin; k < end; ++k) {
-      std::vector<float>& hours = tasks[k].table->hours;
-      for (std::size_t d = 0; d < draws; ++d) {
-        const std::vector<double> damage = plant.under(all[k], tasks[k].rates, tasks[k].share, d);
+    for (std::size_t d = draws * part / threads; d < draws * (part + 1) / threads; ++d) {
+      DrawDamage plant(all, d, worlds);
+      for (std::size_t k = 0; k < tasks.size(); ++k) {
+        const std::vector<double> damage = plant.under(all[k], tasks[k].rates, tasks[k].share);
+        float* const hours = tasks[k].table->hours.data() + d * worlds;
         for (std::size_t w = 0; w < worlds; ++w)
-          hours[w * draws + d] =
-              damage[w] > 0 ? static_cast<float>(1 / damage[w]) : std::numeric_limits<float>::infinity();
+          hours[w] = damage[w] > 0 ? static_cast<float>(1 / damage[w]) : std::numeric_limits<float>::infinity();
       }
-      plant.release(all[k]);
-      for (std::size_t w = 0; w < worlds; ++w)
-        std::sort(hours.begin() + static_cast<std::ptrdiff_t>(w * draws),
-                  hours.begin() + static_cast<std::ptrdiff_t>((w + 1) * draws));
+    }
+  });
+  // From (draw, world) to (world, draw), rising.
+  in_parallel(threads, [&](std::size_t part) {
+    for (std::size_t k = tasks.size() * part / threads; k < tasks.size() * (part + 1) / threads; ++k) {
+      const std::vector<float> by_draw = tasks[k].table->hours;
+      for (std::size_t w = 0; w < worlds; ++w) {
+        float* const hours = tasks[k].table->hours.data() + w * draws;
+        for (std::size_t d = 0; d < draws; ++d) hours[d] = by_draw[d * worlds + w];
+        std::sort(hours, hours + draws);
+      }
     }
   });
   return tables;

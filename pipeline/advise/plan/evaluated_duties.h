@@ -48,6 +48,8 @@ struct DutyResult {
   DutyDamage damage;
   DutyLives lives;
   bool has_order = false;       ///< the changes between programs count
+  double rounds_per_hour = 0;   ///< of its order
+  std::vector<std::string> outside{};  ///< "hard (25 %)": programs with a share of their repeats in no round
   double past_hours = 0;  ///< 0: no history
   std::vector<DutyMode> others;       ///< not in the hours above
   std::string not_evaluated;          ///< parts and modes without a life

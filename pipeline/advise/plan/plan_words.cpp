@@ -74,8 +74,8 @@ std::string expected_words(const Plan& plan) {
         " That all of them live today was unlikely by the model: 1 of {} such plants. This plan is of such plants alone. If a job or a "
         "date is wrong, correct it; dresslife calibrate learns from more records.",
         readable(1 / plan.all_alive, 2));
-  return fmt::format("{} dresspacks, from {} to {}. Before the first window {} of them are expected to fail.{}",
-                     plan.rows.size(), day_text(plan.today), day_text(plan.end), readable(before, 2), alive);
+  return fmt::format("{} dresspack{}, from {} to {}. Before the first window {} of them are expected to fail.{}",
+                     plan.rows.size(), plan.rows.size() == 1 ? "" : "s", day_text(plan.today), day_text(plan.end), readable(before, 2), alive);
 }
 
 std::string kept_words(const Fleet& fleet, const Plan& plan) {

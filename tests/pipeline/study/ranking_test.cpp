@@ -461,7 +461,7 @@ TEST_CASE("ranking: a kink has words and columns, also if none occurs") {
   UnvalidatedMode kink;
   kink.mode = UnvalidatedMode::kink, kink.hours = {0.01, 0.01, infinity}, kink.first_share = 0.7, kink.together_p10 = 0.01;
   kink.position_from_tool = 0.4, kink.place = "air hose", kink.time = 2, kink.margin = 0.88;
-  kink.note = "Its tightest bend has a radius of 25 mm. By its two diameters it kinks at 28.5 mm.";
+  kink.note = "Its tightest bend has a radius of 25 mm. By its two diameters half of such tubes kink at 28.5 mm.";
   SampleLife life = living(12000);
   life.planned_hours = 1e5, life.robot_life_hours = 40000, life.unvalidated = unvalidated_text({kink});
   const auto rows = read_ranking({job_with(scratch, "kinked", life)});

@@ -246,6 +246,17 @@ TEST_CASE("log: columns, times, unit and ranges are stated, and columns that fit
           "separator ';', decimal commas; times in Zeit: numbers in s; angles in degrees by the names of the columns"));
   CHECK_THAT(words, Contains("joint_1  J1 [deg]       -20.0 .. 0.0"));
   CHECK_THAT(words, Contains("warning: the columns of joint_1, joint_2 may be exchanged"));
+  CHECK(slow.external.empty());
+  CHECK_THAT(words, !Contains("left out"));
+  std::string more = exchanged(10);  // a rail, a third axis, and what is none
+  for (std::size_t at = 0, row = 0; (at = more.find('\n', at)) != more.npos; ++row) {
+    const std::string cells = row == 0 ? ";E1 [mm];J3 [deg];Temp 1" : ";5;6;20";
+    more.insert(at, cells), at += cells.size() + 1;
+  }
+  const Recording wide = read_from(more, plain);
+  CHECK(wide.external == std::vector<std::string>{"E1 [mm]", "J3 [deg]"});
+  CHECK_THAT(fmt::format("{}", fmt::join(read_words(wide, Course(wide, robot, bound)), "\n")),
+             Contains("warning: left out, because the robot of the job has no such axes: E1 [mm], J3 [deg]. "));
   const Recording right = read_from(exchanged(10), {.joints = "J2 [deg],J1 [deg]", .still = bound});
   CHECK_THAT(fmt::format("{}", fmt::join(read_words(right, Course(right, robot, bound)), "\n")),
              !Contains("exchanged"));

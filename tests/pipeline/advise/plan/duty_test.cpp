@@ -6,6 +6,7 @@
 
 #include "pipeline/advise/plan/duty_words.h"
 #include "pipeline/advise/plan/evaluated_duties.h"
+#include "pipeline/advise/plan/rounds.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
@@ -114,9 +115,12 @@ TEST_CASE("a duty of several programs without an order names the cycles that it 
   duty.parts.resize(1);
   CHECK(mixture_words(duty).empty());
   duty.parts.resize(2);
-  CHECK(in_one_line(mixture_words(duty)) == " Cycles that begin in one program and end in another are not counted. With `order` they are. ");
-  duty.has_order = true;
-  CHECK(mixture_words(duty).empty());
+  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::StartsWith(" Cycles that begin in one program and end in another are not counted. ") &&
+                                                   Catch::Contains("With `order` or `batch_size` they are. "));
+  duty.has_order = true, duty.rounds_per_hour = 0.3;
+  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::StartsWith(" The order runs 0.300 times per hour.") && !Catch::Contains("without changes"));
+  duty.outside = {"b (33 %)"};
+  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::EndsWith("these shares of them count without changes to another program: b (33 %). "));
 }
 
 TEST_CASE("a history by dates has the hours of its days, each at the week of its duty") {
@@ -158,6 +162,28 @@ TEST_CASE("a history by dates has the hours of its days, each at the week of its
 TEST_CASE("duties of a study that keeps no lives are refused before it runs") {
   CHECK_NOTHROW(check_programs({}, Study{"s", {}, Keep::histories}));
   CHECK_THROWS_WITH(check_programs({}, Study{"s", {}, Keep::lives}), Catch::Contains("study 's' keeps no life.h5 (keep: lives)"));
+}
+
+TEST_CASE("batch sizes are an order in which each program runs once in a round") {
+  const Scratch scratch;
+  const auto order_of = [&](const std::string& programs, const std::string& more = "") {
+    return read_duties(scratch.write("duties.yaml", of_programs(programs, more))).duties[0];
+  };
+  const Duty batches = order_of("      - {job: a, repeats_per_hour: 60, batch_size: 20}\n      - {job: c, repeats_per_hour: 5}\n"
+                                "      - {job: b, repeats_per_hour: 45, batch_size: 10}\n");
+  const Duty order = order_of("      - {job: a, repeats_per_hour: 60}\n      - {job: c, repeats_per_hour: 5}\n      - {job: b, repeats_per_hour: 45}\n",
+                              "    order: [{job: a, repeats: 20}, {job: b, repeats: 10}]\n");
+  CHECK(round_name(batches) == round_name(order));
+  // Three rounds an hour hold all of a, each with one change to b and one back; 15 of b are in none.
+  const std::vector<double> expected{60 - 3, 5, 45 - 3, 3};
+  CHECK(repeats_in_rounds(batches, {60, 5, 45}) == expected);
+  CHECK(repeats_in_rounds(order, {60, 5, 45}) == expected);
+  const std::string two = "      - {job: a, repeats_per_hour: 1, batch_size: 2}\n      - {job: b, repeats_per_hour: 1, batch_size: 2}\n";
+  CHECK(refusal(of_programs(two, "    order: [{job: a}, {job: b}]\n")).find("duties.yaml:6:9: error: 'a' has a batch_size, and duty 'd' an order") != std::string::npos);
+  CHECK(refusal(of_programs("      - {job: b, repeats_per_hour: 1}\n      - {job: a, repeats_per_hour: 1, batch_size: 2}\n"))
+            .find("duties.yaml:6:9: error: 'a' alone has a batch_size") != std::string::npos);
+  CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1, batch_size: 1.5}\n")).find("batch_size") != std::string::npos);
+  CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1, batch_size: -1}\n")).find("batch_size") != std::string::npos);
 }
 
 TEST_CASE("a file of duties that contradicts itself is refused at its place") {

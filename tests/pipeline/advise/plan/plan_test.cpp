@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "pipeline/advise/plan/doubtful_plan.h"
 #include "pipeline/advise/plan/plan_words.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
@@ -274,6 +275,8 @@ TEST_CASE("survivors that the model hardly expects are named, and an age that no
   counted.knows_survivors = true;
   const Plan past = plan_of(fleet_of({300}), {{"d", weibull(2, {mean}, 64)}}, windows_in({10, 20}), start, counted);
   CHECK(past.reach_their_age == 0);
+  CHECK(doubtful_ages(fleet_of({300}), past).size() == 1);
+  CHECK(doubtful_ages(eight, plan).empty());
   CHECK(past.rows[0].fails_before_first == 1);
   CHECK(past.rows[0].fails_in_week[0] == 1);
   CHECK(past.failures_in_week[0] == Approx(1).margin(0.1));  // and some of the new ones
