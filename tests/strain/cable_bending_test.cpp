@@ -8,6 +8,7 @@
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using dresslife::pipeline::CableBending;
 using dresslife::pipeline::friction_level;

@@ -13,6 +13,7 @@
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using dresslife::pipeline::CableForce;
 using dresslife::pipeline::CablePulls;

@@ -7,6 +7,7 @@
 #include "pipeline/base/constants.h"
 #include "tests/catch.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using dresslife::pipeline::DeformationMeasure;
 using Eigen::Quaterniond;

@@ -6,6 +6,7 @@
 
 namespace test_dresspacks {
 
+using namespace dresslife;
 using dresslife::pipeline::Component;
 using dresslife::pipeline::Dresspack;
 using dresslife::pipeline::Hand;

@@ -13,6 +13,7 @@
 #include "tests/pipeline/cable/space_curve.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using dresslife::pipeline::CableBending;
 using dresslife::pipeline::friction_level;

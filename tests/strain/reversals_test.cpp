@@ -8,6 +8,7 @@
 #include "pipeline/base/constants.h"
 #include "tests/catch.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 
 namespace {

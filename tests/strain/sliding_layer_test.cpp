@@ -10,6 +10,7 @@
 #include "tests/strain/all_kernels.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using namespace test_dresspacks;
 using dresslife::pipeline::Kinematics;

@@ -9,6 +9,7 @@
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using namespace test_dresspacks;
 using dresslife::pipeline::Kinematics;

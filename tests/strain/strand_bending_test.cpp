@@ -9,6 +9,7 @@
 #include "tests/catch.h"
 #include "tests/strain/strand_contact.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 
 namespace {

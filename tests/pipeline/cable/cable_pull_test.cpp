@@ -10,6 +10,7 @@
 #include "tests/catch.h"
 #include "tests/pipeline/cable/space_curve.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 
 namespace {

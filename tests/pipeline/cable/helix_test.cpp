@@ -7,6 +7,7 @@
 #include "tests/catch.h"
 #include "tests/pipeline/cable/space_curve.h"
 
+using namespace dresslife;
 using namespace dresslife::helices;
 using dresslife::pipeline::Kinematics;
 

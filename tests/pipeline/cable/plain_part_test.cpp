@@ -13,6 +13,7 @@
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 using Catch::Contains;
 

@@ -12,6 +12,7 @@
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 
 namespace {

@@ -14,6 +14,7 @@
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 using Catch::Matchers::Contains;
 

@@ -8,6 +8,7 @@
 #include "pipeline/resolve/radians.h"
 #include "tests/catch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 
 namespace {

@@ -9,6 +9,7 @@
 #include "tests/catch.h"
 #include "tests/strain/loose/hoses.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using dresslife::strain::test::hose;
 using dresslife::strain::test::signal_cable;

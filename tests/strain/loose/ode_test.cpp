@@ -13,6 +13,7 @@
 #include "tests/strain/loose/hoses.h"
 #include "tests/strain/loose/ode_cables.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using namespace dresslife::strain::test;
 
