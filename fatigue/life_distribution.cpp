@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/statistics.h"
 
 namespace dresslife::fatigue {
@@ -13,7 +13,6 @@ namespace {
 using pipeline::normal_density;
 using pipeline::normal_share;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double log_accuracy = 1e-10;  // of ln life
 
 /// Integral of Phi from minus infinity to y.

@@ -4,17 +4,16 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <numbers>
 
 #include "fatigue/life_distribution.h"
+#include "pipeline/base/constants.h"
 #include "pipeline/life/planning.h"
 
 namespace dresslife::fatigue {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double certain = 1e-6;  // short of 1
 
 /// A conductor in one segment.

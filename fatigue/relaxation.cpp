@@ -4,12 +4,12 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
+
+#include "pipeline/base/constants.h"
 
 namespace dresslife::fatigue {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double usual_rate = 0.085;     // Landgraf and Chernenkoff 1988, of steels
 constexpr double most_repeats = 0x1p50;  // as many cycles do no damage (strain_life.h)
 

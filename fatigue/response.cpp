@@ -23,7 +23,7 @@ const std::vector<double> strength_nodes{-2, -1, 0, 1, 2}, slope_nodes{-1.5, 0, 
 
 const double longest = 2 * std::pow(10, LifeResponse::undamaged);  // reversals of one cycle
 
-double log10_life(double damage) {
+double log10_of_life(double damage) {
   return damage > 0 ? std::min(-std::log10(damage), LifeResponse::undamaged) : LifeResponse::undamaged;
 }
 
@@ -63,7 +63,7 @@ double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires
     worst = std::max(worst, counters.of(at.site[wire]).settled_damage(at.strains[wire], workspace));
   // A mean stress is followed for 2^50 repeats. Beyond them the rough share has to do.
   if (worst == 0 && !rough.empty()) worst = *std::ranges::max_element(rough);
-  return log10_life(worst);
+  return log10_of_life(worst);
 }
 
 constexpr std::size_t of_rest = index_of(pipeline::Uncertain::rest), of_slack = index_of(pipeline::Uncertain::slack);

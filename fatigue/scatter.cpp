@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
 #include <numbers>
 
 #include "fatigue/life_distribution.h"
+#include "pipeline/base/constants.h"
 #include "pipeline/base/random.h"
 #include "pipeline/life/planning.h"
 
 namespace dresslife::fatigue {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The life at which a share of the draws (sorted) has failed.
 double quantile(const std::vector<double>& sorted, double share) {

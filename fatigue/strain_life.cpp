@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+
+#include "pipeline/base/constants.h"
 
 namespace dresslife::fatigue {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double swt_walker_exponent = 0.5;  // for which s_max^(1-gamma) s_a^gamma is SWT's sqrt(s_max s_a)
 

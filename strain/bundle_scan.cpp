@@ -6,12 +6,11 @@
 #include <limits>
 #include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "strain/kernels/lane_groups.h"
 
 namespace dresslife::strain {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Share of node `node` in the value at one angle of the waves through a layer's nodes: Dirichlet's kernel.
 double nodal_share(double angle, int node) {

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/corrugation.h"
 
 namespace dresslife::strain {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 static_assert(Series<double>::capacity >= highest_level + 2);
 

@@ -9,13 +9,13 @@
 #include <numeric>
 #include <set>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/threads.h"
 
 namespace dresslife::strain {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 // Of the bundles whose results wait to be written, half for each thread: enough to bridge a slow write.
 constexpr std::size_t samples_at_a_time = 1 << 14;
 

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "pipeline/base/constants.h"
 
 namespace dresslife::strain {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// The undeformed parent at the end of a nesting; turn < 0: as it is, else with the helical ancestor moved
 /// on.

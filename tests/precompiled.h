@@ -1,8 +1,34 @@
 // What nearly every test includes, compiled once for all of them (CMakeLists.txt). Tests include what they use all the
-// same.
+// same: builds through a compiler cache go without this one.
 #pragma once
 
-#include <random>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "pipeline/base/precompiled.h"
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <set>
+#include <span>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "tests/catch.h"

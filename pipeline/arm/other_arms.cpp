@@ -4,15 +4,15 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
+
+#include "pipeline/base/constants.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
-constexpr double pi = std::numbers::pi;
 
 /// From the frame of the link before to that of the link that a joint moves.
 Isometry3d step_of(const Joint& joint, double angle) {

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "pipeline/arm/other_arms.h"
+#include "pipeline/base/constants.h"
 
 namespace dresslife::pipeline {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 std::vector<NamedTurn> turns_of_wrist(const Robot& robot) {
   std::vector<NamedTurn> turns;

@@ -43,12 +43,11 @@ std::string sha256(std::string_view bytes) {
 
 namespace {
 
-constexpr std::size_t block_bytes = 1 << 16;  // larger ones cost short files more to clear than to read
 
 /// Gives a file's bytes to `digest`, block by block.
 template <class Digest>
 std::string digest_of(const PlainFile& bytes, Digest&& digest) {
-  std::vector<char> block(block_bytes);
+  std::vector<char> block(read_block_bytes);
   for (std::uint64_t at = 0; at < bytes.size(); at += block.size()) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), bytes.size() - at));
     bytes.read(block.data(), count, at);

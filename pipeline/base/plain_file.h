@@ -44,6 +44,9 @@ std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folde
 /// Files in a folder and in the folders below it, sorted; links lead to files, but into no folder. Errors: DiskError.
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder);
 
+/// Bytes of a block that is read at once. Larger blocks cost short files more to clear than to read.
+constexpr std::size_t read_block_bytes = 1 << 16;
+
 /// Bytes that were read, fewer than asked for at the end of the file alone; -1: errno says why.
 ssize_t read_some(int descriptor, void* bytes, std::size_t count, std::uint64_t offset);
 /// All of them or false: errno says why, ENODATA that the file ended before.

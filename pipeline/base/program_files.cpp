@@ -15,27 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower(const fs::path& name) {
-  std::string text = name.string();
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
-std::string lower_extension(const fs::path& file) { return lower(file.extension()); }
+std::string lower_extension(const fs::path& file) { return lower_case_of(file.extension()); }
 
 bool ends_like_a_program(const fs::path& file) {
   static const std::set<std::string> ends{".mod", ".modx", ".prg", ".sys", ".sysx", ".pgf",
                                           ".src", ".dat",  ".sub", ".ls",  ".va",   ".jbi", ".cnd"};
-  return ends.contains(lower_extension(file)) || lower(file.filename()) == "backinfo.txt";  // ABB's contents
+  return ends.contains(lower_extension(file)) || lower_case_of(file.filename()) == "backinfo.txt";  // ABB's contents
 }
 
 constexpr std::size_t most_files = 20'000;  // of a folder: many times a controller's backup
-
-bool is_krl(const fs::path& file) {
-  static const std::set<std::string> ends{".src", ".dat", ".sub"};
-  return ends.contains(lower_extension(file));
-}
 
 /// The folder R1 of the KUKA backup that a file lies in; empty: none.
 fs::path krl_robot_of(const fs::path& file) {
@@ -44,7 +32,7 @@ fs::path krl_robot_of(const fs::path& file) {
   return {};
 }
 
-fs::path folder_of(const fs::path& program) {
+fs::path folder_of_program(const fs::path& program) {
   return program.has_parent_path() ? program.parent_path() : fs::path(".");
 }
 
@@ -52,7 +40,7 @@ fs::path folder_of(const fs::path& program) {
 std::vector<fs::path> krl_files_beside(const fs::path& program) {
   std::vector<fs::path> files;
   const fs::path robot = krl_robot_of(program);
-  const fs::path folder = robot.empty() ? folder_of(program) : robot;
+  const fs::path folder = robot.empty() ? folder_of_program(program) : robot;
   for (const fs::path& entry : robot.empty() ? entries_of(folder) : files_below(folder)) {
     if (files.size() == most_files) break;
     if (!is_krl(entry) || kind_of(entry) != FileKind::file) continue;
@@ -64,10 +52,22 @@ std::vector<fs::path> krl_files_beside(const fs::path& program) {
 
 }  // namespace
 
+std::string lower_case_of(const fs::path& name) {
+  std::string text = name.string();
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+bool is_krl(const fs::path& file) {
+  static const std::set<std::string> ends{".src", ".dat", ".sub"};
+  return ends.contains(lower_extension(file));
+}
+
 std::vector<fs::path> program_files(const fs::path& program) {
   std::vector<fs::path> files;
   const bool listed = lower_extension(program) == ".pgf", is_folder = kind_of(program) == FileKind::folder;
-  const fs::path folder = is_folder && !listed ? program : folder_of(program);
+  const fs::path folder = is_folder && !listed ? program : folder_of_program(program);
   if (is_folder || listed) {
     for (const fs::path& file : files_below(folder)) {
       if (!ends_like_a_program(file)) continue;
@@ -80,10 +80,10 @@ std::vector<fs::path> program_files(const fs::path& program) {
     files = krl_files_beside(program);
   }
   if (lower_extension(program) == ".jbi")  // the controller's other jobs, its frames and variables
-    for (const fs::path& beside : entries_of(folder_of(program))) {
+    for (const fs::path& beside : entries_of(folder_of_program(program))) {
       const fs::path file = program.has_parent_path() ? beside : beside.filename();
       const std::string end = lower_extension(file);
-      if ((end == ".jbi" || end == ".cnd" || lower(file.filename()) == "var.dat") && file != program &&
+      if ((end == ".jbi" || end == ".cnd" || lower_case_of(file.filename()) == "var.dat") && file != program &&
           files.size() < most_files)
         files.push_back(file);
     }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_bytes = 60'000;  // HDF5 holds 64 kB in an attribute
 
-std::optional<WarningKind> kind_of(std::string_view name) {
+std::optional<WarningKind> kind_named(std::string_view name) {
   for (int k = 0; k < warning_kinds_count; ++k)
     if (name == word(static_cast<WarningKind>(k))) return static_cast<WarningKind>(k);
   return std::nullopt;
@@ -138,7 +138,7 @@ std::vector<Warning> warnings_from(const std::string& text) {
   for (std::string line; std::getline(lines, line);) {
     const std::size_t first = line.find('\t'), second = line.find('\t', first + 1);
     if (first == std::string::npos || second == std::string::npos) continue;
-    if (const auto kind = kind_of(line.substr(0, first)))
+    if (const auto kind = kind_named(line.substr(0, first)))
       warnings.push_back({*kind, line.substr(first + 1, second - first - 1), line.substr(second + 1)});
   }
   return warnings;

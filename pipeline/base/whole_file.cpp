@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -21,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr mode_t readable_by_all = 0644;
-constexpr std::size_t block_bytes = 1 << 16;  // larger ones cost short files more to clear than to read
 
 fs::path folder_of(const fs::path& file) {
   const fs::path folder = file.parent_path();
@@ -73,9 +73,9 @@ bool same_bytes(const WholeFile& one, const fs::path& path) {
   const std::int64_t size = state_of(one.descriptor(), one.final_name()).size;
   if (state_of(path).size != size) return false;
   const PlainFile other(path);
-  std::vector<char> a(block_bytes), b(block_bytes);
-  for (std::int64_t at = 0; at < size; at += block_bytes) {
-    const auto count = static_cast<std::size_t>(std::min<std::int64_t>(block_bytes, size - at));
+  std::vector<char> a(read_block_bytes), b(read_block_bytes);
+  for (std::int64_t at = 0; at < size; at += read_block_bytes) {
+    const auto count = static_cast<std::size_t>(std::min<std::int64_t>(read_block_bytes, size - at));
     const auto offset = static_cast<std::uint64_t>(at);
     if (!read_at(one.descriptor(), a.data(), count, offset)) throw DiskError(one.final_name().string(), errno);
     other.read(b.data(), count, offset);
@@ -191,7 +191,7 @@ void copy_if_there(const fs::path& from, const fs::path& to) {
   if (!state_of(from).exists()) return;
   const PlainFile source(from);
   WholeFile copy(to);
-  std::vector<char> block(block_bytes);
+  std::vector<char> block(read_block_bytes);
   for (std::uint64_t at = 0; at < source.size(); at += block.size()) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), source.size() - at));
     source.read(block.data(), count, at);

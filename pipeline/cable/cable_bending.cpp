@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/polymer.h"
 #include "pipeline/cable/shares.h"
@@ -15,7 +15,6 @@ using helices::ComponentState;
 using helices::Placement;
 using helices::Series;
 
-constexpr double pi = std::numbers::pi;
 // Around a layer: what is summed has 2 d harmonics at level d, so 12 angles are exact for those of five.
 constexpr int phases = 12;
 constexpr double small = 1e-4;  // [1/m], [rad/m]; strains of 1e-6: first order to 1e-6, rounding 1e-10

@@ -2,20 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/cyclic_curve.h"
 #include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/stiffness.h"
 
 namespace dresslife::pipeline {
-namespace {
-
-constexpr double pi = std::numbers::pi;
-
-}  // namespace
-
 CableForce::CableForce(const Dresspack& dresspack, const Component& cable) {
   const double area = pi * cable.radius * cable.radius;
   mass_ = mass_of_part(cable);

@@ -1,13 +1,10 @@
 #include "pipeline/cable/corrugation.h"
 
 #include <cassert>
-#include <numbers>
+
+#include "pipeline/base/constants.h"
 
 namespace dresslife::pipeline {
-
-namespace {
-constexpr double pi = std::numbers::pi;
-}
 
 double Fold::unfolded() const { return 4 * half_flank + 2 * pi * radius; }
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
@@ -17,7 +17,6 @@
 
 namespace dresslife::pipeline {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Two digits, rounded up: what is needed.
 static std::string millimetres_above(double metres) { return percent_above(10 * metres); }
@@ -54,7 +53,7 @@ std::vector<LooseRoom> loose_rooms(const Dresspack& dresspack) {
     }
   }
   const std::vector<CableRoom> rooms =
-      rooms_of(spots, inner_radius(dresspack).value_or(infinite), dresspack.core_diameter / 2);
+      rooms_of(spots, inner_radius(dresspack).value_or(infinity), dresspack.core_diameter / 2);
   std::vector<LooseRoom> loose;
   for (std::size_t k = 0; k < spots.size(); ++k) {
     const double room = of[k]->laying.play.value_or(winding_radius(spots[k], rooms[k]));

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/parts_room.h"
 #include "pipeline/settings/problems.h"
@@ -13,7 +13,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double allowed = 0.02;   // of the diameter, without a warning
 constexpr double rounding = 1e-9;  // of the diameter: six straight ones around one of their size touch
 constexpr double hopeless = 0.5;   // of the diameter, between the axes

@@ -1,22 +1,21 @@
 #include "pipeline/cable/plain_properties.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/polymer.h"
 
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double usual_bore =
+constexpr double bore_over_diameter =
     2.0 / 3;  // of the outer diameter, ESTIMATE: 6 x 4, 8 x 5.5, 10 x 7, 12 x 8 mm are sold
 constexpr double water_density = 1000;  // [kg/m3]
 
 }  // namespace
 
 PlainProperties properties_of(const PlainPart& part, double radius) {
-  constexpr double pi = std::numbers::pi;
-  const double bore = part.kind == PlainKind::hose ? part.bore.value_or(2 * usual_bore * radius) / 2 : 0;
+  const double bore = part.kind == PlainKind::hose ? part.bore.value_or(2 * bore_over_diameter * radius) / 2 : 0;
   const double area = pi * (radius * radius - bore * bore),
                inertia = pi / 4 * (std::pow(radius, 4) - std::pow(bore, 4));
   const double bending = part.bending_stiffness.value_or(part.stiffness_factor * polymer_modulus * inertia);

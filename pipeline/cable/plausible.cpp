@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/base/warning_words.h"
@@ -16,7 +16,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
 constexpr double copper = 8960,
                  aluminium = 2700;  // densities: the heaviest and the lightest metal of cables [kg/m3]
 // Damping ratio pi f tau at 1.8 Hz, the median of published swings of hanging cables (0.115 there). Beyond 1 nothing

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "pipeline/base/constants.h"
 
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 double away(const CableSpot& cable) { return std::hypot(cable.place[0], cable.place[1]); }
 
@@ -38,7 +38,7 @@ std::vector<CableRing> rings_of(std::span<const CableSpot> cables, std::vector<C
 }  // namespace
 
 std::vector<CableRoom> rooms_of(std::span<const CableSpot> cables, double bore, double core) {
-  std::vector<CableRoom> rooms(cables.size(), {infinite, 0, infinite, no_ring});
+  std::vector<CableRoom> rooms(cables.size(), {infinity, 0, infinity, no_ring});
   const std::vector<CableRing> rings = rings_of(cables, rooms);
   for (std::size_t k = 0; k < cables.size(); ++k) {
     CableRoom& room = rooms[k];
@@ -56,7 +56,7 @@ std::vector<CableRoom> rooms_of(std::span<const CableSpot> cables, double bore, 
       }
   }
   for (CableRoom& room : rooms)  // alone in its ring a cable meets no other
-    if (room.gap == infinite) room.ring = no_ring;
+    if (room.gap == infinity) room.ring = no_ring;
   return rooms;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/bend_limit.h"
@@ -19,7 +20,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double wire_density = 8900;        // [kg/m3], of copper
 constexpr double torsion_of_core = 0.8;      // ESTIMATE, as of a solid round bar
 constexpr double gravity = 9.81;             // [m/s2]

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options : RunOptions {
+struct CalibrateOptions : RunOptions {
   std::string job, since, today;
 };
 
@@ -32,7 +32,7 @@ Day day_of(const std::string& option, const std::string& text) {
 }
 
 /// A table of a maintenance system, or observations.
-ServiceTests tests_of(const Options& options, const fs::path& file) {
+ServiceTests tests_of(const CalibrateOptions& options, const fs::path& file) {
   if (file.extension() != ".csv" && file.extension() != ".CSV") {
     for (const auto& [option, text] : {std::pair{"--job", &options.job}, {"--records-since", &options.since}, {"--today", &options.today}})
       if (!text->empty())
@@ -47,7 +47,7 @@ ServiceTests tests_of(const Options& options, const fs::path& file) {
   return read_service_tests({file, options.job, since, today, options.sets});
 }
 
-int calibrate(const Options& options) {
+int calibrate(const CalibrateOptions& options) {
   const fs::path file = named_file(options.study, "observations");
   const auto [tests, words] = tests_of(options, file);
   for (const Warning& warning : doubtful_rows(tests)) tell(shown(warning.line() + "\n"));
@@ -70,7 +70,7 @@ int calibrate(const Options& options) {
 }  // namespace
 
 Command calibrate_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateOptions>();
   return {"calibrate",
           "narrow the uncertain parameters by observed lives or by a maintenance system's table of dresspacks; "
           "a job names the result as its calibration",

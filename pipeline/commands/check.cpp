@@ -9,12 +9,12 @@
 namespace dresslife::pipeline {
 namespace {
 
-struct Options {
+struct CheckOptions {
   std::string job;
   std::vector<std::string> sets;
 };
 
-int check(const Options& options) {
+int check(const CheckOptions& options) {
   const std::filesystem::path job = named_file(options.job, "jobs");
   const JobCheck check = check_of(job, options.sets);
   print_check(check);
@@ -31,7 +31,7 @@ int check(const Options& options) {
 }  // namespace
 
 Command check_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CheckOptions>();
   return {"check",
           "check a job in seconds, before its run: units, joint limits, lengths over the whole program, slack and "
           "clearance of the cables, slip",

@@ -12,11 +12,11 @@
 namespace dresslife::pipeline {
 namespace {
 
-struct Options {
+struct DrawOptions {
   std::string dresspack, picture;
 };
 
-int draw(const Options& options) {
+int draw(const DrawOptions& options) {
   if (!options.picture.empty()) check_replaceable(options.picture);
   std::string faults;
   const Dresspack dresspack = read_dresspack(named_file(options.dresspack, "dresspacks"), faults);
@@ -34,7 +34,7 @@ int draw(const Options& options) {
 }  // namespace
 
 Command draw_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DrawOptions>();
   return {"draw", "list a dresspack's layers and what they add up to, and draw its cross-section to scale",
           {{"dresspack", "", "DRESSPACK.yaml", &options->dresspack, {.required = true}},
            {"-o,--output", "FILE", "picture to write, .svg or .png", &options->picture}},

@@ -12,11 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ExportOptions {
   std::string job, xdmf;
 };
 
-int export_job(const Options& options) {
+int export_job(const ExportOptions& options) {
   const fs::path file = options.xdmf;
   if (file.extension() != ".xdmf")
     throw InputError({file.string()}, "is no .xdmf", "name the file accordingly: ParaView goes by it");
@@ -28,7 +28,7 @@ int export_job(const Options& options) {
 }  // namespace
 
 Command export_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExportOptions>();
   return {"export", "write a job's motion and results for ParaView (5.11 or newer), which plays them in 3D",
           {{"job", "", "the job's folder, or one of its .h5 files", &options->job, {.required = true}},
            {"--paraview", "FILE.xdmf",

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options : RunOptions {
+struct ImproveOptions : RunOptions {
   ImproveRequest request;
   double off_mm = 10;
   std::optional<double> off_deg, bracket_mm;
@@ -80,7 +80,7 @@ void write_short_job(const ImproveRequest& request, const Improvement& found, co
 }
 
 /// Runs the best again, in full and with clamps and length off, and writes the results.
-int judge_the_best(const Options& options, const StudyPlaces& places, const Improvement& found,
+int judge_the_best(const ImproveOptions& options, const StudyPlaces& places, const Improvement& found,
                    const MakeRows& make_rows, const fs::path& job) {
   Finals finals = finals_of(found, options.request, make_rows);
   const bool all_written = write_results(finals.study, places, finals.rows).empty();
@@ -101,7 +101,7 @@ int judge_the_best(const Options& options, const StudyPlaces& places, const Impr
   return failed != 0 || finals.of.size() == 1 || !all_written ? 1 : 0;
 }
 
-int improve_study(Options options) {
+int improve_study(ImproveOptions options) {
   options.request.file = named_study(options.study);
   options.request.sets = options.sets;
   if (options.bracket_mm) options.request.longest_bracket = *options.bracket_mm / 1000;
@@ -135,7 +135,7 @@ int improve_study(Options options) {
 }  // namespace
 
 Command improve_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ImproveOptions>();
   ImproveRequest& request = options->request;
   return {
       "improve", "search values of free keys, such as clamps and length, for a longer life within the limits",

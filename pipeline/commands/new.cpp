@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct NewOptions {
   std::string job, robot, program, dresspack;
   bool dresspack_is_example = false;  ///< none was named
 };
@@ -194,7 +194,7 @@ std::vector<double> missing_accelerations(const std::string& robot) {
 }
 
 /// A job of a URDF with proposed accelerations, which hardly matter to a routing.
-std::string job_of_urdf(const Options& options, const std::vector<double>& accelerations) {
+std::string job_of_urdf(const NewOptions& options, const std::vector<double>& accelerations) {
   const auto in_full = [](const std::string& name) {
     return scalar(kind_of(name) == FileKind::file ? fs::absolute(name).string() : name);
   };
@@ -208,7 +208,7 @@ std::string job_of_urdf(const Options& options, const std::vector<double>& accel
   return with_mark(to_yaml(job), Mark::yaml);
 }
 
-Choice routing_for(const Draft& draft, const Options& options) {
+Choice routing_for(const Draft& draft, const NewOptions& options) {
   std::optional<Choice> known = shipped_routing(options.robot, options.dresspack);
   if (known && !draft.exercise) judge(draft, "", *known);
   if (known && !known->refused && known->faults.empty()) return *known;
@@ -234,7 +234,7 @@ std::string commented(const std::string& key, const std::string& value, const st
   return fmt::format("{:<33} # {}\n", key + ": " + value, words);
 }
 
-std::string text_of(const Options& options, const Draft& draft, const Choice& choice,
+std::string text_of(const NewOptions& options, const Draft& draft, const Choice& choice,
                     const std::vector<double>& accelerations) {
   const std::string job = shown(options.job);
   const auto entry = [&](const std::string& name) { return flow(scalar(seen_from_job(name, options.job))); };
@@ -269,7 +269,7 @@ std::string text_of(const Options& options, const Draft& draft, const Choice& ch
   return text + commented("simulation", "{segments: 64}", "everything else has a default: config/README.md");
 }
 
-int make(Options options) {
+int make(NewOptions options) {
   if (options.robot.empty()) {
     print(shown(choices()));
     if (options.job.empty() && options.program.empty() && options.dresspack.empty()) return 0;
@@ -317,7 +317,7 @@ int make(Options options) {
 }  // namespace
 
 Command new_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<NewOptions>();
   return {
       "new",
       "write a short job with comments for a robot, a program and a dresspack; without options list what can be "

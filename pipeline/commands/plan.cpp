@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options : RunOptions {
+struct PlanOptions : RunOptions {
   std::string fleet, windows, today, what_if;
   std::optional<double> risk_percent;
 };
@@ -145,7 +145,7 @@ std::string block(const std::vector<std::string>& texts) {
   return fmt::format("{}{}", joined(texts, ""), texts.empty() ? "" : "\n");
 }
 
-int plan(const Options& options) {
+int plan(const PlanOptions& options) {
   const Day day = day_of(options.today);
   note_input(options.fleet);
   Fleet fleet = read_fleet(options.fleet, day);
@@ -270,7 +270,7 @@ int plan(const Options& options) {
 }  // namespace
 
 Command plan_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PlanOptions>();
   return {
       "plan", "plan which dresspacks of a plant to replace in which maintenance window, and the spare parts",
       joined(

@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PlotOptions {
   std::string job, what, picture;
   std::optional<double> time;
 };
 
-int plot(const Options& options) {
+int plot(const PlotOptions& options) {
   const fs::path file = options.picture;
   if (file.extension() != ".svg" && file.extension() != ".png")
     throw InputError({file.string()}, "is neither an .svg nor a .png", "name the picture accordingly");
@@ -40,7 +40,7 @@ std::vector<std::string> figure_words() {
 }  // namespace
 
 Command plot_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PlotOptions>();
   return {"plot", "draw one figure of a job's results into a file",
           {{"job", "", "the job's folder, or one of its .h5 files", &options->job, {.required = true}},
            {"--what", "", "which figure", &options->what, {.required = true, .choices = figure_words()}},

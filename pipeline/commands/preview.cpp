@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PreviewOptions {
   std::string job, page;
   std::vector<std::string> sets;
 };
 
 /// Writes the page of a job before its run and prints what a check finds. A job that is refused has a page, too: exit
 /// status 0 means that the page is there.
-int preview(const Options& options) {
+int preview(const PreviewOptions& options) {
   const fs::path job = named_file(options.job, "jobs");
   const fs::path page =
       options.page.empty() ? fs::path(job.stem().string() + "_preview.html") : fs::path(options.page);
@@ -41,7 +41,7 @@ int preview(const Options& options) {
 }  // namespace
 
 Command preview_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PreviewOptions>();
   return {"preview",
           "show a job before its run: robot, clamps and dresspack over the program, which lengths suit, and what "
           "is refused",

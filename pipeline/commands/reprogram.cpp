@@ -32,9 +32,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t listed = 12;  // on the terminal; the table holds all
+constexpr std::size_t ways_shown = 12;  // on the terminal; the table holds all
 
-struct Options : RunOptions {
+struct ReprogramOptions : RunOptions {
   int lines = 4;
 };
 
@@ -87,7 +87,7 @@ std::string table_of(const std::string& job, const TriedWay& before, const std::
       fmt::format("{}: {} h, {:.1f} s{}{}\n", job, readable(before.outcome.hours), before.seconds,
                   before.outcome.feasible() ? "" : "; ", before.outcome.words());
   text += fmt::format("  {:>10} {:>10}  {}\n", "life", "cycle", "way");
-  for (std::size_t k = 0; k < std::min(listed, ways.size()); ++k) {
+  for (std::size_t k = 0; k < std::min(ways_shown, ways.size()); ++k) {
     const TriedWay& tried = ways[k];
     if (!tried.outcome.failure.empty()) break;
     text += fmt::format("  {:>8.3g} x {:>+8.2f} s  {}: {}{}{}\n", times_as_long(tried, before),
@@ -110,7 +110,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 /// The ways of a job whose motion is a program, as its patched text reads; how many cannot be written in it.
-std::vector<TriedWay> program_ways_of(const Job& job, const fs::path& life_file, const Options& options) {
+std::vector<TriedWay> program_ways_of(const Job& job, const fs::path& life_file, const ReprogramOptions& options) {
   const PassingFile described("job.yaml"), noted("ways.h5");
   write_text_if_changed(described.path(), with_mark(job_text(job), Mark::yaml), Sync::never);
   if (run_stage_program("dresslife-import",
@@ -135,7 +135,7 @@ std::vector<TriedWay> program_ways_of(const Job& job, const fs::path& life_file,
   return ways;
 }
 
-std::vector<TriedWay> ways_of(const Job& job, const fs::path& life_file, const Options& options) {
+std::vector<TriedWay> ways_of(const Job& job, const fs::path& life_file, const ReprogramOptions& options) {
   if (!job.motion.program.empty()) return program_ways_of(job, life_file, options);
   std::vector<TriedWay> ways;
   for (OtherWay& way : other_ways(job, cost_of_lines(life_file), static_cast<std::size_t>(options.lines)))
@@ -160,7 +160,7 @@ void write_patches(const StudyPlaces& places, const std::string& job, const Trie
 
 /// Of one job of the study: what it could do instead, best first.
 std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job, const StudyJob& base,
-                                 const StudyPlaces& places, const Options& options) {
+                                 const StudyPlaces& places, const ReprogramOptions& options) {
   const std::vector<TriedWay> ways = ways_of(*base.job, places.life(base.name), options);
   Study study{base.name, {}};
   std::map<std::string, std::size_t> way_of;
@@ -186,7 +186,7 @@ std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job,
   return tried;
 }
 
-int reprogram(const Options& options) {
+int reprogram(const ReprogramOptions& options) {
   ImproveRequest request;
   request.file = named_study(options.study);
   request.sets = options.sets;
@@ -219,7 +219,7 @@ int reprogram(const Options& options) {
 }  // namespace
 
 Command reprogram_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReprogramOptions>();
   return {
       "reprogram",
       "try what the program could do instead: the lines that cost most by other turns of wrist and arm, by "

@@ -49,7 +49,7 @@ constexpr int trials = 3;  // routings of one search that are run through the wh
 constexpr int further =
     40;  // short runs for less bending and twisting: a third as long again as a usual search
 
-struct Options : RunOptions {
+struct RouteOptions : RunOptions {
   RouteRequest request;
   std::string ring, job, scale = "1";
   bool keep = false;
@@ -86,7 +86,7 @@ bool better(const Outcome& a, const Outcome& b, const Outcome& as_it_is) {
   return merit_of(a, as_it_is) > merit_of(b, as_it_is);
 }
 
-ScreenedList proposed(const Draft& draft, const Options& options, double factor, const fs::path& folder) {
+ScreenedList proposed(const Draft& draft, const RouteOptions& options, double factor, const fs::path& folder) {
   Node document = parse_yaml(job_text(draft.job), "draft");
   if (factor != 1) document["dresspack"] = *routed(draft, "{}", "{}", factor).find("dresspack");
   const fs::path job = folder / "draft.yaml";
@@ -115,7 +115,7 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
 
 /// Runs a routing through the whole chain.
 /// which: "run 2 of 4", for the progress.
-void run(Trial& trial, std::size_t k, const std::string& which, const Draft& draft, const Options& options,
+void run(Trial& trial, std::size_t k, const std::string& which, const Draft& draft, const RouteOptions& options,
          const StudyPlaces& places, const FilesAtStart& files) {
   const ScreenedCandidate& candidate = trial.proposals.candidates[k];
   const Node document = routed(draft, candidate.changes, trial.proposals.motion, trial.factor);
@@ -129,7 +129,7 @@ void run(Trial& trial, std::size_t k, const std::string& which, const Draft& dra
 }
 
 /// The feasible ones judged within the mounting tolerance.
-void judge(Trial& trial, const Draft& draft, const Options& options, const StudyPlaces& places,
+void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const StudyPlaces& places,
            const FilesAtStart& files) {
   const Outcome as_it_is = trial.as_it_is();
   std::vector<std::size_t> best_first;
@@ -183,7 +183,7 @@ std::optional<std::string> own_routing(const Draft& draft) {
 
 /// Those that kept all limits in their rehearsal, and the job's own; with a tolerance all of them, as it decides, else until one keeps all
 /// limits in the whole chain.
-Trial tried(const Draft& draft, const Options& options, double factor, const StudyPlaces& places,
+Trial tried(const Draft& draft, const RouteOptions& options, double factor, const StudyPlaces& places,
             const FilesAtStart& files) {
   Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}, {}};
   if (const std::optional<std::string> own = own_routing(draft); own && factor == 1) {
@@ -279,7 +279,7 @@ double violation(const Trial& trial) {
   return first.refusal.empty() ? first.violation() : std::numeric_limits<double>::infinity();
 }
 
-std::vector<double> factors_of(const Options& options) {
+std::vector<double> factors_of(const RouteOptions& options) {
   if (options.scale == "auto") return {1, 0.8, 0.65, 0.5, 0.4, 0.3};
   double factor = 0;
   const char* const end = options.scale.data() + options.scale.size();
@@ -340,7 +340,7 @@ void remove_others(const fs::path& folder, const std::string& winner) {
     if (entry.filename() != winner && is_job_folder(entry)) remove_job(entry);
 }
 
-int route(const Options& options) {
+int route(const RouteOptions& options) {
   RouteRequest request = options.request;
   if (options.bracket_mm)
     request.sets.push_back(fmt::format("routing.longest_bracket_mm={:.6g}", *options.bracket_mm));
@@ -409,7 +409,7 @@ int route(const Options& options) {
 }  // namespace
 
 Command route_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RouteOptions>();
   RouteRequest& request = options->request;
   return {
       "route",

@@ -75,11 +75,11 @@ int dry_run(const RunOptions& options) {
   return refused > 0 ? 1 : 0;
 }
 
-struct Options : RunOptions {
+struct RunArguments : RunOptions {
   bool dry_run = false;
 };
 
-int run(const Options& options) {
+int run(const RunArguments& options) {
   if (options.dry_run) return dry_run(options);
   if (!options.shard.empty()) return run_shard(options);
   const StudyRequest request = request_of(options);
@@ -124,7 +124,7 @@ int run(const Options& options) {
 }  // namespace
 
 Command run_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunArguments>();
   return {
       "run", "run what is not up to date in a study, then rank and report",
       joined({{study_or_job(*options)},

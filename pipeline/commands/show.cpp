@@ -12,13 +12,13 @@
 namespace dresslife::pipeline {
 namespace {
 
-struct Options {
+struct ShowOptions {
   std::string file;
   std::vector<std::string> sets;
   bool json = false;
 };
 
-int show(const Options& options) {
+int show(const ShowOptions& options) {
   if (kind_of(options.file) == FileKind::folder) {
     print(shown(file_summary(job_files(options.file).life)));
     return 0;
@@ -35,7 +35,7 @@ int show(const Options& options) {
 }  // namespace
 
 Command show_command() {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ShowOptions>();
   return {"show",
           "print a job with all its settings, or the content of an .h5 file (of a job's folder: life.h5)",
           {{"job", "", "JOB.yaml, FILE.h5, or a job's folder", &options->file, {.required = true}},

@@ -13,7 +13,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t chunk_bytes = 1 << 16;  // one write call and one chunk: large enough to amortise both
+constexpr std::size_t written_at_once = 1 << 16;  // one write call and one chunk: large enough to amortise both
 constexpr std::size_t packed_chunk_numbers =
     1 << 15;  // fewer calls; the range of values, hence their bits, hardly grows
 static_assert(packed_chunk_numbers <= ListDeflater::most_numbers);
@@ -133,7 +133,7 @@ struct FileWriter::Impl {
       made.memory_type = Handle(H5Tcopy(memory_type(made.description->type)), H5Tclose);
     }
     const std::size_t most =
-        made.description->packed() ? packed_chunk_numbers * made.value_bytes : chunk_bytes;
+        made.description->packed() ? packed_chunk_numbers * made.value_bytes : written_at_once;
     made.chunk_rows = std::max<std::size_t>(1, most / std::max<std::size_t>(1, made.row_bytes()));
     made.attributes["unit"] = made.description->unit;
     return made;
@@ -197,7 +197,7 @@ struct FileWriter::Impl {
     target.buffer.insert(target.buffer.end(), begin, begin + count);
     if (target.description->packed())
       flush_packed(target, false);
-    else if (target.buffer.size() >= chunk_bytes)
+    else if (target.buffer.size() >= written_at_once)
       flush(target);
   }
 

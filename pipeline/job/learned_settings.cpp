@@ -122,8 +122,8 @@ LearnedCable cable_of(const std::string& name, const std::string& hose, const st
   return cable;
 }
 
-bool hold_wires(const Component& part) {
-  return is_wire(part) || std::any_of(part.components.begin(), part.components.end(), hold_wires);
+bool holds_wires(const Component& part) {
+  return is_wire(part) || std::any_of(part.components.begin(), part.components.end(), holds_wires);
 }
 
 /// Those whose wires are evaluated. A dresspack without a hose is a cable itself, or has one on its axis.
@@ -137,7 +137,7 @@ std::vector<LearnedCable> cables_of(const Dresspack& dresspack) {
   }
   std::vector<LearnedCable> cables;
   for (const Component& part : parts)
-    if (!part.components.empty() && hold_wires(part))
+    if (!part.components.empty() && holds_wires(part))
       add_once(cables, cable_of(part.name, dresspack.name, part.components));
   return cables;
 }

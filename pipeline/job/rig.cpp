@@ -6,14 +6,13 @@
 #include <numbers>
 #include <vector>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// What a kind of rig does with one of the optional keys.
 enum class Use { none, optional, required };

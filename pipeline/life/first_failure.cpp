@@ -7,16 +7,15 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <numeric>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/statistics.h"
 
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t cause_count = uncertain_count + 1;  // the last: scatter of wires
 constexpr std::size_t of_wires = uncertain_count;
 
@@ -314,7 +313,7 @@ void find_best_test(const FailureModes& modes, const std::vector<LifeSurface>& s
 // ---- errors of percentiles --------------------------------------------------------------------------------
 
 constexpr std::size_t of_friction = index_of(Uncertain::friction_inside), of_slack = index_of(Uncertain::slack),
-                      of_rest = index_of(Uncertain::rest);
+                      rest_parameter = index_of(Uncertain::rest);
 
 /// The response without the points that `drops`.
 template <class Drops>
@@ -388,7 +387,7 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
     std::vector<double> nodes = once(nodes_of(modes, p));
     std::erase(nodes, 0.0);
     others |= !nodes.empty();
-    if (p == of_rest || nodes.size() < 2) continue;
+    if (p == rest_parameter || nodes.size() < 2) continue;
     for (const double z : nodes)
       add([&](const LifeResponse& mode) {
         return without_points(mode, [&](const auto& point) { return point[p] == z; });

@@ -8,14 +8,15 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "pipeline/base/constants.h"
+#include "pipeline/base/statistics.h"
+
 namespace dresslife::pipeline {
 namespace {
 
 using StrainPoint = std::array<double, strain_parameters>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double farthest = 3.5;  // deviations: nothing is known of what lies beyond
-constexpr double tenth = 1.2815515655446004;  // deviations from the median to 10 and 90 %
 constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = index_of(Uncertain::slack),
                       of_rest = index_of(Uncertain::rest);
 
@@ -167,7 +168,7 @@ double LifeSurface::log10_life(const ParameterPoint& z, double u, Inside inside)
     return between(scatter, [&](std::size_t k) { return response_.planned[k][share]; });
   };
   const double median = at(1);
-  const double planned = u < 0 ? median + u / tenth * (median - at(0)) : median + u / tenth * (at(2) - median);
+  const double planned = u < 0 ? median + u / normal_decile * (median - at(0)) : median + u / normal_decile * (at(2) - median);
   const double life = planned + change(z, inside);
   return life < LifeResponse::endless ? life : infinity;
 }

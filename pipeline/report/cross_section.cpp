@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/stiffness.h"
@@ -15,7 +15,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double picture = 640;     // side of the square that holds the hose [px]
 constexpr double margin = 20;       // [px]
 constexpr double line_height = 18;  // of the list below [px]

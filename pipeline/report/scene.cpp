@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/report/hose_line.h"
@@ -32,7 +33,6 @@ struct View {
   double scale = 1, left = 0, top = 0;  ///< [px/m], [m], [m]
 
   View() {
-    constexpr double degree = std::numbers::pi / 180;
     const double a = azimuth * degree, e = elevation * degree;
     toward_viewer = {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
     right = Vector3d(-std::sin(a), std::cos(a), 0);

@@ -7,13 +7,13 @@ namespace dresslife::pipeline {
 namespace {
 
 /// Up to this section [mm2] this length [mm].
-struct Entry {
+struct Step {
   double section, length;
 };
 
-constexpr Entry wires_of_class_5[] = {{0.499, 0.16}, {1, 0.21}, {2.5, 0.26}, {6, 0.31}, {50, 0.41}, {400, 0.51}, {630, 0.61}};
-constexpr Entry wires_of_class_6[] = {{0.499, 0.11}, {4, 0.16}, {35, 0.21}, {150, 0.31}, {300, 0.41}};
-constexpr Entry insulations[] = {{0.499, 0.3}, {1, 0.6},  {1.5, 0.7}, {6, 0.8},   {16, 1.0},  {35, 1.2},
+constexpr Step wires_of_class_5[] = {{0.499, 0.16}, {1, 0.21}, {2.5, 0.26}, {6, 0.31}, {50, 0.41}, {400, 0.51}, {630, 0.61}};
+constexpr Step wires_of_class_6[] = {{0.499, 0.11}, {4, 0.16}, {35, 0.21}, {150, 0.31}, {300, 0.41}};
+constexpr Step insulations[] = {{0.499, 0.3}, {1, 0.6},  {1.5, 0.7}, {6, 0.8},   {16, 1.0},  {35, 1.2},
                                  {70, 1.4},    {120, 1.6}, {150, 1.8}, {185, 2.0}, {240, 2.2}, {300, 2.4},
                                  {400, 2.6}};
 constexpr double below_the_limit = 0.01;             // [mm], of strands as they are drawn
@@ -23,7 +23,7 @@ constexpr double rounding = 1e-6;                    // of a section
 template <class Table>
 double length_at(const Table& table, double section) {
   const double square_millimetres = 1e6 * section;
-  const auto found = std::find_if(std::begin(table), std::end(table), [&](const Entry& entry) {
+  const auto found = std::find_if(std::begin(table), std::end(table), [&](const Step& entry) {
     return square_millimetres <= entry.section * (1 + rounding);
   });
   return found == std::end(table) ? 0 : found->length / 1e3;

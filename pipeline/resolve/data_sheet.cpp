@@ -6,10 +6,10 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <regex>
 #include <string_view>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/resolve/cable_rules.h"
 #include "pipeline/resolve/placement.h"
@@ -21,7 +21,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double touching = 1e-9;      // of the diameter: six around one of their size
 constexpr double steepest = pi / 3;    // lay angle that a component may have
 constexpr int closed_ring = 5;         // six parts that touch leave room for a seventh in their middle

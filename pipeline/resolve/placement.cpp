@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <numeric>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double touching = 1e-9;  // of a radius
+constexpr double touching_of_radius = 1e-9;  // of a radius
 constexpr int halvings = 60;
 
 /// Sum of the angles that parts ask for on a circle [rad]; infinite: two of them meet across it.
@@ -44,14 +43,14 @@ std::vector<std::size_t> spread(const std::vector<double>& radii, std::vector<st
 std::optional<double> circle_of(const std::vector<double>& radii, double bore, double core) {
   const double thickest = *std::max_element(radii.begin(), radii.end());
   const double widest = bore - thickest;
-  if (widest <= 0 || asked(radii, widest) > 2 * pi * (1 + touching)) return std::nullopt;
+  if (widest <= 0 || asked(radii, widest) > 2 * pi * (1 + touching_of_radius)) return std::nullopt;
   double low = 0, high = widest;  // least circle
   for (int k = 0; k < halvings; ++k) {
     const double middle = (low + high) / 2;
     (asked(radii, middle) > 2 * pi ? low : high) = middle;
   }
   const double least = std::max(high, core + thickest);
-  if (least > widest * (1 + touching)) return std::nullopt;
+  if (least > widest * (1 + touching_of_radius)) return std::nullopt;
   low = std::min(least, widest), high = widest;
   for (int k = 0; k < halvings; ++k) {
     const double middle = (low + high) / 2;
@@ -86,10 +85,10 @@ bool fill(const std::vector<double>& radii, std::vector<std::size_t> parts, doub
     const double radius = radii[parts[0]];
     if (core == 0) {
       places[parts[0]] = {};
-      return radius <= bore * (1 + touching);
+      return radius <= bore * (1 + touching_of_radius);
     }
     places[parts[0]] = {(bore + core) / 2, 0};
-    return 2 * radius <= (bore - core) * (1 + touching);
+    return 2 * radius <= (bore - core) * (1 + touching_of_radius);
   }
   std::stable_sort(parts.begin(), parts.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
   // The thickest first in the middle, then more and more parts within the ring.
@@ -104,7 +103,7 @@ bool fill(const std::vector<double>& radii, std::vector<std::size_t> parts, doub
       continue;
     }
     // The ring against the wall leaves the most room inside; then it goes to where its own parts have theirs.
-    if (asked(ring, bore - thickest) > 2 * pi * (1 + touching)) continue;
+    if (asked(ring, bore - thickest) > 2 * pi * (1 + touching_of_radius)) continue;
     if (!fill(radii, within, bore - 2 * thickest, core, places)) continue;
     double taken = core;
     for (const std::size_t part : within) taken = std::max(taken, places[part].helix_radius + radii[part]);
@@ -176,7 +175,7 @@ std::string letter(int number) {
 bool even(const std::vector<PlacedPart>& places) {
   for (std::size_t k = 0; k < places.size(); ++k) {
     const double off = std::remainder(places[k].phase - places[0].phase - 2 * pi * static_cast<double>(k) / static_cast<double>(places.size()), 2 * pi);
-    if (std::abs(places[k].helix_radius - places[0].helix_radius) > touching || std::abs(off) > 1e-6) return false;
+    if (std::abs(places[k].helix_radius - places[0].helix_radius) > touching_of_radius || std::abs(off) > 1e-6) return false;
   }
   return true;
 }

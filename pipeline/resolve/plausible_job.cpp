@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/resolve/radians.h"
@@ -17,7 +18,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double most_radians = 2 * std::numbers::pi;  // of an axis, if the numbers were radians
 constexpr double moves = 0.1;  // an axis' way in one of these numbers: less is a robot that stands
 // One target in radians: half a turn in radians, no adjustment of a robot at its zero pose; the others reach farther than that.

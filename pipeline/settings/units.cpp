@@ -8,10 +8,10 @@
 #include <limits>
 #include <numbers>
 
+#include "pipeline/base/constants.h"
+
 namespace dresslife::pipeline {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A unit that no key has, and the value of one of it in a unit of keys.
 struct ForeignUnit {

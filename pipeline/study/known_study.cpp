@@ -49,7 +49,7 @@ std::string digest_of(const StudyRequest& request) {
 
 std::string noted(const std::string& found) { return found == "yes" || found == "no" ? found : xxh3(found); }
 
-constexpr std::string_view title = "dresslife study 3";
+constexpr std::string_view first_line = "dresslife study 3";
 
 /// Whether the search that a line notes gives the same result now.
 bool finds_the_same(Words& line) {
@@ -75,9 +75,9 @@ std::optional<StudyState> recalled(const StudyRequest& request, const StudyPlace
   const std::string text = read_text(memory_of(places));
   const std::int64_t written = state_of(memory_of(places)).changed_ns;
   Words lines(text);
-  if (lines.until('\n') != title) return std::nullopt;
+  if (lines.until('\n') != first_line) return std::nullopt;
   const std::string_view digest = lines.until('\n');
-  if (digest != xxh3(std::string_view(text).substr(std::min(text.size(), title.size() + digest.size() + 2))))
+  if (digest != xxh3(std::string_view(text).substr(std::min(text.size(), first_line.size() + digest.size() + 2))))
     return std::nullopt;
   if (lines.until('\n') != digest_of(request)) return std::nullopt;
   StudyState standing{{places.folder.filename().string(), {}}, places, {}, true};
@@ -140,7 +140,7 @@ std::optional<std::string> text_of(const StudyRequest& request, const StudyState
       text += fmt::format("value {}\n", value);
     }
   }
-  return fmt::format("{}\n{}\n", title, xxh3(text)) + text;
+  return fmt::format("{}\n{}\n", first_line, xxh3(text)) + text;
 }
 
 }  // namespace

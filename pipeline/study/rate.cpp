@@ -35,9 +35,9 @@ std::string fit_for_a_folder(std::string text) {
   return text;
 }
 
-class Maker {
+class RatedStudyMaker {
  public:
-  Maker(const fs::path& file, const std::vector<std::string>& sets)
+  RatedStudyMaker(const fs::path& file, const std::vector<std::string>& sets)
       : file_(file), sets_{"uncertainty.enabled=false"} {
     sets_.insert(sets_.end(), sets.begin(),
                  sets.end());  // a rating stands beside the model's own, by the scatter of wires
@@ -158,7 +158,7 @@ std::string rig_words(const Rig& rig) {
 }
 
 RateStudy rate_study(const fs::path& file, const fs::path& rigs, const std::vector<std::string>& sets) {
-  return Maker(file, sets).make(rigs);
+  return RatedStudyMaker(file, sets).make(rigs);
 }
 
 CycleLives cycles_of(const RankingRow& row) {

@@ -33,7 +33,7 @@ std::string slip_alone(const Job& job, const Node& alone, bool is_part, bool was
   return fmt::format("[{}]", joined(words, ", "));
 }
 
-class Maker {
+class CableStudyMaker {
  public:
   void add(const StudyJob& job) {
     const Node written = parse_yaml(job_text(*job.job), job.name);
@@ -153,7 +153,7 @@ bool has_ratings(const Job& job) {
 }
 
 RatedStudy rated_study(const Study& study) {
-  Maker maker;
+  CableStudyMaker maker;
   if (study.keep == Keep::lives)
     return maker.take();  // a relative life needs the damage of every place, in life.h5
   for (const StudyJob& job : study.jobs)

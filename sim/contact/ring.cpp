@@ -8,7 +8,7 @@ namespace dresslife::sim {
 namespace {
 
 constexpr int newton_steps = 6;
-constexpr double same_place = 1e-10;  // [segments]
+constexpr double last_step = 1e-10;  // [segments]
 constexpr int alternations = 8;       // between the nearest points of the axis and of the circle
 constexpr double same_side = 0.9;     // cosine: leaning points nearer than 25 deg are one
 
@@ -40,7 +40,7 @@ double SpanAxis::nearest(const Vector3& to, double from) const {
     const double slope = off.dot(p.slope), squared = p.slope.squaredNorm();
     const double step = -slope / std::max(squared + off.dot(p.bend), 0.2 * squared);
     place = std::clamp(place + std::clamp(step, -1.0, 1.0), first(), last());
-    if (std::abs(step) < same_place) break;
+    if (std::abs(step) < last_step) break;
   }
   return place;
 }

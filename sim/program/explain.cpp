@@ -1,13 +1,11 @@
 #include "sim/program/explain.h"
 
 #include <filesystem>
-#include <numbers>
+
+#include "pipeline/base/constants.h"
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-constexpr double millimetre = 1e-3;
 
 /// Four decimals at most, as controllers write them, without zeros behind.
 std::string number(double value) {

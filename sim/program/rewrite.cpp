@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "sim/program/fanuc/run.h"
 #include "sim/program/interpreter/encoding.h"
 #include "sim/program/interpreter/parser.h"
@@ -14,9 +14,6 @@
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-constexpr double millimetre = 1e-3;
 
 /// A file as lines without their ends, and what becomes of them.
 class Lines {

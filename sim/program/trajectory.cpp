@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/settings/document.h"
@@ -13,7 +14,6 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr std::size_t most_axes = 12;
 
 std::optional<double> number_in(std::string_view text) {

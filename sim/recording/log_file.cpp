@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/csv_rows.h"
 #include "sim/program/axis_names.h"
 #include "sim/recording/log_columns.h"
@@ -20,7 +21,6 @@ using pipeline::CsvCell;
 using pipeline::CsvRow;
 using pipeline::InputError;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double short_stand = 0.5;  // [s] stands shorter than this keep their rows
 constexpr double start =
     0.05;  // [s] at the end of a stand, whose rows are of the motion: a slow start is no jump

@@ -16,10 +16,10 @@ constexpr double ramp = 0.3;                            // [s] of motion that a 
 constexpr double slow = std::numbers::pi / 180;         // [rad/s] needs no ramp
 constexpr double settling = 1;                          // [s]
 constexpr double long_rest = 600, longest_rest = 1200;  // [s]
-constexpr std::size_t most_rows = 50'000;               // half of what a motion may have
+constexpr std::size_t most_rows_of_a_motion = 50'000;               // half of what a motion may have
 constexpr double damage_exponent = 5;
 
-struct Rows {
+struct StretchRows {
   std::vector<double> times;
   std::vector<VectorXd> values;
 
@@ -34,8 +34,8 @@ struct Rows {
   }
 };
 
-Rows rows_between(const Course& course, double begin, double end) {
-  Rows rows;
+StretchRows rows_between(const Course& course, double begin, double end) {
+  StretchRows rows;
   rows.add(0, course.at(begin));
   const std::vector<double>& knots = course.knots();
   auto at = std::upper_bound(knots.begin(), knots.end(), begin + near_knots);
@@ -46,7 +46,7 @@ Rows rows_between(const Course& course, double begin, double end) {
 }
 
 /// Sum of the fifth powers of successive ranges of each axis.
-double damage_of(const Rows& rows, double bound) {
+double damage_of(const StretchRows& rows, double bound) {
   double sum = 0;
   for (long axis = 0; axis < rows.values.front().size(); ++axis) {
     double turn = rows.values.front()[axis], extreme = turn;
@@ -65,7 +65,7 @@ double damage_of(const Rows& rows, double bound) {
 }
 
 /// Slower near the ends, so that the speed there is 0: t' = 2 sqrt(P t) until t = P.
-void add_ramps(Rows& rows, bool begins_at_rest) {
+void add_ramps(StretchRows& rows, bool begins_at_rest) {
   const double length = rows.times.back(), part = std::min(ramp, length / 3);
   const auto delay = [&](double t) { return t < part ? 2 * std::sqrt(part * t) - t : part; };  // t' - t
   const bool at_begin = !begins_at_rest && rows.speed(0) > slow, at_end = rows.speed(rows.count() - 1) > slow;
@@ -75,7 +75,7 @@ void add_ramps(Rows& rows, bool begins_at_rest) {
   }
 }
 
-void close(Rows& rows) {
+void close(StretchRows& rows) {
   std::vector<double> moved{0};
   for (std::size_t k = 1; k < rows.count(); ++k)
     moved.push_back(moved.back() +
@@ -86,15 +86,15 @@ void close(Rows& rows) {
 }
 
 /// Of a closed motion: it begins at another row.
-Rows turned(const Rows& rows, std::size_t begin) {
-  Rows made;
+StretchRows turned(const StretchRows& rows, std::size_t begin) {
+  StretchRows made;
   const double length = rows.times.back(), start = rows.times[begin];
   for (std::size_t k = begin; k < rows.count(); ++k) made.add(rows.times[k] - start, rows.values[k]);
   for (std::size_t k = 1; k <= begin; ++k) made.add(rows.times[k] + length - start, rows.values[k]);
   return made;
 }
 
-std::size_t best_begin(const Rows& rows) {
+std::size_t best_begin(const StretchRows& rows) {
   std::size_t best = 0;
   double longest = 0, slowest = INFINITY;
   for (std::size_t k = 1; k + 1 < rows.count(); ++k) {
@@ -124,7 +124,7 @@ LogMotion cycle_of(const Course& course, const Cycles& cycles, std::size_t cycle
   made.part = std::min_element(damages.begin(), damages.end(), [&](const auto& a, const auto& b) {
                 return std::abs(a.first - mean) < std::abs(b.first - mean);
               })->second;
-  Rows rows = rows_between(course, cycles.parts[made.part].begin, cycles.parts[made.part].end);
+  StretchRows rows = rows_between(course, cycles.parts[made.part].begin, cycles.parts[made.part].end);
   close(rows);
   rows = turned(rows, best_begin(rows));
   const bool stands = rows.values.back() == rows.values[rows.count() - 2];  // between its end and its begin
@@ -140,7 +140,7 @@ LogMotion cycle_of(const Course& course, const Cycles& cycles, std::size_t cycle
 }
 
 /// Largest distance of a row from the first.
-double range_of(const Rows& rows) {
+double range_of(const StretchRows& rows) {
   double range = 0;
   for (const VectorXd& row : rows.values)
     range = std::max(range, (row - rows.values.front()).lpNorm<Eigen::Infinity>());
@@ -152,7 +152,7 @@ class Rest {
  public:
   Rest(std::vector<LogMotion>& made, double bound) : made_(made), bound_(bound) {}
 
-  void add(const Rows& rows) {
+  void add(const StretchRows& rows) {
     if (range_of(rows) <= bound_) return;  // a stand between two cycles
     if (rows_.count() == 0) rows_.add(0, rows.values.front());
     const VectorXd off = rows_.values.back() - rows.values.front();
@@ -163,7 +163,7 @@ class Rest {
       rows_.add(begin + rows.times[k], rows.values[k] + (1 - s) * (1 - s) * (1 + 2 * s) * off);
       const bool stands = rows_.values.back() == rows_.values[rows_.count() - 2];
       if ((stands && rows_.times.back() > long_rest) || rows_.times.back() > longest_rest ||
-          rows_.count() >= most_rows) {
+          rows_.count() >= most_rows_of_a_motion) {
         const VectorXd last = rows_.values.back();
         finish();
         begins_at_rest_ = stands;
@@ -190,7 +190,7 @@ class Rest {
  private:
   std::vector<LogMotion>& made_;
   double bound_;
-  Rows rows_;
+  StretchRows rows_;
   int count_ = 0;
   bool begins_at_rest_ = false;
 };

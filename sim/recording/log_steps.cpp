@@ -1,6 +1,7 @@
 #include "sim/recording/log_steps.h"
 
 #include "pipeline/base/joined.h"
+#include "sim/robot/robot.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@ constexpr std::size_t window = 5;        // rows
 constexpr double turn_margin = 1.1;      // of the speed (L3)
 constexpr std::size_t most_axes = 8;     // whose orders are tried: 40,320
 constexpr double speed_margin = 1.2;     // of an axis' limit: splines through rows swing over
-constexpr double limit_rounding = 1e-9;  // [rad] of degrees that become radians
 
 }  // namespace
 

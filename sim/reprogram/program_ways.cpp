@@ -5,20 +5,18 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>
 
 #include "pipeline/arm/other_turns.h"
+#include "pipeline/base/constants.h"
 #include "sim/robot/inverse_kinematics.h"
 #include "sim/robot/legs.h"
 #include "sim/robot/robot.h"
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A line of the program: all steps that come from one place of a file.
 struct Line {

@@ -1,17 +1,17 @@
 #include "sim/robot/inverse_kinematics.h"
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
+#include "sim/robot/robot.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace dresslife::sim {
 namespace {
 
 using Eigen::VectorXd;
 
-constexpr double pi = std::numbers::pi;
 constexpr double alignment =
     1e-6;  // of axes that a closed form takes as parallel, perpendicular or meeting [1, m]
 /// The same where figures were rounded to two decimals (1.57 for a right angle): the closed form gives
@@ -21,7 +21,6 @@ constexpr double no_direction =
     1e-3;  // of singular values: an axis must move a thousand times as fast as the flange
 constexpr double singular_wrist = 1e-9;  // sine between axes 4 and 6 below which q4 is free
 constexpr double out_of_reach = 1e-9;    // of a cosine: rounding at a stretched arm
-constexpr double limit_rounding = 1e-9;  // [rad]
 
 Quaternion turn(const Vector3& axis, double angle) { return Quaternion(Eigen::AngleAxisd(angle, axis)); }
 
@@ -39,11 +38,6 @@ std::vector<double> angles(double a, double b, double c) {
   if (std::abs(cosine) > 1 + out_of_reach) return {};
   const double middle = std::atan2(b, a), half = std::acos(std::clamp(cosine, -1.0, 1.0));
   return {middle + half, middle - half};
-}
-
-double wrapped(double angle) {
-  angle = std::remainder(angle, 2 * pi);
-  return angle <= -pi ? angle + 2 * pi : angle;
 }
 
 }  // namespace

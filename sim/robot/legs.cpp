@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <tuple>
 
+#include "pipeline/base/constants.h"
 #include "sim/robot/inverse_kinematics.h"
+#include "sim/robot/robot.h"
 #include "sim/robot/tool_path.h"
 
 namespace dresslife::sim {
@@ -17,8 +18,6 @@ using Eigen::VectorXd;
 using pipeline::MotionStep;
 using pipeline::PathKind;
 
-constexpr double degree = std::numbers::pi / 180, millimetre = 1e-3;
-constexpr double limit_rounding = 1e-9;      // of written angles and positions [rad, m]
 constexpr double point_distance = 0.01;      // largest between points of a path [m]
 constexpr double point_turn = 0.035;         // [rad]
 constexpr double point_change = 0.1;         // of any joint [rad]

@@ -3,12 +3,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <cmath>
-#include <numbers>
+
+#include "pipeline/base/constants.h"
 
 namespace dresslife::sim {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int steps = 60;  // of one iteration: quadratic near a solution, slow only where the arm is singular
 constexpr int starts = 240;         // at most
 constexpr int starts_in_vain = 60;  // an arm with a basin of 5 % of the box is missed by 0.95^60 = 5 %
@@ -21,11 +21,6 @@ NumericalInverse::Angles apart(const Frame& from, const Frame& to) {
   return e;
 }
 
-double wrapped(double angle) {
-  angle = std::remainder(angle, 2 * pi);
-  return angle <= -pi ? angle + 2 * pi : angle;
-}
-
 /// The n-th number of the van der Corput sequence to this base, in (0, 1).
 double halton(int n, int base) {
   double value = 0, share = 1;
@@ -34,6 +29,11 @@ double halton(int n, int base) {
 }
 
 }  // namespace
+
+double wrapped(double angle) {
+  angle = std::remainder(angle, 2 * pi);
+  return angle <= -pi ? angle + 2 * pi : angle;
+}
 
 NumericalInverse::NumericalInverse(const std::array<Vector3, 6>& points, const std::array<Vector3, 6>& axes,
                                    const Frame& flange, const Angles& lower, const Angles& upper)

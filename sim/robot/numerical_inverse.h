@@ -26,6 +26,9 @@
 
 namespace dresslife::sim {
 
+/// The angle less whole turns, in (-pi, pi].
+double wrapped(double angle);
+
 class NumericalInverse {
  public:
   using Angles = Eigen::Matrix<double, 6, 1>;

@@ -9,8 +9,6 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// Degrees in a file become radians and come back with a rounding error; a limit may be used to the full.
-constexpr double limit_rounding = 1e-9;  // [rad]
 
 }  // namespace
 

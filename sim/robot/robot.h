@@ -62,6 +62,10 @@ struct LimitFault {
   std::string what, remedy;
 };
 
+/// Excess over a joint's limit that counts as rounding [rad, m]: degrees and millimetres in a file become radians and metres,
+/// and come back with a rounding error. A limit may be used to the full.
+constexpr double limit_rounding = 1e-9;
+
 /// Absent, or why these angles [rad] are none of the robot's: another number than it has driven joints, or
 /// one outside its joint's limits, named with its angle and limits in degrees. `what`: "waypoint 'home'".
 std::optional<LimitFault> limit_fault(const pipeline::Robot& robot, std::span<const double> joints,

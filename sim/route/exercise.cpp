@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "sim/robot/robot.h"
 
 namespace dresslife::sim {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double from_limits = 2 * degree;  // that the moves keep
 
 std::vector<Axis> driven_axes(const pipeline::Robot& robot) {

@@ -19,13 +19,13 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr int most_moments = 240;  // of the program: 0.2 s of curves
-constexpr int fewest_moments = 24;
-constexpr double moments_a_second = 5;
+constexpr int most_shown = 240;  // of the program: 0.2 s of curves
+constexpr int fewest_shown = 24;
+constexpr double shown_a_second = 5;
 constexpr int tried_lengths = 16, tried_poses = 8;  // of each span: 0.4 s of equilibria; steps of 2 %, as remedies try them (sim/run/cures.cpp)
 constexpr double before_the_program = -1;          // time of the mounting pose [s]
 
-struct Moment {
+struct ShownMoment {
   double time = 0;
   int step = 0;
   Pose pose;
@@ -44,7 +44,7 @@ class Previewer {
       moments_.push_back({before_the_program, 0, robot_->pose(robot_->mounting_pose())});
     find_longest();
     const double duration = path_->duration();
-    const int count = std::clamp(static_cast<int>(duration * moments_a_second), fewest_moments, most_moments);
+    const int count = std::clamp(static_cast<int>(duration * shown_a_second), fewest_shown, most_shown);
     std::vector<double> times{0};
     for (int k = 1; k <= count && duration > 0; ++k) times.push_back(duration * k / count);
     for (const Longest& longest : longest_) times.push_back(longest.time);
@@ -82,7 +82,7 @@ class Previewer {
   }
 
   void find_ways() {
-    for (const Moment& moment : moments_) {
+    for (const ShownMoment& moment : moments_) {
       const std::vector<double> ways = shortest_ways(setup_, rod_, moment.pose.clamps, moment.pose.rings);
       for (std::size_t span = 0; span < ways.size(); ++span) ways_.push_back(is_free(span) ? 0 : ways[span]);
     }
@@ -163,7 +163,7 @@ class Previewer {
   }
 
   void write_moment(pipeline::FileWriter& file, std::size_t k) const {
-    const Moment& moment = moments_[k];
+    const ShownMoment& moment = moments_[k];
     std::vector<double> centres, clamps, links, joints;
     std::vector<Vector3> last;
     Pose pose = moment.pose;
@@ -291,7 +291,7 @@ class Previewer {
   Rod rod_;
   std::unique_ptr<ClampPath> path_;
   const RobotPath* robot_;
-  std::vector<Moment> moments_;
+  std::vector<ShownMoment> moments_;
   std::vector<double> ways_;      // (moment, span)
   std::vector<Longest> longest_;  // (span) over the program
 };

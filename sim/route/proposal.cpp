@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/threads.h"
 #include "sim/robot/robot.h"
 #include "sim/route/rehearsal.h"
@@ -32,7 +33,6 @@ constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 
 /// Likewise of the job's own run: its numbers are rounded when it is written.
 constexpr std::array<double, screened_limits> wished_of_whole{0.001, 0.001, 0.01, 0.01, 0, 0.001, 0};
 
-constexpr double millimetre = 1e-3;   // places are written in it
 constexpr double ring_radius = 0.75;  // of a guide ring [diameters]
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double farthest =

@@ -34,7 +34,7 @@ struct Moment {
 };
 
 /// A frame that a link carries.
-struct Node {
+struct ThreadNode {
   int link = no_link;
   Frame local;
 };
@@ -42,7 +42,7 @@ struct Node {
 /// A span with the nodes that it passes: its base end, its rings, its tool end.
 struct Thread {
   const Span* span = nullptr;
-  std::vector<Node> nodes;
+  std::vector<ThreadNode> nodes;
   int recorded_end = 0;                    // index of its base end among recorded clamps
   double rings_save = 0;                   // of the way, by a hose that passes them off-centre [m]
   std::optional<double> turn_at_mounting;  // given by the clamp's roll [rad]; else free of twist
@@ -56,7 +56,7 @@ Frames frames_of(const Thread& thread, const Moment& moment) {
   if (moment.links.empty())
     return {moment.recorded.end(thread.recorded_end), moment.recorded.end(thread.recorded_end + 1)};
   Frames frames;
-  for (const Node& node : thread.nodes) frames.push_back(moment.links[node.link] * node.local);
+  for (const ThreadNode& node : thread.nodes) frames.push_back(moment.links[node.link] * node.local);
   return frames;
 }
 

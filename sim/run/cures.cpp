@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
@@ -22,7 +23,6 @@ namespace check_name = pipeline::check_name;
 using pipeline::WarningKind;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double degree = EIGEN_PI / 180;
 constexpr int tried_poses = 8;
 /// Of each pair of directions: 320 equilibria, a second. A length alone is the easiest change, so its steps are finer, 3 %.
 constexpr std::array<int, 4> tried_lengths{16, 8, 8, 8};

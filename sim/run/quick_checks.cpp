@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/job/setup.h"
@@ -22,7 +23,6 @@ namespace {
 namespace check_name = pipeline::check_name;
 using pipeline::WarningKind;
 
-constexpr double degree = EIGEN_PI / 180;
 constexpr int most_moments = 100'000;  // of the program; a run looks at every step
 constexpr int rest_moments = 1000;     // of the program; a span rests in those between which it has moved enough
 constexpr int mounting_moments = 100;  // of the way from the mounting pose to the program

@@ -2,8 +2,8 @@
 #include "fatigue/multiaxial.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 #include "tests/fatigue/materials.h"
 
@@ -14,7 +14,6 @@ using namespace dresslife::fatigue_tests;
 namespace {
 
 constexpr double rounding = 1e-9;  // relative; a cosine's rounding times the slope of the life curve
-constexpr double pi = std::numbers::pi;
 
 std::vector<double> swing(double amplitude, double phase, int samples = 400) {
   std::vector<double> history;

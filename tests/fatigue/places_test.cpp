@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "fatigue/conductors.h"
+#include "pipeline/base/constants.h"
 #include "pipeline/life/planning.h"
 #include "tests/catch.h"
 
@@ -16,7 +16,6 @@ using namespace dresslife::fatigue;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double left_out = 1e-3;  // of a life: what the places left out and straight pieces may move it by
 constexpr double straight_pieces = 3e-3;
 

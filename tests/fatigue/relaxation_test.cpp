@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <random>
 
 #include "fatigue/damage.h"
 #include "fatigue/stress_path.h"
+#include "pipeline/base/constants.h"
 #include "pipeline/base/instruction_set.h"
 #include "tests/catch.h"
 #include "tests/fatigue/materials.h"
@@ -22,7 +22,6 @@ using pipeline::MeanStressRelaxation;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double promised = 1e-5;        // of a life, where damage is smooth (relaxation.h)
 constexpr double promised_short = 5e-4;  // of one that is shorter than a hundred repeats
 constexpr std::array<MeanStress, 4> rules{MeanStress::none, MeanStress::swt, MeanStress::morrow,

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "fatigue/conductors.h"
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 #include "tests/fatigue/wire_lives.h"
 
@@ -19,7 +19,6 @@ constexpr double rounding = 1e-12;  // relative: some hundred sums and products 
 constexpr double bisected =
     1e-8;  // relative: lives are found to 1e-10, shares grow at most 100 times as fast
 constexpr double one_deviation = 0.8413447460685429;  // Phi(1)
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Bundle of wires with these median lives.
 ConductorWires wires(const std::vector<double>& lives, std::vector<double> rate = {}) {

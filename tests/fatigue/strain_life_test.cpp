@@ -2,9 +2,9 @@
 #include "fatigue/strain_life.h"
 
 #include <cmath>
-#include <limits>
 
 #include "fatigue/stress_path.h"
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 #include "tests/fatigue/materials.h"
 
@@ -17,7 +17,6 @@ namespace {
 
 constexpr double published = 1e-9;    // relative; the vectors' own tolerance
 constexpr double round_trip = 1e-12;  // relative; rounding of a logarithm times its slope
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // dfieser/lcf-strain-life (commit a6a8d40c), tests/test_life.py; MPa. Lives recomputed in 40 digits.
 const pipeline::Material lcf_steel = material(200000, 1000, -0.09, 0.5, -0.6);

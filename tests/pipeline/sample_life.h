@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/files/files.h"
 
 namespace dresslife::pipeline {
@@ -35,7 +35,6 @@ struct SampleLife {
 
 /// Writes a life file that is consistent in itself: shares add up and the worst is the worst.
 inline void write_sample_life(const std::filesystem::path& file, const SampleLife& sample = {}) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double rate = 25, free_length = 2.4;  // [Hz], [m]
   const bool damaged = sample.wires && std::isfinite(sample.repeats);
   const double damage = damaged ? 1 / sample.repeats : 0;

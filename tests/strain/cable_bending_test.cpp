@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "pipeline/base/constants.h"
 #include "strain/construction.h"
 #include "tests/strain/strand_bending.h"
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using dresslife::pipeline::CableBending;
 using dresslife::pipeline::friction_level;
@@ -14,7 +16,6 @@ using namespace test_dresspacks;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double youngs_modulus = 117e9, poisson_ratio = 0.34;
 
 /// The thesis' cable with pressures.

@@ -4,15 +4,16 @@
 #include <cmath>
 #include <functional>
 #include <list>
-#include <numbers>
 #include <tuple>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/cable/plain_properties.h"
 #include "strain/cable_paths.h"
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using dresslife::pipeline::CableForce;
 using dresslife::pipeline::CablePulls;
@@ -23,7 +24,6 @@ using dresslife::pipeline::Slip;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double length = 2;
 constexpr std::size_t segments = 64;
 

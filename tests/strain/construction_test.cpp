@@ -1,13 +1,14 @@
 #include "strain/construction.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/errors.h"
 #include "strain/slip.h"
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using namespace test_dresspacks;
 using dresslife::pipeline::Kinematics;
@@ -15,7 +16,6 @@ using dresslife::pipeline::Slip;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-12;
 
 /// Difference of two angles, whole turns apart or not.

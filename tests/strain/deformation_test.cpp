@@ -2,11 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <functional>
-#include <numbers>
 #include <optional>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using dresslife::pipeline::DeformationMeasure;
 using Eigen::Quaterniond;
@@ -14,7 +15,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double rounding =
     1e-9;  // poses of order one differenced over links of order 1e-2, machine epsilon 2e-16
 

@@ -1,17 +1,15 @@
 // Constructions that the tests of this folder share.
 #pragma once
 
-#include <numbers>
-
+#include "pipeline/base/constants.h"
 #include "pipeline/job/dresspack.h"
 
 namespace test_dresspacks {
 
+using namespace dresslife;
 using dresslife::pipeline::Component;
 using dresslife::pipeline::Dresspack;
 using dresslife::pipeline::Hand;
-
-constexpr double degree = std::numbers::pi / 180;
 
 inline Component part(const std::string& name, int count, double radius, double helix_radius,
                       double lay_angle_deg, Hand hand = Hand::right) {

@@ -2,13 +2,14 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/errors.h"
 #include "tests/catch.h"
 #include "tests/strain/all_kernels.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using namespace test_dresspacks;
 using dresslife::pipeline::Kinematics;
@@ -16,8 +17,6 @@ using dresslife::pipeline::Slip;
 using Settings = dresslife::pipeline::Strain;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// A smooth motion of every segment, up to curvatures of 5 1/m and twists of 4 rad/m.
 DeformationHistory moving(std::size_t segments, std::size_t samples) {

@@ -2,9 +2,9 @@
 #include "tests/strain/friction_lines.h"
 
 #include <functional>
-#include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/shares.h"
 #include "strain/friction.h"
@@ -13,6 +13,7 @@
 #include "tests/pipeline/cable/space_curve.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using dresslife::pipeline::CableBending;
 using dresslife::pipeline::friction_level;
@@ -20,8 +21,6 @@ using friction_lines::SlidingWire;
 using namespace test_dresspacks;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Wires of one layer of a part that lies straight or on a helix in a straight cable. All of them feel the same
 /// wave along themselves, so one that is long enough is all.

@@ -4,15 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/shares.h"
 #include "strain/evaluation.h"
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using namespace test_dresspacks;
 using dresslife::pipeline::Equivalent;
@@ -22,7 +23,6 @@ using Settings = dresslife::pipeline::Strain;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr std::size_t segments = 3, samples = 301;
 
 Deformation deformation(std::size_t i, std::size_t t) {

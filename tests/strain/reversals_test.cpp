@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Kept {
   std::vector<float> strain;

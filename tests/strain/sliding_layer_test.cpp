@@ -1,15 +1,16 @@
 #include "strain/sliding_layer.h"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "strain/history.h"
 #include "strain/nesting.h"
 #include "tests/catch.h"
 #include "tests/strain/all_kernels.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using namespace test_dresspacks;
 using dresslife::pipeline::Kinematics;
@@ -17,7 +18,6 @@ using dresslife::pipeline::Slip;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr std::size_t samples = 250, stride = 256;  // not a multiple of any register
 constexpr int angles = 24;                          // harmonics beyond the twelfth are below any rounding
 

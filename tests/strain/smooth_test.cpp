@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "strain/evaluation.h"
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using namespace test_dresspacks;
 using dresslife::pipeline::Kinematics;
@@ -17,7 +18,7 @@ using dresslife::pipeline::Slip;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, length = 2;
+constexpr double length = 2;
 constexpr std::size_t segments = 16, samples = 24;
 
 Dresspack two_cables(Position position) {

@@ -1,14 +1,13 @@
 #include "tests/strain/strand_bending.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/shares.h"
 
 namespace dresslife::strain {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int angles_per_quarter = 90;
 
 double area(const StrandLayer& layer) { return pi * layer.wire_radius * layer.wire_radius; }

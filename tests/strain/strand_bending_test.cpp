@@ -3,17 +3,17 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 #include "tests/strain/strand_contact.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double tension = 40e3, friction = 0.7;
 
 const std::vector<std::pair<double, double>> published{

@@ -3,14 +3,13 @@
 #include <Eigen/LU>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/errors.h"
 
 namespace dresslife::strain {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int nodes = 45;                // over a quarter; the node at its end, pi/2, does not move
 constexpr double step = pi / 2 / nodes;  // [rad]
 constexpr double rigid = 1e4;            // times a layer's own stiffness against a wave over the section

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double fewest_cycles = 100;   // a cable that fails earlier is overloaded, not worn
 constexpr double fewest_hours = 1;      // rows of one hour are used to predict a life
-constexpr double most_hours = 175'000;  // 20 years day and night
+constexpr double likely_hours = 175'000;  // 20 years day and night
 constexpr double most_specimens = 200;  // tests of cables have 1 to 20
 constexpr double most_cycles_per_repeat = 10, fewest_cycles_per_repeat = 0.1;
 constexpr double largest_unshared = 1;           // a factor of 10: such a row teaches nothing
@@ -36,8 +36,8 @@ class Doubts {
       add(test, "hours", *row.hours, fmt::format("{:g} or more", fewest_hours),
           "years, or thousands of hours",
           fmt::format("hours: {:g} if that was thousands of hours", 1e3 * *row.hours));
-    if (row.hours && *row.hours > most_hours)
-      add(test, "hours", *row.hours, fmt::format("{:g} or less: 20 years day and night", most_hours),
+    if (row.hours && *row.hours > likely_hours)
+      add(test, "hours", *row.hours, fmt::format("{:g} or less: 20 years day and night", likely_hours),
           "minutes, seconds or cycles",
           fmt::format("hours: {:.4g} if that was minutes, or cycles: {:g}", *row.hours / 60, *row.hours));
     if (row.specimens > most_specimens)

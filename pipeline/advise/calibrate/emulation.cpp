@@ -13,6 +13,7 @@
 #include "pipeline/advise/calibrate/measured_bending.h"
 #include "pipeline/advise/calibrate/typical_cables.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/statistics.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/first_failure.h"
@@ -23,7 +24,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double deciles = 1.2815515655446004;  // of a normal distribution, in its deviations
 constexpr std::size_t draws = 64;  // of what each dresspack has for itself: a share of failures is known to 3 % or better
 
 class RowsByJob {
@@ -51,7 +51,7 @@ struct LogLife {
 LogLife log_life_of(const Observation& observation, const RankingRow& row) {
   const std::array<double, 3> lives = lives_of(observation, row);
   if (!std::isfinite(lives[2])) return {endless_log_life, least_log_spread};
-  const double spread = std::log(lives[2] / lives[0]) / (2 * deciles);
+  const double spread = std::log(lives[2] / lives[0]) / (2 * normal_decile);
   return {std::min(endless_log_life, std::log(lives[1])), std::max(least_log_spread, std::log(spread))};
 }
 

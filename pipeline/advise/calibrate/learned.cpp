@@ -17,7 +17,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double decile = 1.2815515655446004;  // of a normal distribution, in its deviations
 
 std::string parameter_lines(const Learned& learned) {
   std::string text = fmt::format("{:<17} {:>24} {:>24}  {}\n", "parameter", "before (80 %)", "after (80 %)",
@@ -65,7 +64,7 @@ double surprise(const LearnedTest& test) {
   if (!observation.service.empty()) return 0;  // many lives are no single one
   const double seen = observation.is_life() ? observed_life(observation) : test.measured;
   const auto off = [&](double side) {
-    return std::log(seen / test.before[1]) / (std::log(side / test.before[1]) / decile);
+    return std::log(seen / test.before[1]) / (std::log(side / test.before[1]) / normal_decile);
   };
   if (!(seen > 0) || !std::isfinite(test.before[2])) return 0;
   const bool both = !observation.is_life() || observation.outcome == ObservedEnd::broken;
@@ -77,7 +76,7 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
   std::vector<LearnedAxis> learned(uncertain_count);
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
-    learned[p].before = {parameter.value(-decile), parameter.value(0), parameter.value(decile)};
+    learned[p].before = {parameter.value(-normal_decile), parameter.value(0), parameter.value(normal_decile)};
     learned[p].after = learned[p].before;
     learned[p].is_own = axes.has_own(static_cast<Index>(p));
   }
@@ -131,7 +130,7 @@ std::string learned_table(const Learned& learned) {
   for (const LearnedWall& wall : learned.walls) {
     const auto factor = [](double z) { return readable(std::pow(wall_strength_step, z)); };
     text += fmt::format("\n{}, not validated, from hoses that had not cracked: x {} ({} .. {}), before x 1 ({} .. {})\n", wall.name,
-                        factor(wall.median), factor(wall.low), factor(wall.high), factor(-decile), factor(decile));
+                        factor(wall.median), factor(wall.low), factor(wall.high), factor(-normal_decile), factor(normal_decile));
   }
   std::size_t name = 22;
   for (const LearnedTest& test : learned.tests) name = std::max(name, columns_of(test.observation.name));

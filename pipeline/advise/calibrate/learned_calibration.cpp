@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/digest.h"
@@ -57,7 +57,6 @@ LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJob
   for (auto* value : {&within.least_strain_range, &within.largest_strain_range, &within.largest_curvature,
                       &within.largest_twist, &within.fewest_cycles, &within.most_cycles})
     if (*value) **value = to_figures(**value, 4);
-  constexpr double degree = std::numbers::pi / 180;  // the unit of the file
   if (within.largest_twist) within.largest_twist = to_figures(*within.largest_twist / degree, 4) * degree;
   within.materials = joined(materials, ", ");
   return within;

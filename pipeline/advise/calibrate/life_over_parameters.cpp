@@ -1,4 +1,5 @@
 #include "pipeline/advise/calibrate/life_over_parameters.h"
+#include "pipeline/base/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double deciles = 1.2815515655446004;  // of a normal distribution, in its deviations
 
 }  // namespace
 
@@ -44,8 +44,8 @@ LifeOverParameters::LifeOverParameters(std::vector<ProgramModes> programs, const
 
 LifeAt LifeOverParameters::at(const VectorXd& beside, const OwnValues* own) const {
   const ParameterPoint z = point(beside, own);
-  const double early = first(z, -deciles, own), median = first(z, 0, own), late = first(z, deciles, own);
-  return {median, std::max(std::exp(least_log_spread), (late - early) / (2 * deciles))};
+  const double early = first(z, -normal_decile, own), median = first(z, 0, own), late = first(z, normal_decile, own);
+  return {median, std::max(std::exp(least_log_spread), (late - early) / (2 * normal_decile))};
 }
 
 double LifeOverParameters::log_median_at(const VectorXd& beside) const {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "pipeline/advise/improve/scaled.h"
+#include "pipeline/base/constants.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/resolve/catalogue.h"
@@ -60,7 +61,6 @@ Robot robot_of(const Node& document) {
 /// A motion that any robot can stand in.
 Node standing(const Robot& robot) {
   std::string angles;
-  constexpr double degree = 0.017453292519943295;
   for (const Joint& joint : robot.joints)
     if (joint.follows.empty())
       angles += fmt::format("{}{:.3f}", angles.empty() ? "" : ", ",

@@ -4,13 +4,12 @@
 
 #include <Eigen/Geometry>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/job/job.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 std::string routings_of(const Job& job) {
   std::string text;

@@ -6,20 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
 #include "pipeline/advise/improve/set_text.h"
 #include "pipeline/arm/other_turns.h"
+#include "pipeline/base/constants.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/job/job.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A line of the program: a step that is no block.
 struct Line {

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string_view>
 #include <unordered_map>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/digest.h"
 #include "pipeline/files/files.h"
 #include "pipeline/life/planning.h"
@@ -16,7 +16,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t nothing = 0xffffffff;
 
 /// "signal cable" of "signal cable 3".

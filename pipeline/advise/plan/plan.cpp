@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
@@ -16,7 +16,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t plants = 1000;  // simulated: a mean of counts is known to 3 % of their deviation
 constexpr double shortest_life = 1;   // [h] of a new dresspack in a simulated plant, so that each plant ends
 constexpr double days_per_year = 365.2425;

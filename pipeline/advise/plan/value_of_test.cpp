@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/job/uncertainty.h"
 
@@ -19,7 +19,6 @@ constexpr Index bins = 16;  // of the result: half of them are narrower than a f
 
 /// (world, bin) P(j | w). The bins have equal probabilities if z is normal over the weighted worlds.
 MatrixXd results_of(const std::vector<double>& z, double error, const std::vector<double>& weights) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   double mean = 0, variance = 0;
   for (std::size_t w = 0; w < z.size(); ++w) mean += weights[w] * z[w];
   for (std::size_t w = 0; w < z.size(); ++w) variance += weights[w] * (z[w] - mean) * (z[w] - mean);

@@ -15,12 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && static_cast<unsigned char>(text.front()) <= ' ') text.remove_prefix(1);
-  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
-  return text;
-}
-
 /// Between the first pair of '.
 std::string quoted(std::string_view text) {
   const std::size_t begin = text.find('\''), end = text.rfind('\'');
@@ -157,7 +151,7 @@ constexpr std::array variable_files{"numreg.va",   "posreg.va",   "sysframe.va",
                                     "framevar.va", "sysmacro.va", "system.va"};
 
 bool is_listing(const fs::path& file) { return lower_case(file.extension().string()) == ".ls"; }
-bool is_variables(const fs::path& file) {
+bool is_variable_file(const fs::path& file) {
   const std::string name = lower_case(file.filename().string());
   return std::find(variable_files.begin(), variable_files.end(), name) != variable_files.end();
 }
@@ -173,7 +167,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 std::vector<fs::path> variables_of(const fs::path& folder) {
   for (const fs::path& place : {folder, fs::absolute(folder).lexically_normal() / ".."}) {
     std::vector<fs::path> files = files_in(place);
-    std::erase_if(files, [](const fs::path& file) { return !is_variables(file); });
+    std::erase_if(files, [](const fs::path& file) { return !is_variable_file(file); });
     if (!files.empty()) return files;
   }
   return {};

@@ -1,20 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "sim/program/fanuc/run.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double millimetre = 1e-3;
-
 constexpr const char* position_form =
     "X .. Y .. Z .. W .. P .. R .. in mm and deg, or J1 .. J2 .. J3 .. J4 .. J5 .. J6 ..";
-
-int whole(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
 
 bool nothing(const FanucPosition& offset) {
   return std::all_of(offset.values.begin(), offset.values.end(), [](double v) { return v == 0; });
@@ -46,7 +41,7 @@ std::optional<FanucPosition> FanucRun::position(FanucCursor& at) {
   if (!registered && !at.take("P")) return {};
   const auto index = values_.index(at);
   if (!index || !index->number || index->group != 1) return {};
-  const int number = whole(*index->number);
+  const int number = whole_number(*index->number);
   if (registered) return values_.position_register(number);
   const auto& list = routine().listing->positions;
   const auto found = list.find(number);
@@ -70,13 +65,13 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
       missing_value("moves to a position by");
     return {};
   }
-  const std::string name = fmt::format("{}[{}]", registered ? "PR" : "P", whole(*index->number));
+  const std::string name = fmt::format("{}[{}]", registered ? "PR" : "P", whole_number(*index->number));
   at.move_to(begin);
   auto read = position(at);
   const std::string own_name = fmt::format("{}:{}", routine().listing->name, name);
   if (!registered && (!read || (!read->known() && read->form != FanucPosition::Form::other_groups)))
     if (const auto given = values_.given_position(own_name)) read = given;
-  if (registered && values_.doubtful(whole(*index->number)))
+  if (registered && values_.doubtful(whole_number(*index->number)))
     note(fmt::format("{} is taken from the backup; a program that was not read may have written it since",
                      name),
          true);
@@ -90,7 +85,7 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
   if (read && (read->known() || read->form == FanucPosition::Form::other_groups)) return read;
   if (registered) {
     values_.forget_missing();
-    values_.miss_position(whole(*index->number));
+    values_.miss_position(whole_number(*index->number));
     missing_position(name, "moves to");
     return {};
   }
@@ -122,7 +117,7 @@ bool FanucRun::active(bool tool, int& number) {
   if (number >= 0) return true;
   values_.forget_missing();
   if (const FanucNumber known = values_.named(tool ? "utool_num" : "uframe_num")) {
-    number = whole(*known);
+    number = whole_number(*known);
     return true;
   }
   const std::string written = tool ? "UTOOL_NUM" : "UFRAME_NUM", list = tool ? "UTOOL" : "UFRAME";
@@ -154,7 +149,7 @@ const NamedFrame* FanucRun::given_frame(bool tool, const std::string& name) cons
 void FanucRun::compare_active(bool tool, int listed) {
   const std::string name = tool ? "utool_num" : "uframe_num";
   if (!values_.has_named(name)) return values_.set_named(name, listed);
-  const int number = whole(*values_.named(name));
+  const int number = whole_number(*values_.named(name));
   if (number == listed) return;
   note(fmt::format(
            "the position is taught in {} {} and {} is active: the controller stops here; read as taught",
@@ -366,28 +361,28 @@ void FanucRun::offset_by(FanucCursor& at, std::optional<FanucPosition>& into, co
   if (own) at.move_to(at.offset() + written.offset());
   if (!own && !written.at_end())
     complain("is offset in a frame of its own", "list the program with the position as the robot reached it");
-  const bool doubtful = index && index->number && values_.doubtful(whole(*index->number));
+  const bool doubtful = index && index->number && values_.doubtful(whole_number(*index->number));
   if (into && into->known()) {
     if (into->form == FanucPosition::Form::unknown) into->form = FanucPosition::Form::pose;
     if (doubtful)
       note(fmt::format(
                "PR[{}] is taken from the backup; a program that was not read may have written it since",
-               whole(*index->number)),
+               whole_number(*index->number)),
            true);
     return;
   }
   into.reset();
   if (!index || !index->number) return missing_value("is offset by");
   values_.forget_missing();
-  values_.miss_position(whole(*index->number));
-  missing_position(fmt::format("PR[{}]", whole(*index->number)), "is offset by");
+  values_.miss_position(whole_number(*index->number));
+  missing_position(fmt::format("PR[{}]", whole_number(*index->number)), "is offset by");
 }
 
 /// What a camera finds: ",VR[n]".
 void FanucRun::offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& into) {
   at.take_sign(',');
   const auto index = at.take("VR") ? values_.index(at) : std::nullopt;
-  const std::string name = fmt::format("VR[{}]", index && index->number ? whole(*index->number) : 1);
+  const std::string name = fmt::format("VR[{}]", index && index->number ? whole_number(*index->number) : 1);
   into = values_.given_position(name);
   if (!into)
     missing(
@@ -504,8 +499,8 @@ void FanucRun::remember(const Instruction& move, const FanucPosition& target) {
   if (target.form == FanucPosition::Form::pose)
     last_->values = fanuc_values_of(last_->remote ? inverse(move.target.pose) : move.target.pose);
   if (target.frame < 0 || target.tool < 0) {
-    last_->frame = whole(values_.named("uframe_num").value_or(0));
-    last_->tool = whole(values_.named("utool_num").value_or(0));
+    last_->frame = whole_number(values_.named("uframe_num").value_or(0));
+    last_->tool = whole_number(values_.named("utool_num").value_or(0));
   }
 }
 
@@ -593,7 +588,7 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
     FanucCursor label(options.jumps);
     const auto number = values_.index(label);
     const auto& labels = routine().listing->labels;
-    const auto found = number && number->number ? labels.find(whole(*number->number)) : labels.end();
+    const auto found = number && number->number ? labels.find(whole_number(*number->number)) : labels.end();
     if (found == labels.end()) return complain("jumps to a label that is not there", "correct the label");
     jump_to(found->second, false);
   }
@@ -613,7 +608,7 @@ void FanucRun::stopped_on_the_way() {
   FanucCursor written(std::string_view(text).substr(std::min(text.rfind("PR", lpos) + 2, text.size())));
   const auto index = values_.index(written);
   if (index && index->number)
-    values_.forget_position(whole(*index->number), {});
+    values_.forget_position(whole_number(*index->number), {});
   else
     values_.forget_registers({});
 }

@@ -10,8 +10,6 @@
 namespace dresslife::sim {
 namespace {
 
-int whole(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
-
 std::string file_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
 /// Whether two passes of a loop move alike.
@@ -374,7 +372,7 @@ void FanucRun::jump(FanucCursor& at, bool certain) {
     if (labels.empty()) throw Stop{};
     return jump_to(std::next(labels.begin(), guess(static_cast<int>(labels.size())))->second, false);
   }
-  const auto found = labels.find(whole(*label->number));
+  const auto found = labels.find(whole_number(*label->number));
   if (found == labels.end())
     return complain(fmt::format("jumps to LBL[{}], which is not there", *label->number), "correct the label");
   jump_to(found->second, certain);
@@ -484,7 +482,7 @@ void FanucRun::wait(FanucCursor& at) {
            found = text.find("R[", found + 1)) {
         FanucCursor name(std::string_view(text).substr(found + 1));
         if (const auto index = values_.index(name); index && index->number)
-          values_.forget_register(whole(*index->number), {});
+          values_.forget_register(whole_number(*index->number), {});
       }
     }
     return note("WAIT: input");
@@ -503,7 +501,7 @@ void FanucRun::assign_register(FanucCursor& at) {
   at.skip_to('=');
   values_.forget_missing();
   const FanucNumber value = values_.expression(at);
-  if (index && index->number) return values_.set_register(whole(*index->number), value);
+  if (index && index->number) return values_.set_register(whole_number(*index->number), value);
   values_.forget_registers(values_.causes());
   note("R: writes a register whose number is known only while the robot runs");
 }
@@ -517,11 +515,11 @@ void FanucRun::assign_position(FanucCursor& at) {
     values_.forget_registers(values_.causes());
     return note("PR: writes a position register whose number is known only while the robot runs");
   }
-  const int number = whole(*index->number);
+  const int number = whole_number(*index->number);
   values_.forget_missing();
   if (index->part) {
     const FanucNumber value = values_.expression(at);
-    return values_.set_component(number, whole(*index->part), value);
+    return values_.set_component(number, whole_number(*index->part), value);
   }
   const auto sum = position_sum(at);
   const bool known = values_.given(fmt::format("pr[{}]", number)).has_value();  // counts where this is unknown
@@ -548,7 +546,7 @@ std::optional<FanucPosition> FanucRun::position_sum(FanucCursor& at) {
     } else if (word == "uframe" || word == "utool") {
       const auto index = values_.index(at);
       const auto known =
-          index && index->number ? frame(word == "utool", whole(*index->number)) : std::nullopt;
+          index && index->number ? frame(word == "utool", whole_number(*index->number)) : std::nullopt;
       if (!known) return {};
       read.emplace();
       read->form = FanucPosition::Form::pose;
@@ -558,7 +556,7 @@ std::optional<FanucPosition> FanucRun::position_sum(FanucCursor& at) {
       read = position(at);
       if (FanucCursor written(at.from(begin)); read && !read->known() && written.take("PR"))
         if (const auto index = values_.index(written); index && index->number)
-          values_.miss_position(whole(*index->number));
+          values_.miss_position(whole_number(*index->number));
     }
     if (!read) return {};
     read->frame = read->tool = -1;
@@ -583,9 +581,9 @@ void FanucRun::assign_frame(const std::string& word, FanucCursor& at) {
   at.skip_to('=');
   if (!index || index->group != 1) return note(word + ": a frame of another group", true);
   if (!index->number) return forget_frames(word == "utool", values_.causes());
-  if (whole(*index->number) == 0)
+  if (whole_number(*index->number) == 0)
     return note(word + "[0] is fixed, nothing can be assigned to it: the controller stops here", true);
-  set_frame(word == "utool", whole(*index->number), at);
+  set_frame(word == "utool", whole_number(*index->number), at);
 }
 
 /// Six components that a program wrote are a pose here; what is not known makes the frame unknown.
@@ -663,7 +661,7 @@ void FanucRun::forget(const FanucEffects& effects, const FanucCauses& why) {
     const bool tool = at.word() == "utool";
     if (!at.take_sign('[')) continue;
     if (const auto number = at.number())
-      frames_[{tool, whole(*number)}] = {{}, why};
+      frames_[{tool, whole_number(*number)}] = {{}, why};
     else
       forget_frames(tool, why);
   }
@@ -740,7 +738,7 @@ std::optional<bool> FanucRun::undecided(const std::string& action) {
   if (word == "jmp" && at.take("LBL")) {
     const auto label = values_.index(at);
     const auto found =
-        label && label->number ? listing.labels.find(whole(*label->number)) : listing.labels.end();
+        label && label->number ? listing.labels.find(whole_number(*label->number)) : listing.labels.end();
     if (found == listing.labels.end()) return asked();
     target = found->second;
   }
@@ -807,7 +805,7 @@ std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, Fanu
       FanucCursor at(known->second);  // --assume FILE:LINE=2
       value = at.number();
     }
-  if (assumed(where().line) == std::optional(false))  // FILE:LINE=else, of the whole SELECT
+  if (assumed(where().line) == std::optional(false))  // FILE:LINE=else, of the whole_number SELECT
     return cases.empty() || !cases.back().otherwise ? cases.size() : cases.size() - 1;
   std::vector<std::optional<bool>> known;  // --assume FILE:LINE=then of one case
   for (const Case& one : cases) known.push_back(assumed(routine().listing->statements[one.statement].line));
@@ -834,7 +832,7 @@ std::optional<std::size_t> FanucRun::undecided_select(const std::vector<Case>& c
     const bool jumps = at.take("JMP") && at.take("LBL");
     const auto label = jumps ? values_.index(at) : std::nullopt;
     const auto found =
-        label && label->number ? listing.labels.find(whole(*label->number)) : listing.labels.end();
+        label && label->number ? listing.labels.find(whole_number(*label->number)) : listing.labels.end();
     if (jumps && (found == listing.labels.end() || found->second < behind)) effects.leaves = true;
     if (jumps && found != listing.labels.end()) furthest = std::max(furthest, found->second);
     if (!jumps) effects.add(outlook_.effects(one.action));
@@ -866,12 +864,12 @@ void FanucRun::for_statement(FanucCursor& at) {
       routine().at = end + 1;
       return;
     }
-    values_.set_register(whole(*index->number), from.value_or(1));
-    routine().loops[here] = {whole(*index->number), from.value_or(1),
+    values_.set_register(whole_number(*index->number), from.value_or(1));
+    routine().loops[here] = {whole_number(*index->number), from.value_or(1),
                              1.0};  // one pass, in search of further questions
     return;
   }
-  const int number = whole(*index->number);
+  const int number = whole_number(*index->number);
   values_.set_register(number, *from);
   if (down ? *from < *to : *from > *to)
     routine().at = end + 1;

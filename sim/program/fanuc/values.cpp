@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-
-int whole(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
 
 /// "X 100 Y 0 Z 50 W 180 P 0 R 0", "J1 0 J2 ..." or six numbers X Y Z W P R, with commas or without.
 std::optional<FanucPosition> position_in(const std::string& text) {
@@ -54,6 +50,8 @@ FanucNumber number_in(const std::string& text) {
 
 }  // namespace
 
+int whole_number(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
+
 void add_causes(FanucCauses& to, const FanucCauses& more) {
   constexpr std::size_t most = 12;  // of one value
   for (const FanucCause& cause : more)
@@ -87,7 +85,7 @@ void FanucValues::take(const std::string& name, const std::string& text, Problem
   FanucCursor at(name);
   const std::string word = at.word();
   const auto number = at.take_sign('[') ? at.number() : std::nullopt;
-  const int index = whole(number.value_or(0));
+  const int index = whole_number(number.value_or(0));
   const bool whole_position = word == "pr" && number && name.find(',') == std::string::npos;
   if (whole_position) {
     if (const auto position = position_in(text))
@@ -166,16 +164,16 @@ void FanucValues::set_component(int number, int part, FanucNumber value) {
 void FanucValues::miss_position(int number) {
   const FanucPosition position = position_register(number);
   const auto parts = component_causes_.find(number);
-  bool whole = position.values.empty();
+  bool whole_number = position.values.empty();
   for (std::size_t i = 0; i < position.values.size(); ++i) {
     if (std::isfinite(position.values[i])) continue;
     const int part = static_cast<int>(i) + 1;
     if (parts != component_causes_.end() && parts->second.contains(part) && !parts->second.at(part).empty())
       add_causes(missing_, parts->second.at(part));
     else
-      whole = true;
+      whole_number = true;
   }
-  if (!whole) return;
+  if (!whole_number) return;
   const auto known = position_causes_.find(number);
   if (known != position_causes_.end() && !known->second.empty())
     add_causes(missing_, known->second);
@@ -192,7 +190,7 @@ bool FanucValues::take_effect(const std::string& call) {
     at.skip_to('=');
     const auto value = at.number();
     if (!number || !value) break;
-    set_register(whole(*number), value);
+    set_register(whole_number(*number), value);
     at.take_sign(',');
   }
   return true;
@@ -320,11 +318,11 @@ FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
   for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   if (!read || begin == at.offset()) return unknown(name);
   if (!read->number) return {};
-  const int number = whole(*read->number);
+  const int number = whole_number(*read->number);
   if (read->group != 1) return unknown(fmt::format("{}[GP{}:{}]", name, read->group, number));
   if (word == "pr" && read->part) {
     const FanucPosition position = position_register(number);
-    const std::size_t part = static_cast<std::size_t>(whole(*read->part));
+    const std::size_t part = static_cast<std::size_t>(whole_number(*read->part));
     if (part >= 1 && part <= position.values.size() && std::isfinite(position.values[part - 1]))
       return position.values[part - 1];
     const std::string component = fmt::format("PR[{},{}]", number, part);

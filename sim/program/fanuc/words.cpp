@@ -48,7 +48,7 @@ bool letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$' ||
          static_cast<unsigned char>(c) >= 0x80;
 }
-bool wordly(char c) { return letter(c) || (c >= '0' && c <= '9'); }
+bool letter_or_digit(char c) { return letter(c) || (c >= '0' && c <= '9'); }
 
 class Translation {
  public:
@@ -102,7 +102,7 @@ class Translation {
         return;
       }
     std::size_t end = at_;
-    while (end < text_.size() && wordly(text_[end])) ++end;
+    while (end < text_.size() && letter_or_digit(text_[end])) ++end;
     const std::string_view found = text_.substr(at_, end - at_);
     const bool program = last_ == "CALL" || last_ == "RUN";
     last_ = program ? found : english(found, end);

@@ -5,15 +5,13 @@
 #include <numbers>
 #include <set>
 
+#include "pipeline/base/constants.h"
 #include "sim/program/fanuc/run.h"
 #include "sim/program/interpreter/arc.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-constexpr double millimetre = 1e-3;
 
 /// Position levels PL=1 .. 8 as the controllers are delivered (SC.PRM, S1CxG033 .. 040) [m].
 constexpr double position_levels[] = {0, 0.0125, 0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5};

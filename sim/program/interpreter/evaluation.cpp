@@ -10,7 +10,7 @@
 namespace dresslife::sim {
 namespace {
 
-using Kind = Expression::Kind;
+using Form = Expression::Kind;
 
 constexpr int value_depth = 12;  // levels of records in records
 constexpr std::size_t text_length = 1000;
@@ -34,28 +34,28 @@ Value Interpreter::evaluate(const Expression& expression) {
 
 Value Interpreter::evaluate_inner(const Expression& expression) {
   switch (expression.kind) {
-    case Kind::none:
+    case Form::none:
       return {};
-    case Kind::number: {
+    case Form::number: {
       Value value = number_value(expression.number);
       if (expression.whole) value.numeric = Value::Numeric::integer;
       return value;
     }
-    case Kind::text:
+    case Form::text:
       return text_value(expression.text);
-    case Kind::truth:
+    case Form::truth:
       return truth_value(expression.number != 0);
-    case Kind::unary:
+    case Form::unary:
       return unary(expression);
-    case Kind::binary:
+    case Form::binary:
       return binary(expression);
-    case Kind::aggregate:
+    case Form::aggregate:
       return aggregate(expression);
-    case Kind::call:
+    case Form::call:
       return call_value(expression);
-    case Kind::name:
-    case Kind::element:
-    case Kind::field:
+    case Form::name:
+    case Form::element:
+    case Form::field:
       return name_value(expression);
   }
   return {};
@@ -99,7 +99,7 @@ Value Interpreter::call_value(const Expression& expression) {
 Value Interpreter::why_unknown(const std::vector<Expression>& expressions) {
   Value why;
   for (const Expression& e : expressions) {
-    const bool data = e.kind == Kind::name || e.kind == Kind::field || e.kind == Kind::element;
+    const bool data = e.kind == Form::name || e.kind == Form::field || e.kind == Form::element;
     why = unknown_value(why, data ? evaluate(e) : why_unknown(e.items));
   }
   return why;
@@ -279,15 +279,15 @@ std::optional<Value> Interpreter::given_here(const std::string& what) {
 
 Place Interpreter::origin(const Expression& expression) {
   const Expression* base = &expression;
-  while (base->kind == Kind::field || base->kind == Kind::element) base = &base->items[0];
-  if (base->kind == Kind::call && !base->items.empty()) return origin(base->items[0]);
-  const Variable* found = base->kind == Kind::name ? find(base->text) : nullptr;
+  while (base->kind == Form::field || base->kind == Form::element) base = &base->items[0];
+  if (base->kind == Form::call && !base->items.empty()) return origin(base->items[0]);
+  const Variable* found = base->kind == Form::name ? find(base->text) : nullptr;
   return found ? found->written : Place{};
 }
 
 std::string Interpreter::written(const Expression& expression) const {
   const Expression* first = &expression;  // the operator stands behind its first operand
-  while ((first->kind == Kind::binary || first->kind == Kind::field || first->kind == Kind::element) &&
+  while ((first->kind == Form::binary || first->kind == Form::field || first->kind == Form::element) &&
          !first->items.empty())
     first = &first->items[0];
   const std::string line = code_.files[first->place.file].from(first->place.line, first->place.column);
@@ -297,7 +297,7 @@ std::string Interpreter::written(const Expression& expression) const {
     const char c = line[end];
     if (c == '(' || c == '[' || c == '{') ++depth;
     if ((c == ')' || c == ']' || c == '}') && --depth < 0) break;
-    if (expression.kind == Kind::call && depth == 0 && (c == ')' || c == ']')) {
+    if (expression.kind == Form::call && depth == 0 && (c == ')' || c == ']')) {
       ++end;
       break;
     }
@@ -323,18 +323,18 @@ void Interpreter::forget(const std::string& name) {
 /// The variable, or the part of one, that an expression names; null: not there.
 Value* Interpreter::locate(const Expression& expression) {
   charge(1);
-  if (expression.kind == Kind::name) return const_cast<Value*>(variable(expression.text));
-  if (expression.kind != Kind::field && expression.kind != Kind::element) return nullptr;
+  if (expression.kind == Form::name) return const_cast<Value*>(variable(expression.text));
+  if (expression.kind != Form::field && expression.kind != Form::element) return nullptr;
   // Indices first: a function in one may change what a place found earlier lies in.
   std::vector<double> indices;
-  for (std::size_t i = 1; expression.kind == Kind::element && i < expression.items.size(); ++i) {
+  for (std::size_t i = 1; expression.kind == Form::element && i < expression.items.size(); ++i) {
     const auto index = number(expression.items[i]);
     if (!index) return nullptr;
     indices.push_back(*index);
   }
   Value* whole = locate(expression.items[0]);
   if (!whole) return nullptr;
-  if (expression.kind == Kind::field) return const_cast<Value*>(whole->field(expression.text));
+  if (expression.kind == Form::field) return const_cast<Value*>(whole->field(expression.text));
   for (double index : indices) {
     if (whole->kind != Value::Kind::list || (whole->type && !whole->type->indexed)) return nullptr;
     const auto count = static_cast<double>(whole->items.size());
@@ -349,11 +349,11 @@ Value* Interpreter::locate(const Expression& expression) {
 }
 
 std::string Interpreter::path_of(const Expression& expression) {
-  if (expression.kind == Kind::name) return expression.text;
-  if (expression.kind != Kind::field && expression.kind != Kind::element) return "";
+  if (expression.kind == Form::name) return expression.text;
+  if (expression.kind != Form::field && expression.kind != Form::element) return "";
   std::string path = path_of(expression.items[0]);
   if (path.empty() || path.size() > text_length) return "";
-  if (expression.kind == Kind::field) return path + "." + expression.text;
+  if (expression.kind == Form::field) return path + "." + expression.text;
   for (std::size_t i = 1; i < expression.items.size(); ++i) {
     const auto index = number(expression.items[i]);
     if (!index || !(std::abs(*index) < 1e9)) return "";
@@ -365,7 +365,7 @@ std::string Interpreter::path_of(const Expression& expression) {
 /// What a program beside this one may have written in the meantime; absent: none writes there.
 std::optional<Value> Interpreter::value_written_beside(const Expression& expression) {
   const Expression* base = &expression;
-  while (base->kind == Kind::field || base->kind == Kind::element) base = &base->items[0];
+  while (base->kind == Form::field || base->kind == Form::element) base = &base->items[0];
   const auto written = code_.written_beside.find(base->text);
   const bool own =
       !locals_.empty() && locals_.back().contains(base->text);  // data lists are read without a routine
@@ -390,7 +390,7 @@ bool unset(const Value& value) {
 Value Interpreter::name_value(const Expression& expression) {
   if (!code_.written_beside.empty())
     if (std::optional<Value> value = value_written_beside(expression)) return *value;
-  if (expression.kind != Kind::name) {
+  if (expression.kind != Form::name) {
     if (const std::string path = path_of(expression); !path.empty()) {
       if (const Value* value = variable(path)) return *value;
       if (std::optional<Value> value = dialect_.constant(path)) return *value;
@@ -411,7 +411,7 @@ Value Interpreter::name_value(const Expression& expression) {
     const bool unnamed = value->kind == Value::Kind::unknown && value->cause && value->cause->name.empty();
     return unnamed ? unknown_value(answer_name(path_of(expression)), value->cause->why) : *value;
   }
-  if (expression.kind == Kind::name)
+  if (expression.kind == Form::name)
     if (std::optional<Value> value = dialect_.constant(expression.text)) return *value;
   const std::string path = path_of(expression);
   if (path.empty()) return unknown_index(expression);
@@ -422,7 +422,7 @@ Value Interpreter::name_value(const Expression& expression) {
 
 /// KRL: s[2] of a text that was assigned to s[].
 std::optional<Value> Interpreter::character_of(const Expression& expression) {
-  if (expression.kind != Kind::element || expression.items.size() != 2) return {};
+  if (expression.kind != Form::element || expression.items.size() != 2) return {};
   const Value* whole = locate(expression.items[0]);
   if (!whole || whole->kind != Value::Kind::text) return {};
   const std::string text = whole->text;
@@ -433,8 +433,8 @@ std::optional<Value> Interpreter::character_of(const Expression& expression) {
 
 /// An element whose index is unknown is as unknown as that.
 Value Interpreter::unknown_index(const Expression& expression) {
-  if (expression.kind == Kind::field) return unknown_index(expression.items[0]);
-  for (std::size_t i = 1; expression.kind == Kind::element && i < expression.items.size(); ++i)
+  if (expression.kind == Form::field) return unknown_index(expression.items[0]);
+  for (std::size_t i = 1; expression.kind == Form::element && i < expression.items.size(); ++i)
     if (const Value index = evaluate(expression.items[i]); !index.known()) {
       // Of a list that holds nothing known the element is asked for too, in the same round.
       const Value list = evaluate(expression.items[0]);
@@ -479,7 +479,7 @@ void Interpreter::assign(const Expression& target, Value value) {
     }
     return;
   }
-  if (Value* whole = target.kind == Kind::element ? locate(target.items[0]) : nullptr;
+  if (Value* whole = target.kind == Form::element ? locate(target.items[0]) : nullptr;
       whole && whole->kind == Value::Kind::text) {  // KRL: a letter of a text
     *whole = unknown_value(answer_name(path_of(target.items[0])), "is written letter by letter");
     return;
@@ -515,7 +515,7 @@ std::shared_ptr<const Cause> Interpreter::typed_cause(const Value& unknown, cons
 /// a type takes that of the record which has such a component.
 Value* Interpreter::part_of_given(Value& whole, const Expression& part) {
   if (whole.kind != Value::Kind::list) return nullptr;
-  if (part.kind == Kind::field) {
+  if (part.kind == Form::field) {
     for (const RecordType& type : code_.records)
       if (!whole.type && std::find(type.fields.begin(), type.fields.end(), part.text) != type.fields.end())
         shape(whole, &type);
@@ -533,7 +533,7 @@ Value* Interpreter::part_of_given(Value& whole, const Expression& part) {
 
 /// The part, to be written to, of what the user gives: from then on it is a variable of the program.
 Value* Interpreter::given_part(const Expression& expression) {
-  if (expression.kind != Kind::field && expression.kind != Kind::element) return nullptr;
+  if (expression.kind != Form::field && expression.kind != Form::element) return nullptr;
   const Expression& outer = expression.items[0];
   Value* whole = locate(outer);
   if (const std::string path = whole ? "" : path_of(outer); !path.empty()) {
@@ -564,7 +564,7 @@ Interpreter::Scope& Interpreter::scope_of(const std::string& path) {
 
 const std::string& Interpreter::base_name(const Expression& expression) {
   const Expression* base = &expression;
-  while (base->kind == Kind::field || base->kind == Kind::element) base = &base->items[0];
+  while (base->kind == Form::field || base->kind == Form::element) base = &base->items[0];
   return base->text;
 }
 
@@ -580,8 +580,8 @@ bool Interpreter::is_constant(const Variable& variable) {
 
 Interpreter::Variable* Interpreter::base_of(const Expression& expression) {
   const Expression* base = &expression;
-  while (base->kind == Kind::field || base->kind == Kind::element) base = &base->items[0];
-  return base->kind == Kind::name ? find(base->text) : nullptr;
+  while (base->kind == Form::field || base->kind == Form::element) base = &base->items[0];
+  return base->kind == Form::name ? find(base->text) : nullptr;
 }
 
 /// An element with an unknown index is written: any element may be the one.
@@ -595,7 +595,7 @@ void Interpreter::assign_somewhere(const Expression& target) {
 }
 
 void Interpreter::make_unknown(const Expression& target, Cause cause) {
-  if (target.kind != Kind::name && target.kind != Kind::field && target.kind != Kind::element) return;
+  if (target.kind != Form::name && target.kind != Form::field && target.kind != Form::element) return;
   const std::string path = path_of(target);
   cause.name = answer_name(path);
   if (const Variable* variable = base_of(target); variable && is_constant(*variable)) return;

@@ -5,7 +5,7 @@
 namespace dresslife::sim {
 namespace {
 
-using Kind = Expression::Kind;
+using Form = Expression::Kind;
 
 constexpr int precedence_of_signs = 6;  // of - and + before a value
 
@@ -24,14 +24,14 @@ int precedence(const Token& token, Grammar grammar) {
 
 /// i + 1
 Expression counted_from_one(Expression index) {
-  if (index.kind == Kind::number) {
+  if (index.kind == Form::number) {
     index.number += 1;
     return index;
   }
   Expression one, sum;
-  one.kind = Kind::number;
+  one.kind = Form::number;
   one.number = 1;
-  sum.kind = Kind::binary;
+  sum.kind = Form::binary;
   sum.text = "+";
   one.place = sum.place = index.place;
   sum.depth = index.depth + 1;
@@ -129,7 +129,7 @@ Expression Cursor::expression(int lowest) {
     const int level = precedence(peek(), grammar_);
     if (level < lowest || level == 0 || (at_sign(":") && !krl_)) return left;
     Expression both;
-    both.kind = Kind::binary;
+    both.kind = Form::binary;
     both.place = place();
     both.text = lower_case(next().text);
     if (both.text == "%" || both.text == "!=") both.text = both.text == "%" ? "mod" : "<>";
@@ -145,7 +145,7 @@ Expression Cursor::unary(int lowest) {
   const bool negation = at_word("not") || at_word("b_not");
   if (!negation && !at_sign("-") && !at_sign("+")) return primary();
   Expression e;
-  e.kind = Kind::unary;
+  e.kind = Form::unary;
   e.place = place();
   e.text = lower_case(next().text);
   const int operand = grammar_ == Grammar::rapid && lowest <= 1 ? 2 : 3;
@@ -159,24 +159,24 @@ Expression Cursor::primary() {
   e.place = place();
   switch (token.kind) {
     case Token::Kind::number:
-      e.kind = Kind::number;
+      e.kind = Form::number;
       e.whole = krl_ && (token.text[0] == '\'' || token.text.find_first_of(".eE") == std::string_view::npos);
       e.number = next().number;
       return e;
     case Token::Kind::text:
-      e.kind = Kind::text;
+      e.kind = Form::text;
       e.text = std::string(next().text.substr(0, 1000));
       return e;
     case Token::Kind::word:
       if (at_word("true") || at_word("false")) {
-        e.kind = Kind::truth;
+        e.kind = Form::truth;
         e.number = at_word("true");
         next();
         return e;
       }
       if (krl_ && token.text == "#" && peek(1).kind == Token::Kind::word) {  // # State: #State
         next();
-        e.kind = Kind::name;
+        e.kind = Form::name;
         e.text = fmt::format("#{}", lower_case(next().text));
         return e;
       }
@@ -197,7 +197,7 @@ Expression Cursor::primary() {
 Expression Cursor::aggregate_in_order() {
   const Deeper deeper(*this);
   Expression e;
-  e.kind = Kind::aggregate;
+  e.kind = Form::aggregate;
   e.place = place();
   need_sign("[");
   if (!at_sign("]")) {
@@ -211,7 +211,7 @@ Expression Cursor::aggregate_in_order() {
 Expression Cursor::aggregate_with_names() {
   const Deeper deeper(*this);
   Expression e;
-  e.kind = Kind::aggregate;
+  e.kind = Form::aggregate;
   e.place = place();
   need_sign("{");
   if (peek().kind == Token::Kind::word && at_sign(":", 1)) {  // {E6POS: X 1, ...}
@@ -233,12 +233,12 @@ Expression Cursor::reference() {
   const Deeper deeper(*this);
   Expression e;
   e.place = place();
-  e.kind = Kind::name;
+  e.kind = Form::name;
   e.text = word("a name");
   const bool rapid = grammar_ == Grammar::rapid;
   const std::string_view open = rapid ? "{" : "[", close = rapid ? "}" : "]";
   if (grammar_ == Grammar::urscript && e.text == "p" && at_sign("[")) {
-    e.kind = Kind::call;
+    e.kind = Form::call;
     e.items = aggregate_in_order().items;
     return finished(std::move(e));
   }
@@ -247,12 +247,12 @@ Expression Cursor::reference() {
     outer.place = place();
     if (at_sign(".") && peek(1).kind == Token::Kind::word) {
       next();
-      outer.kind = Kind::field;
+      outer.kind = Form::field;
       outer.text = word("a component");
       outer.items.push_back(std::move(e));
     } else if (at_sign(open)) {
       next();
-      outer.kind = Kind::element;
+      outer.kind = Form::element;
       outer.items.push_back(std::move(e));
       while (!at_sign(close)) {
         if (krl_ && take_sign(",")) continue;  // NAME[,]: a whole array of two dimensions
@@ -267,16 +267,16 @@ Expression Cursor::reference() {
         e = Expression(std::move(outer.items[0]));
         continue;
       }
-    } else if (at_sign("(") && grammar_ == Grammar::urscript && e.kind == Kind::field) {  // object.method(...)
+    } else if (at_sign("(") && grammar_ == Grammar::urscript && e.kind == Form::field) {  // object.method(...)
       next();
-      outer.kind = Kind::call;
+      outer.kind = Form::call;
       outer.text = fmt::format("{}.{}", e.items[0].text, e.text);
       outer.place = e.place;
       outer.items = arguments(")");
       need_sign(")");
-    } else if (at_sign("(") && e.kind == Kind::name) {
+    } else if (at_sign("(") && e.kind == Form::name) {
       next();
-      outer.kind = Kind::call;
+      outer.kind = Form::call;
       outer.text = e.text;
       outer.place = e.place;
       outer.items = arguments(")");

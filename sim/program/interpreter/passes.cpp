@@ -9,7 +9,7 @@ namespace {
 constexpr int repeats_for_certainty = 3;
 
 /// Whether two moves are the same motion; where they stand in the program does not count.
-bool alike(const Instruction& a, const Instruction& b) {
+bool alike_moves(const Instruction& a, const Instruction& b) {
   const auto same_pose = [](const Frame& x, const Frame& y) {
     return x.position == y.position && x.orientation.coeffs() == y.orientation.coeffs();
   };
@@ -31,7 +31,7 @@ void Passes::add(std::uint64_t state) {
 
 bool Passes::same_motion(std::size_t a, std::size_t b) const {
   const auto at = [&](std::size_t pass) { return moves_->begin() + static_cast<long>(ends_[pass]); };
-  return std::equal(at(a - 1), at(a), at(b - 1), at(b), alike);
+  return std::equal(at(a - 1), at(a), at(b - 1), at(b), alike_moves);
 }
 
 bool Passes::repeats() const {

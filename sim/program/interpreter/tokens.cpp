@@ -203,6 +203,12 @@ bool same_word(std::string_view a, std::string_view b) {
   return true;
 }
 
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && static_cast<unsigned char>(text.front()) <= ' ') text.remove_prefix(1);
+  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
+  return text;
+}
+
 std::string lower_case(std::string_view word) {
   std::string result(word);
   for (std::size_t i = 0; i < word.size(); ++i) result[i] = lower(word, i);

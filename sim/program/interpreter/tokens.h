@@ -31,5 +31,7 @@ std::vector<Token> tokens_of(const SourceFile& source, const TokenRules& rules, 
 /// Whether two words are the same but for case.
 bool same_word(std::string_view a, std::string_view b);
 std::string lower_case(std::string_view word);
+/// Without spaces and control characters at both ends.
+std::string_view trimmed(std::string_view text);
 
 }  // namespace dresslife::sim

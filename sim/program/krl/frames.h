@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "sim/program/interpreter/interpreter.h"
 
 namespace dresslife::sim {
 
 namespace krl {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double millimetre = 1e-3;
 constexpr const char* axis_names[] = {"a1", "a2", "a3", "a4", "a5", "a6"};
 constexpr const char* frame_names[] = {"x", "y", "z", "a", "b", "c"};
 constexpr const char* external_names[] = {"e1", "e2", "e3", "e4", "e5", "e6"};

@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "sim/program/interpreter/tokens.h"
 #include "sim/program/rapid/types.h"
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-constexpr double millimetre = 1e-3;
-
-double at(const Value& value, std::size_t i) { return value.items[i].number; }
 
 Value finite(double x) { return std::isfinite(x) ? number_value(x) : Value{}; }
 
@@ -193,7 +188,7 @@ std::optional<Value> of_poses(const Code& code, const std::string& name,
   if (name == "norient") {
     const auto read = v.empty() ? std::nullopt : record(code, v[0], "orient");
     if (!read) return Value{};
-    const Quaternion q(at(*read, 0), at(*read, 1), at(*read, 2), at(*read, 3));
+    const Quaternion q(item_number(*read, 0), item_number(*read, 1), item_number(*read, 2), item_number(*read, 3));
     constexpr double shortest = 1e-6;
     return q.norm() > shortest ? rapid_orient(code, q.normalized()) : Value{};
   }
@@ -220,10 +215,10 @@ std::optional<Value> of_poses(const Code& code, const std::string& name,
 
 }  // namespace
 
-Vector3 rapid_position(const Value& pos) { return millimetre * Vector3(at(pos, 0), at(pos, 1), at(pos, 2)); }
+Vector3 rapid_position(const Value& pos) { return millimetre * Vector3(item_number(pos, 0), item_number(pos, 1), item_number(pos, 2)); }
 
 std::optional<Quaternion> rapid_orientation(const Value& orient) {
-  const Quaternion q(at(orient, 0), at(orient, 1), at(orient, 2), at(orient, 3));
+  const Quaternion q(item_number(orient, 0), item_number(orient, 1), item_number(orient, 2), item_number(orient, 3));
   constexpr double rounding = 0.02;  // of a norm: components written with two decimals
   if (!(std::abs(q.norm() - 1) < rounding)) return {};
   return q.normalized();

@@ -33,4 +33,7 @@ std::optional<Value> rapid_function(const Code& code, const std::string& name,
 /// Functions whose value depends on the robot, the operator or the clock, sorted.
 bool rapid_asks_the_robot(const std::string& function);
 
+/// The number of an item of a list. Precondition: the list has the item.
+inline double item_number(const Value& list, std::size_t i) { return list.items[i].number; }
+
 }  // namespace dresslife::sim

@@ -1,8 +1,8 @@
 // RAPID's moves: target, speed, zone, tool, work object, and what displaces them.
 #include <algorithm>
 #include <map>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/settings/fields.h"
 #include "sim/program/rapid/dialect.h"
 #include "sim/program/rapid/functions.h"
@@ -11,8 +11,6 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double millimetre = 1e-3;
 constexpr double no_axis = 9e8;  // 9E9 means: no such axis
 
 /// What RAPID itself declares, for a number that is like its names, as in v15000 and z500; else empty.
@@ -52,8 +50,6 @@ constexpr Signature signatures[] = {
 };
 
 bool is_weld(const std::string& name) { return name.starts_with("arc") && !name.starts_with("arcmove"); }
-
-double at(const Value& value, std::size_t i) { return value.items[i].number; }
 
 bool is_frame(std::string_view type) { return type == "tooldata" || type == "wobjdata"; }
 
@@ -131,7 +127,7 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
 std::optional<Quaternion> Rapid::checked(const Value& orient, const char* what, const Expression& written,
                                          Interpreter& run) {
   if (const auto q = rapid_orientation(orient)) return q;
-  const Quaternion q(at(orient, 0), at(orient, 1), at(orient, 2), at(orient, 3));
+  const Quaternion q(item_number(orient, 0), item_number(orient, 1), item_number(orient, 2), item_number(orient, 3));
   if (!(q.norm() > 0)) return {};
   const Quaternion unit = q.normalized();
   const Place declared = run.origin(written);
@@ -203,15 +199,15 @@ bool Rapid::read_speed(const Expression& written, Instruction& move, Interpreter
   const auto value = typed(written, "speeddata", "a speed", run);
   if (!value) return false;
   remember(move, "speed", written, run);
-  if (!(at(*value, 0) > 0) && !(at(*value, 1) > 0)) {
+  if (!(item_number(*value, 0) > 0) && !(item_number(*value, 1) > 0)) {
     run.complain(written.place, "has a speed that is not above 0", "give v_tcp in mm/s");
     return false;
   }
   const double factor = speed_factor_ * override_;
   const bool largest = written.kind == Expression::Kind::name && written.text == "vmax";
-  if (!largest && at(*value, 0) > 0)
-    move.speed.tool = std::min(at(*value, 0) * millimetre * factor, speed_limit_);
-  if (!largest && at(*value, 1) > 0) move.speed.orientation = at(*value, 1) * degree * factor;
+  if (!largest && item_number(*value, 0) > 0)
+    move.speed.tool = std::min(item_number(*value, 0) * millimetre * factor, speed_limit_);
+  if (!largest && item_number(*value, 1) > 0) move.speed.orientation = item_number(*value, 1) * degree * factor;
   return true;
 }
 
@@ -237,7 +233,7 @@ bool Rapid::read_zone(const Expression& written, Instruction& move, Interpreter&
   const auto value = typed(written, "zonedata", "a zone", run);
   if (!value) return false;
   remember(move, "zone", written, run);
-  move.zone.distance = value->items[0].number != 0 ? 0 : std::max(0.0, at(*value, 1)) * millimetre;
+  move.zone.distance = value->items[0].number != 0 ? 0 : std::max(0.0, item_number(*value, 1)) * millimetre;
   return true;
 }
 
@@ -513,7 +509,7 @@ void Rapid::shift_external_axes(const Statement& statement, Interpreter& run) {
   if (!programmed || !reached) return;
   const Value from = axes(*programmed), to = axes(*reached);
   for (std::size_t i = 0; i < from.items.size() && i < to.items.size(); ++i) {
-    const double a = at(from, i), b = at(to, i);
+    const double a = item_number(from, i), b = item_number(to, i);
     external_shift_.push_back(std::abs(a) < no_axis && std::abs(b) < no_axis ? b - a : 0);
   }
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
 #include "sim/program/interpreter/tokens.h"
 #include "sim/program/rapid/dialect.h"
@@ -13,9 +14,6 @@
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-constexpr double millimetre = 1e-3;
 
 bool same(const std::string& lower, const std::string& written) { return lower == lower_case(written); }
 

@@ -7,14 +7,13 @@
 #include <numbers>
 #include <set>
 
+#include "pipeline/base/constants.h"
 #include "sim/program/interpreter/arc.h"
 #include "sim/program/interpreter/request.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// What a move of the language takes, in order, and what holds where it is left out (script manual).
 struct Signature {

@@ -1,8 +1,8 @@
 // The force of a cable from its strain: closed forms of one wire, and the thesis' cable by hand.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/cable_force.h"
 #include "pipeline/cable/cable_pulls.h"
@@ -13,8 +13,6 @@ using namespace dresslife;
 using pipeline::CableForce;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 pipeline::Dresspack copper_only() {
   pipeline::Dresspack dresspack;

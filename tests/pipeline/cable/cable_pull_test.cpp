@@ -2,19 +2,20 @@
 #include "pipeline/cable/cable_pull.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/cable_force.h"
 #include "pipeline/cable/plain_properties.h"
 #include "tests/catch.h"
 #include "tests/pipeline/cable/space_curve.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, modulus = 117e9, rounding = 1e-12;
+constexpr double modulus = 117e9, rounding = 1e-12;
 
 Dresspack copper_only() {
   Dresspack dresspack;

@@ -2,16 +2,14 @@
 #include "pipeline/cable/corrugation.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 
 using namespace dresslife;
 using namespace dresslife::pipeline;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 pipeline::Dresspack hose(double pitch, double height, double wall) {
   pipeline::Dresspack dresspack;

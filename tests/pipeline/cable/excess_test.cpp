@@ -3,8 +3,8 @@
 #include "pipeline/cable/excess.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/room.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
@@ -12,12 +12,11 @@
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 using Catch::Matchers::Contains;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// A power cable in the middle of a ring of others, which leave it `gap` of room.
 Dresspack hose(double gap, double slack_percent) {

@@ -3,15 +3,15 @@
 #include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 #include "tests/pipeline/cable/space_curve.h"
 
+using namespace dresslife;
 using namespace dresslife::helices;
 using dresslife::pipeline::Kinematics;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 struct State {
   double elongation, curvature1, curvature2, twist;

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 Dresspack dresspack_of(int count, double radius_mm, double helix_radius_mm, double lay_angle_deg) {
   Component cable, conductor;

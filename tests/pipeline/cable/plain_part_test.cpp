@@ -2,8 +2,8 @@
 #include "pipeline/job/plain_part.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/cable_force.h"
 #include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/stiffness.h"
@@ -13,12 +13,11 @@
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 using Catch::Contains;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 std::string refusal(const std::vector<std::string>& sets) {
   return message_of([&] { job_from(parse_yaml(sample_job, "job.yaml"), sets); });

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
@@ -14,12 +14,12 @@
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 using Catch::Contains;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
 constexpr double copper_modulus = 117e9;
 
 Component wires(int count, double radius, double helix_radius, double lay_angle, Hand hand = Hand::right) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 #include "tests/pipeline/files/library.h"
 #include "tests/pipeline/scratch.h"
@@ -18,7 +19,6 @@ namespace dresslife::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A format with every type, a trailing axis, an axis plus one, text and optional parts.
 Format sample_format() {

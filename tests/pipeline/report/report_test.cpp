@@ -1,10 +1,10 @@
 #include "pipeline/report/report.h"
 
 #include <chrono>
-#include <limits>
 #include <regex>
 #include <set>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/ownership.h"
 #include "pipeline/report/life_charts.h"
 #include "pipeline/report/plot.h"
@@ -15,7 +15,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A job's section without its settings: the charts of a history of any length.
 constexpr std::size_t largest_section = 150'000;
 

@@ -1,8 +1,7 @@
 // Names of the catalogue, `from: NAME`, and --set.
 #include <fmt/format.h>
 
-#include <numbers>
-
+#include "pipeline/base/constants.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
@@ -12,8 +11,6 @@
 
 namespace dresslife::pipeline {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A line of the sample job taken out, so that a catalogue entry can stand in its place.
 std::string block_of(const std::string& from, const std::string& to) {

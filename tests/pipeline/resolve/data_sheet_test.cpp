@@ -4,20 +4,20 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/job/dresspack.h"
 #include "pipeline/settings/fields.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 
 namespace {
 
 constexpr double straight = std::numeric_limits<double>::infinity();
-constexpr double pi = std::numbers::pi;
 
 int count_of(const std::vector<CoreRing>& rings) {
   int count = 0;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
 #include "tests/catch.h"
@@ -14,8 +14,6 @@
 
 namespace dresslife::pipeline {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 Job job_of_text(const std::string& text, const std::vector<std::string>& sets = {}) {
   return job_from(parse_yaml(text, "job.yaml"), sets);

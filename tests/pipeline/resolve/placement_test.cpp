@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
@@ -14,12 +14,11 @@
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 using Catch::Matchers::Contains;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Least room between any two parts, and between them and the bore and the core [m].
 double least_room(const std::vector<double>& radii, const std::vector<PlacedPart>& places, double bore,

@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/resolve/radians.h"
 #include "tests/catch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 MotionStep move_to(std::vector<double> degrees) {
   MotionStep step;

@@ -9,6 +9,7 @@
 #include <regex>
 #include <sstream>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/life/first_failure.h"
 #include "tests/catch.h"
@@ -17,8 +18,6 @@
 
 namespace dresslife::pipeline {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 JobResult job_with(const Scratch& scratch, const std::string& name, const SampleLife& life) {
   write_sample_life(scratch / (name + ".h5"), life);

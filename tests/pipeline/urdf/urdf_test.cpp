@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
@@ -19,7 +20,6 @@ namespace {
 
 using tests::palletizer;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double rounding = 1e-12;  // a few products of numbers about 1
 
 UrdfRequest request(const std::string& file = "palletizer.urdf") {

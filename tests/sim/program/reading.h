@@ -5,16 +5,14 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "pipeline/base/constants.h"
 #include "sim/program/import.h"
 
 namespace dresslife::tests {
-
-inline constexpr double degree = std::numbers::pi / 180;
 
 using Files = std::vector<std::pair<std::string, std::string>>;  ///< name, text
 

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
@@ -11,7 +11,6 @@ using namespace dresslife::tests;
 namespace {
 
 constexpr double rounding = 1e-12;  // of a few products of numbers near 1
-constexpr double pi = std::numbers::pi;
 
 Reading run(const std::string& text, const ImportOptions& options = {}) {
   return Reader{Language::urscript, options}({{"s.script", text}});

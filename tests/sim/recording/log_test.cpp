@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "sim/recording/log_motions.h"
 #include "sim/recording/log_study.h"
 #include "sim/recording/log_time.h"
@@ -18,7 +19,6 @@ using Catch::Contains;
 using pipeline::message_of;
 using pipeline::Scratch;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double bound = 0.1 * degree;
 
 pipeline::Robot two_axes() {

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/reprogram/patched_program.h"
 #include "tests/catch.h"
@@ -88,7 +89,6 @@ TEST_CASE(
   REQUIRE(points.size() == 2);
   const std::vector<double> arm{30, 0, 20, 20, 40, 0}, wrist{0, -10, 10, -40, 30, 60};
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    constexpr double degree = 0.017453292519943295;
     CHECK(points["by a point: axes 1 to 3 first"][axis] == Approx(degree * arm[axis]).margin(1e-12));
     CHECK(points["by a point: axes 4 to 6 first"][axis] == Approx(degree * wrist[axis]).margin(1e-12));
   }

@@ -1,9 +1,9 @@
 #include "sim/robot/inverse_kinematics.h"
 
 #include <Eigen/Geometry>
-#include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/job/robot.h"
 #include "tests/catch.h"
 
@@ -12,7 +12,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double pi = std::numbers::pi;
 constexpr double pose_rounding = 1e-11;  // metres and quaternion parts after a dozen turns of 3 m
 constexpr double joint_rounding = 1e-7;  // [rad]: acos near its ends halves the digits
 

@@ -1,7 +1,6 @@
 #include "sim/robot/legs.h"
 
-#include <numbers>
-
+#include "pipeline/base/constants.h"
 #include "sim/robot/inverse_kinematics.h"
 #include "sim/robot/motion.h"
 #include "sim/robot/tool_path.h"
@@ -15,7 +14,6 @@ namespace {
 using Eigen::VectorXd;
 using pipeline::PathKind;
 
-constexpr double pi = std::numbers::pi;
 /// [rad/s, rad/s2] Roundings of 1e-16 in angles of up to 10 rad, divided by the shortest times, some ms, once
 /// or twice.
 constexpr double limit_margin = 1e-9;

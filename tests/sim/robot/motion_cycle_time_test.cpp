@@ -4,10 +4,10 @@
 // M2). A move of L from rest to rest at the speed c takes L/c + c/A, or 2 sqrt(L/A) where it never gets to c
 // (L < c^2/A).
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "sim/program/import.h"
 #include "sim/robot/inverse_kinematics.h"
 #include "sim/robot/motion.h"
@@ -17,7 +17,6 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double closed_form = 1e-9;  // of seconds, where the hand has the program's own formula
 /// Where the hand neglects how fast axes let a tool speed up: some hundredths of a second at each of the
 /// stops that lie a second or more apart.

@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/urdf_request.h"
 #include "pipeline/settings/fields.h"
@@ -21,8 +22,6 @@ namespace dresslife::sim {
 namespace {
 
 using Eigen::VectorXd;
-
-constexpr double degree = std::numbers::pi / 180;
 
 pipeline::Robot shipped(const std::string& name) {
   pipeline::Robot robot;

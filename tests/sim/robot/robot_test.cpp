@@ -1,15 +1,14 @@
 #include "sim/robot/robot.h"
 
 #include <Eigen/Geometry>
-#include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 
 namespace dresslife::sim {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 /// Lengths of up to 3 m times some ten roundings of 1e-16.
 constexpr double rounding = 1e-14;
 

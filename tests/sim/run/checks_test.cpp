@@ -1,15 +1,12 @@
 #include "sim/run/checks.h"
 
-#include <numbers>
-
+#include "pipeline/base/constants.h"
 #include "sim/run/simulate.h"
 #include "tests/catch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 const Check& find(const std::vector<Check>& checks, const std::string& name) {
   for (const Check& check : checks)

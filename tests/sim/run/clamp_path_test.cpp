@@ -1,14 +1,12 @@
+#include "pipeline/base/constants.h"
 #include "sim/run/clamp_path.h"
 #include "pipeline/job/job.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
-#include <numbers>
-
 namespace dresslife::sim {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 /// Some tens of roundings of numbers near 1.
 constexpr double rounding = 1e-13;
 

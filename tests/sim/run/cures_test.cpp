@@ -2,9 +2,9 @@
 #include "sim/run/cures.h"
 
 #include <cstdio>
-#include <numbers>
 #include <optional>
 
+#include "pipeline/base/constants.h"
 #include "sim/run/quick_checks.h"
 #include "sim/run/simulate.h"
 #include "tests/catch.h"
@@ -12,8 +12,6 @@
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double pi = std::numbers::pi, degree = pi / 180;
 
 std::string words_of(const pipeline::Job& job, pipeline::WarningKind kind) {
   const Simulation simulation(job);

@@ -1,16 +1,14 @@
 #include "sim/run/periodic.h"
 
-#include <numbers>
 #include <thread>
 
+#include "pipeline/base/constants.h"
 #include "sim/run/simulate.h"
 #include "tests/catch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// The state at the begin of every repeat but the one that leads in and, last, at the end; and the last
 /// repeat's samples.

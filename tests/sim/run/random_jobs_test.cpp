@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/run/simulate.h"
@@ -14,8 +14,6 @@
 
 namespace dresslife::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 class Chance {
  public:

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/run/simulate.h"
@@ -17,8 +17,6 @@ using namespace dresslife;
 using namespace dresslife::sim;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// A spindle about x, 1 m above the floor, that turns or, with `axis`, does something else; the clamps lie
 /// along x.

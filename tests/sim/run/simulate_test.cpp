@@ -1,9 +1,9 @@
 #include "sim/run/simulate.h"
 
 #include <fstream>
-#include <numbers>
 #include <optional>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/simple_job.h"
@@ -11,7 +11,6 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 /// [m] Contact holds speeds, so the hose may sink in a little: less than the wall of a real one gives.
 constexpr double deepest_overlap = 1e-3;
 

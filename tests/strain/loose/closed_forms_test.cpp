@@ -1,17 +1,17 @@
 // A loose cable against what is known in closed form.
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 #include "tests/strain/loose/hoses.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using dresslife::strain::test::hose;
 using dresslife::strain::test::signal_cable;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double step = 0.04;  // between samples [s]
 
 double largest_offset(const CableState& state, int direction) {

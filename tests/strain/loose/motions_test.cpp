@@ -2,20 +2,20 @@
 // for.
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <random>
 
+#include "pipeline/base/constants.h"
 #include "strain/loose/rings.h"
 #include "tests/catch.h"
 #include "tests/strain/loose/hoses.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using dresslife::strain::test::hose;
 using dresslife::strain::test::signal_cable;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double step = 0.04;  // between samples [s]
 
 /// A hose on a robot's arm, `turn` of its cycle on: an arch that leans over and twists.

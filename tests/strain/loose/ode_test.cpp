@@ -6,19 +6,20 @@
 // distance from the axis over the bend's radius (2 %), and no torsion of the cables, which the first test
 // measures. Walls give alike in both.
 #include <cmath>
-#include <numbers>
 
+#include "pipeline/base/constants.h"
 #include "strain/loose/rings.h"
 #include "tests/catch.h"
 #include "tests/strain/loose/hoses.h"
 #include "tests/strain/loose/ode_cables.h"
 
+using namespace dresslife;
 using namespace dresslife::strain;
 using namespace dresslife::strain::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, length = 1;
+constexpr double length = 1;
 constexpr std::size_t elements = 128;
 constexpr int segments = 32, poses = 10;
 

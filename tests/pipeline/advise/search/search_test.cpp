@@ -5,8 +5,10 @@
 #include "pipeline/advise/search/minimise.h"
 #include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
+#include "pipeline/base/constants.h"
 #include "tests/catch.h"
 
+using namespace dresslife;
 using namespace dresslife::pipeline;
 using Eigen::VectorXd;
 
@@ -59,7 +61,6 @@ Problem g24() {
           }};
 }
 Problem g08() {
-  constexpr double pi = 3.14159265358979323846;
   return {"g08",
           vector_of({0.1, 0.1}),
           vector_of({10, 10}),
