@@ -586,7 +586,7 @@ TEST_CASE("life.h5: the damage is shared out among the joints and told by clamp"
   const Folder folder;
   pipeline::Job job = test_job();
   for (int k = 0; k < 3; ++k)
-    job.robot.joints.push_back({"axis " + std::to_string(k + 1), {}, {}, {}, 0, 0, 0, 0, {}, 1, 0, {}});
+    job.robot.joints.push_back({"axis " + std::to_string(k + 1), {}, {}, {}, 0, 0, 0, 0, {}, 1, 0, {}, {}});
   for (int k = 0; k < 4; ++k) job.robot.links.push_back({"link " + std::to_string(k), {}, {}, {}});
   job.dresspacks[0].routing.base_clamp.emplace().link = "link 1";
   job.dresspacks[0].routing.tool_clamp.emplace().link = "link 3";

@@ -19,7 +19,7 @@ struct SampleLife {
   bool causes = false;    ///< whether it has the damage by joint
   double hose_hours = 0;  ///< until the hose's wall cracks; 0: it is not evaluated
   std::string unvalidated{};  ///< unvalidated_text(); empty: as of an older file
-  std::string wall_response;  ///< empty: no wall
+  std::string wall_response{};  ///< empty: no wall
   double planned_hours =
       0;  ///< until 10 % have a conductor without its share of wires at one place; 0: as of an older file
   double robot_life_hours = 0;  ///< fatigue.robot_life_hours; 0: no robot moves
