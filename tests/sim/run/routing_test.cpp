@@ -394,7 +394,7 @@ TEST_CASE("routing: bend reliefs stiffen the links beside their clamps, on both 
   for (int link = 0; link < 42; ++link) CHECK(rod.turn_stiffness(link)[2] == bare.turn_stiffness(link)[2]);
 }
 
-TEST_CASE("routing: a bend relief bends less; without length or stiffness it changes no bit") {
+TEST_CASE("routing: a bend relief lessens the bend, and changes no bit without length or stiffness") {
   const auto routing = [](const std::string& relief) {
     return "  free_length_m: 1.3\n"
            "  base_clamp: {link: bench, position_m: [0, 0, 1], direction: [1, 0, 0.8]" + relief + "}\n"
