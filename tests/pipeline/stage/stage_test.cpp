@@ -303,7 +303,7 @@ TEST_CASE("stage: an output with a receipt is made again when its settings, its 
   CHECK_FALSE(runs());
 }
 
-TEST_CASE("stage: an input that changes meanwhile is refused, also one whose size and time stay; another name of it is not") {
+TEST_CASE("stage: an input that changes meanwhile is refused, also one whose size and time stay, and another name of it is not") {
   const Scratch scratch;
   const auto job = scratch.write("job.yaml", sample_job), input = scratch / "in.h5";
   write_still_motion(input, 2, 2, [](FileWriter&) {});
