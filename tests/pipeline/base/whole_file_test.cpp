@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <thread>
@@ -170,6 +171,29 @@ TEST_CASE("file state: after a tick of the clock every change shows, whatever ti
   }
   CHECK_FALSE(state_of(scratch / "absent").exists());
   CHECK_FALSE(state_of(scratch / ".").exists());
+}
+
+TEST_CASE("plain file: 64 GiB are read, more are refused, and no free descriptor is the machine's fault") {
+  const Scratch scratch;
+  const fs::path file = scratch.write("a", "one");
+  constexpr std::uintmax_t largest = std::uintmax_t{64} << 30;  // without blocks on the disk
+  fs::resize_file(file, largest);
+  CHECK_NOTHROW(PlainFile(file));
+  fs::resize_file(file, largest + 1);
+  CHECK_THROWS_AS(PlainFile(file), InputError);
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
+  const rlimit none{0, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &none) == 0);
+  bool machine = false;
+  try {
+    PlainFile{file};
+  } catch (const DiskError&) {
+    machine = true;
+  } catch (const std::exception&) {
+  }
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  CHECK(machine);
 }
 
 TEST_CASE("shown text: nothing in it acts on a terminal or turns the text around it") {

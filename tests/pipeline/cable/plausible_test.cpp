@@ -83,6 +83,19 @@ TEST_CASE("plausible: tubes whose bore or radius is half or twice what it should
   CHECK_THAT(words(4, 0.0055), Catch::Contains("bore_mm: 5.5 if that was metres"));
 }
 
+TEST_CASE("plausible: friction of the hose and of a part, up to the limit that is printed") {
+  for (const auto& [friction, doubts] : {std::pair{0.0, 0u}, {1.0, 0u}, {1.5, 0u}, {1.51, 1u}, {15.0, 1u}}) {
+    CAPTURE(friction);
+    Dresspack hose = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/handling.yaml"), part = hose;
+    hose.friction = part.components[1].friction.emplace(friction);
+    for (const Dresspack& of : {hose, part}) {
+      const auto warnings = plausibility_warnings(of);
+      REQUIRE(warnings.size() == doubts);
+      if (doubts) CHECK_THAT(warnings[0].words, Catch::Contains("(limit 1.5)"));
+    }
+  }
+}
+
 TEST_CASE("plausible: slack as a share") {
   Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/handling.yaml");
   for (const auto& [percent, doubts] : {std::pair{0.0, 0u}, {0.01, 1u}, {0.049, 1u}, {0.051, 0u}, {1.0, 0u}}) {

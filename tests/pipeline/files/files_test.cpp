@@ -531,6 +531,19 @@ TEST_CASE("files: bytes changed anywhere in a file without checksum are refused 
   CHECK(refused > 100);
 }
 
+TEST_CASE("files: an axis plus one may be read before the axis itself") {
+  const Scratch scratch;
+  Format format{"dresslife-sample", 2, "dresslife-maker", "tests", {}, {}};
+  format.datasets = {{"/offset", Type::u64, {"site+1"}, "1", ""}, {"/site", Type::f64, {"site"}, "1", ""}};
+  FileWriter writer(scratch / "a.h5", format);
+  writer.append("/offset", std::span<const std::uint64_t>(std::vector<std::uint64_t>{0, 1, 3}));
+  writer.append("/site", std::span<const double>(std::vector<double>{5, 6}));
+  writer.commit();
+  FileReader reader(scratch / "a.h5", format);
+  CHECK(reader.read<std::uint64_t>("/offset") == std::vector<std::uint64_t>{0, 1, 3});
+  CHECK(reader.read<double>("/site") == std::vector<double>{5, 6});
+}
+
 TEST_CASE("files: a file that does not keep its contract is refused, naming the dataset") {
   const Format right = sample_format();
   const std::string remedy = "; make the file again with dresslife-maker, then run again";

@@ -126,11 +126,29 @@ TEST_CASE("fields: the ends of a range are in it, and what lies beyond is refuse
            {"shar: 1", "did you mean 'share'?"},
            {"angle: 1", "its unit is deg, write 'angle_deg'"},
            {"share_kg: 1", "this key carries no unit, write 'share'"},
+           {"mass_lb: 1", "did you mean 'mass_kg'? Its unit is kg"},
+           {"share_x: 1", "did you mean 'share'?\n"},
            {"unlike_anything: 1", "keys here: name, share"}})
-    CHECK_THAT(refusal(keys), Catch::Contains(words));
+    CHECK_THAT(refusal(keys) + "\n", Catch::Contains(words));
   // All at once, each at its line.
   CHECK_THAT(refusal("share: 2\ncount: 0\n"),
              Catch::Contains("file.yaml:2:8") && Catch::Contains("file.yaml:3:8"));
+}
+
+TEST_CASE("fields: a wire gauge is answered with its section where a section is asked for, a word without digits is not") {
+  double section = 1, length = 1;
+  const Describe wire = [&](Fields& f) {
+    f.number("section_mm2", section, Need::optional, above(0), "The section.");
+    f.number("length_mm", length, Need::optional, above(0), "The length.");
+  };
+  const auto refused = [&](const std::string& keys) {
+    return message_of([&] { read_fields(parse_yaml(keys, "file.yaml"), wire); });
+  };
+  // AWG 36 is 0.127 mm wide by definition.
+  for (const char* gauge : {"AWG 36", "awg 36", "AWG36"})
+    CHECK_THAT(refused(std::string("section_mm2: ") + gauge), Catch::Contains("write 0.01267 for AWG 36; give "));
+  for (const char* none : {"section_mm2: AWG", "section_mm2: gauge 36", "length_mm: AWG 36"})
+    CHECK_THAT(refused(none), Catch::Contains("must be a number") && !Catch::Contains("for AWG"));
 }
 
 TEST_CASE("fields: a range in words holds what it says") {

@@ -1,8 +1,13 @@
 #include "pipeline/stage/stage.h"
 
+#include <fcntl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdio>
 #include <functional>
+#include <thread>
 
 #include "pipeline/base/digest.h"
 #include "pipeline/base/installation.h"
@@ -266,6 +271,86 @@ TEST_CASE("stage: the warnings of an output that is kept are printed again") {
   CHECK(second.status == 0);
   CHECK_FALSE(second.ran);
   CHECK_THAT(second.errors, Catch::Contains("the hose swings"));
+}
+
+TEST_CASE("stage: an output with a receipt is made again when its settings, its input or itself changed, and else not") {
+  const Scratch scratch;
+  const auto job = scratch.write("job.yaml", sample_job).string(), note = (scratch / "note").string(),
+             input = (scratch / "in.h5").string(), output = (scratch / "out.h5").string();
+  const auto make = [](const std::filesystem::path& file, std::size_t segments) {
+    write_still_motion(file, segments, 2, [](FileWriter& writer) { writer.attribute("warnings", ""); });
+  };
+  StageInfo stage = info;
+  stage.part = JobPart::sim;
+  const auto runs = [&](const std::string& set = "simulation.segments=20") {
+    const Outcome of = run({input, "-o", output, "--job", job, "--receipt", note, "--set", set},
+                           [&](const StageCall&) { make(output, 2); }, stage);
+    CHECK(of.status == 0);
+    return of.ran;
+  };
+  make(input, 2);
+  CHECK(runs());
+  CHECK_FALSE(runs());
+  CHECK(runs("simulation.segments=21"));
+  CHECK(runs());
+  make(scratch / "other.h5", 3);
+  std::filesystem::rename(scratch / "other.h5", input);
+  CHECK(runs());
+  make(output, 3);
+  CHECK(runs());
+  std::filesystem::remove(note);
+  CHECK(runs());
+  CHECK_FALSE(runs());
+}
+
+TEST_CASE("stage: an input that changes meanwhile is refused, also one whose size and time stay, and another name of it is not") {
+  const Scratch scratch;
+  const auto job = scratch.write("job.yaml", sample_job), input = scratch / "in.h5";
+  write_still_motion(input, 2, 2, [](FileWriter&) {});
+  StageInfo stage = info;
+  stage.part = JobPart::sim;
+  const auto status = [&](const std::function<void()>& change) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // two ticks of the slowest clock of file times
+    std::filesystem::remove(scratch / "note");
+    return run({input.string(), "-o", (scratch / "out.h5").string(), "--job", job.string(), "--receipt", (scratch / "note").string()},
+               [&](const StageCall& call) {
+                 write_still_motion(call.output, 2, 2, [](FileWriter&) {});
+                 change();
+               },
+               stage)
+        .status;
+  };
+  const auto rewrite = [&](const std::filesystem::path& file, const std::string& text) {
+    const auto time = std::filesystem::last_write_time(file);
+    scratch.write(file.filename().string(), text);
+    std::filesystem::last_write_time(file, time);
+  };
+  CHECK(status([] {}) == 0);
+  CHECK(status([&] { std::filesystem::create_hard_link(input, scratch / "second.h5"); }) == 0);
+  CHECK(status([&] { rewrite(job, edited(sample_job, "listed_sites: 3", "listed_sites: 4")); }) == 1);
+  std::string damaged = bytes_of(input);
+  damaged.back() ^= 1;
+  CHECK(status([&] { rewrite(input, damaged); }) == 1);
+}
+
+TEST_CASE("stage: what was printed and is lost is an error with its reason, also where a library printed it") {
+  for (const auto& [device, expected] : {std::pair{"/dev/null", 0}, {"/dev/full", 1}}) {
+    Captured errors(STDERR_FILENO);
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      ::dup2(::open(device, O_WRONLY), STDOUT_FILENO);
+      std::setvbuf(stdout, nullptr, _IONBF, 0);  // it fails here, and there is nothing left to flush
+      std::fputs("lost", stdout);
+      ::_exit(finish_output(0));
+    }
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    CHECK(WEXITSTATUS(status) == expected);
+    CHECK(errors.text() == (expected == 0 ? ""
+                                          : "standard output: error: cannot be written (No space left on device); free space or "
+                                            "name another place\n"));
+  }
 }
 
 TEST_CASE("stage: progress stays off what is no terminal, notes do not unless quiet") {

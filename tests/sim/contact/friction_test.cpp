@@ -37,3 +37,31 @@ TEST_CASE("a hose on a slope slides alike in every direction of the slope") {
     CHECK((rubbing + friction * pressing * down).norm() < tolerance * pressing);
   }
 }
+
+TEST_CASE("a hose that is lifted while it slides leaves its friction on the floor") {
+  // Along the first and the second tangent of the floor: the other friction is 0 to the bit.
+  for (const Vector3& along : {Vector3(1, 0, 0), Vector3(0, 1, 0)}) {
+    CAPTURE(along.transpose());
+    const double friction = 0.3;
+    RodProperties p = hose(8, 0.4);
+    p.tool_end = End::free;
+    const Rod rod(p);
+    WorldSettings settings;
+    settings.floor = true;
+    settings.friction = friction;
+    const Frame base{{0, 0, p.diameter / 2}, turn_between(Vector3::UnitZ(), along)};
+    World world(rod, settings, rod.straight(base));
+    bool released = false;
+    for (int k = 1; k <= 200; ++k) {
+      const double t = k * settings.time_step;
+      ClampFrames clamps{base, base};
+      clamps.base.position += 0.2 * smooth(t / 0.25) * along + Vector3(0, 0, 0.3 * smooth((t - 0.25) / 0.5));
+      REQUIRE(world.advance(clamps).finite);
+      for (const Contact& c : world.contacts()) {
+        released |= c.normal_force == 0;
+        CHECK(c.friction_force.norm() <= friction * c.normal_force * (1 + 1e-9));
+      }
+    }
+    CHECK(released);
+  }
+}

@@ -263,10 +263,10 @@ TEST_CASE("log: columns, times, unit and ranges are stated, and columns that fit
 }
 
 TEST_CASE("log: radians under names in degrees, and times in another unit, have a remedy that works") {
-  const auto text_of = [](double size, double step, const char* time) {
+  const auto text_of = [](double size, double step, const char* time, double least = 0) {
     std::string text = fmt::format("{},J1_deg,J2_deg\n", time);
     for (int k = 0; k < 200; ++k)
-      text += fmt::format("{:.6f},{:.5f},{:.5f}\n", step * k, size * (1 - std::cos(0.1 * k)),
+      text += fmt::format("{:.6f},{:.5f},{:.5f}\n", step * k, least + size * (1 - std::cos(0.1 * k)),
                           size * std::sin(0.1 * k));
     return text;
   };
@@ -279,6 +279,7 @@ TEST_CASE("log: radians under names in degrees, and times in another unit, have 
   CHECK_THAT(words(radians), Contains("no angle of the log is larger than 1.6 deg (limit 6.28 or more)") &&
                                  Contains("--value unit=rad"));
   CHECK_THAT(words(radians, {.unit = "rad", .still = bound}), !Contains("warning"));
+  CHECK_THAT(words(text_of(0.04, 0.1, "time_s", 3)), !Contains("radians"));  // a robot that stands at 3 deg, with noise
   const std::string short_times = text_of(30, 0.1, "time_ms");  // seconds under a name in ms
   CHECK_THAT(words(short_times),
              Contains("an axis turns") &&

@@ -5,9 +5,11 @@
 #include <map>
 #include <set>
 
+#include "pipeline/arm/other_turns.h"
 #include "pipeline/base/constants.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/reprogram/patched_program.h"
+#include "sim/robot/legs.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
@@ -110,4 +112,36 @@ TEST_CASE("program ways: a line that runs again and again is changed for all of 
   std::size_t slow = 0;
   for (const MotionStep& step : made.motion.steps) slow += step.speed_percent == 30.0;
   CHECK(slow == 4);
+}
+
+TEST_CASE("program ways: a turn leads all moves to the same poses by its angles, in the words of each maker") {
+  for (const auto& [program, robot] : {std::pair{"side_panel.mod", "abb_irb6640_185_280"},
+                                       {"pick_and_place.src", "kuka_kr16_2"},
+                                       {"frame_weld.ls", "fanuc_m20ia"}}) {
+    INFO(program);
+    Job job = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml", {std::string("robot=") + robot});
+    job.motion.program = std::string(DRESSLIFE_SOURCE_DIR "/config/programs/") + program;
+    const ReadProgram read = read_job_program(job);
+    constexpr double digits = 1e-5 * degree;  // of angles that are written into a line
+    const auto angles = [&](const Motion& motion) {
+      Eigen::VectorXd accelerations = Eigen::VectorXd::Ones(6);
+      return legs_of(motion, job.robot, accelerations).targets;
+    };
+    const std::vector<Eigen::VectorXd> before = angles(read.motion);
+    std::size_t turned = 0;
+    for (const ProgramWay& way : program_ways(job, read, std::vector<double>(read.motion.steps.size(), 1.0), 0))
+      for (const NamedTurn& turn : other_turns(job.robot)) {
+        if (way.what != turn.name) continue;
+        INFO(turn.name);
+        ++turned;
+        const std::vector<Eigen::VectorXd> after = angles(patched(job, read, way).motion);
+        REQUIRE(after.size() == before.size());
+        for (std::size_t k = 0; k < after.size(); ++k) {
+          const auto expected = turn.turn({before[k].data(), before[k].data() + 6});
+          REQUIRE(expected);
+          CHECK((after[k] - Eigen::Map<const Eigen::VectorXd>(expected->data(), 6)).norm() < digits);
+        }
+      }
+    CHECK(turned > 0);
+  }
 }

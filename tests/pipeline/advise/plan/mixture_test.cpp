@@ -117,6 +117,21 @@ TEST_CASE("the first of two modes decides in each sample, and programs may wear 
   CHECK(lives_with(duty, {1, 0}, {1, 1})[1] == Approx(1e5).epsilon(1e-4));
 }
 
+TEST_CASE("the damage of each mode is that at its own places") {
+  // Both programs wear one place of the first mode. Each wears a place of its own of the second mode, which fails first.
+  const auto with_places = [](const std::string& name, double one, double other) {
+    WireDamage wires = wires_of({{1}, {one}, {other}});
+    wires.mode = {0, 1, 1}, wires.failing = {1, 1, 1};
+    return EvaluatedProgram{name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(7, "wires of one"), mode_of(5, "wires of other")}),
+                            std::make_shared<const WireDamage>(std::move(wires))};
+  };
+  const DutyDamage duty = damage_under({with_places("first", 1, 0), with_places("second", 0, 1)}, {{1, 0}, {1, 0}}, "", many);
+  REQUIRE(duty.same_place[0] == Approx(1).epsilon(rounding));
+  REQUIRE(duty.same_place[1] == Approx(0.5).epsilon(rounding));
+  CHECK(lives_under(duty).percentiles[1] == Approx(1e5).epsilon(1e-4));
+  CHECK(lives_with(duty, {1, 1}, duty.same_place)[1] == Approx(1e5).epsilon(1e-4));
+}
+
 TEST_CASE("the remaining life is the life without the past, of the dresspacks that have survived it") {
   const DutyDamage duty = damage_under({program("a", 5, first_place)}, {{10, 0}}, "", many);
   const DutyDamage idle = damage_under({program("a", 5, first_place)}, {{0, 0}}, "", many);

@@ -311,6 +311,8 @@ TEST_CASE("a history counts as hours of today's duty that wear a dresspack as mu
   // 56 days, of which the second dresspack has had the last 14: of 28 in all.
   is(ages({days}, 0), 12 * week + 4 * 8 * 2 * week, 2 * 35 + 4 * 2 * 35);
   is(ages({hours, days}, 0), 12 * week - 100 + 4 * (100 + 8 * 2 * week), 4 * 4 * 35);
+  days.from = day_text(start - std::chrono::days(140)), days.to = day_text(start - std::chrono::days(1));  // all days
+  is(ages({days}, 0), 4 * 20 * 2 * week, 4 * 4 * 35);
   hours.hours = 200;  // more than the second one has run: all of it
   is(ages({hours}, 1), 20 * week - 200 + 4 * 200, 4 * 140);
   hours.duty = "d";
