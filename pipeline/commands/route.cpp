@@ -54,8 +54,7 @@ struct RouteOptions : RunOptions {
   std::string ring, job, scale = "1";
   bool keep = false;
   int tried = 400, rehearsals = 160, seed = 1;
-  double off_mm = 10;
-  std::optional<double> off_deg, bracket_mm;
+  std::optional<double> off_mm, off_deg, bracket_mm;
 };
 
 /// One search and what became of its routings.
@@ -128,6 +127,11 @@ void run(Trial& trial, std::size_t k, const std::string& which, const Draft& dra
   if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best], trial.as_it_is())) trial.best = k;
 }
 
+/// Twenty-four more runs of each routing say nothing where the motion is no program of the user.
+MountingTolerance tolerance_for(const Draft& draft, const RouteOptions& options) {
+  return tolerance_of(options.off_mm.value_or(draft.exercise ? 0 : 1e3 * MountingTolerance{}.off), options.off_deg);
+}
+
 /// The feasible ones judged within the mounting tolerance.
 void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const StudyPlaces& places,
            const FilesAtStart& files) {
@@ -144,7 +148,7 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
         routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
     Finalist finalist{trial.outcomes[k],
                       nudges_of({{"place", std::make_shared<const Job>(job_from(document)), ""}},
-                                tolerance_of(options.off_mm, options.off_deg)),
+                                tolerance_for(draft, options)),
                       {}};
     finalist.run = [&, k, document, nudges = finalist.nudges](std::size_t first, std::size_t count) {
       Study study{draft.name, {}, Keep::lives};
@@ -194,7 +198,7 @@ Trial tried(const Draft& draft, const RouteOptions& options, double factor, cons
   }
   trial.outcomes.resize(trial.proposals.candidates.size());
   trial.rows.resize(trial.proposals.candidates.size());
-  const bool tolerance = !tolerance_of(options.off_mm, options.off_deg).none();
+  const bool tolerance = !tolerance_for(draft, options).none();
   const std::size_t found = trial.start.value_or(trial.outcomes.size());
   std::vector<std::size_t> to_run;
   for (std::size_t k = 0; k < found; ++k)
@@ -318,7 +322,8 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
         "This is not for {} as it is but for one of the same make at {:.0f} % of its size, {:.0f} mm wide\n",
         dresspack.name, 100 * trial.factor, 1e3 * dresspack.diameter * trial.factor);
   if (draft.exercise)
-    text += "No program was given: the wrist was only moved about. Look again with yours.\n";
+    text += fmt::format("No program was given: the wrist was only moved about{}. Look again with yours.\n",
+                        tolerance.none() ? ", and no mounting tolerance was tried" : "");
   if (best.feasible()) {
     text += "It keeps all limits in a run.\n";
   } else {
@@ -356,7 +361,8 @@ int route(const RouteOptions& options) {
   // 45 s for the default numbers, measured on a busy machine with a job of 64 segments.
   if (!options.quiet)
     tell(fmt::format("Checks {} routings by geometry and the best of them in {} short runs, for each size. This takes about a minute. "
-                     "Runs with their remaining time follow.\n", options.tried, options.rehearsals));
+                     "Runs with their remaining time follow{}.\n", options.tried, options.rehearsals,
+                     tolerance_for(draft, options).none() ? "" : "; the best three are tried up to 24 times with a clamp or length off, which takes most of the time (--off 0 leaves that out)"));
   if (kind_of(options.request.of) == FileKind::file) claim_folder(places.folder, options.request.of);
   const FilesAtStart files({std::make_shared<const Job>(draft.job)});
   std::optional<Trial> chosen, nearest;
@@ -400,7 +406,7 @@ int route(const RouteOptions& options) {
   write_text_if_changed(job, with_mark(text, Mark::yaml));
   write_page(job, page);
   if (of.best && !options.keep) remove_others(places.folder, of.rows[*of.best].job);
-  print(shown(of.best ? words_of(of, draft, tolerance_of(options.off_mm, options.off_deg))
+  print(shown(of.best ? words_of(of, draft, tolerance_for(draft, options))
                       : routing + "Only short runs tried it.\n"));
   print(shown(fmt::format("Job: {}\nPreview: {}\n", job.string(), page.string())));
   return of.feasible() && ended.empty() ? 0 : 1;
@@ -448,7 +454,7 @@ Command route_command() {
              {.range = {{0, 10'000}}}},
             {"--off",
              "MM",
-             "mounting tolerance of clamps and lengths; also tilts clamps by MM over 100 mm; the best routing within it wins; 0: none",
+             "mounting tolerance of clamps and lengths; also tilts clamps by MM over 100 mm; the best routing within it wins; 0: none; else 10, or none without a program",
              &options->off_mm,
              {.range = {{0, 1000}}}},
             {"--off-deg",

@@ -666,8 +666,12 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
         fmt::format("simulation.segments is {}: a segment is {:.3g} m long (limit {:.3g} m, the least bend radius)", segments,
                     segment, limit),
         "a number for a trial: the shape, the bends and the lives are wrong", "simulation.segments: 64");
+  // Small angles in radians or turns are eighths or halves of a turn; a search proposes any angle.
+  constexpr double rounded = 0.005;
+  const double number = routing.pre_twist / degree;
+  const bool simple = std::abs(std::remainder(number, pi / 4)) < rounded || std::abs(std::remainder(number, 0.5)) < 1e-9;
   if (const double twist = std::abs(routing.pre_twist);
-      (twist > 0 && twist < least_pre_twist) || twist > largest_pre_twist)
+      (twist > 0 && twist < least_pre_twist && simple) || twist > largest_pre_twist)
     add(routing.where,
         fmt::format("routing.pre_twist_deg is {:.4g} (limits {:.3g} .. {:g})", routing.pre_twist / degree,
                     least_pre_twist / degree, largest_pre_twist / degree),

@@ -36,12 +36,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// ", or 1200 if the comma separates thousands" for 1.200, written 1,200; else nothing.
+std::string thousands_words(const std::string& decimal, const std::string& whole) {
+  const bool may_be = decimal.size() - decimal.find('.') == 4 && decimal[0] != '0' && decimal.substr(0, 2) != "-0";
+  return may_be ? fmt::format(", or {} if the comma separates thousands", whole) : "";
+}
+
 /// "write 2.03 with a point; " for 2,03; else nothing.
 std::string decimal_comma_words(std::string text) {
   const std::size_t comma = text.find(',');
   if (comma == std::string::npos) return "";
+  const std::string whole = std::string(text).erase(comma, 1);
   text[comma] = '.';
-  return parse_number(text) ? fmt::format("write {} with a point; ", text) : "";
+  return parse_number(text) ? fmt::format("write {} with a point{}; ", text, thousands_words(text, whole)) : "";
 }
 
 /// "write 0.5189 for AWG 20; " where a section is a wire gauge; else nothing.
@@ -382,7 +389,8 @@ class FieldReader final : public Fields {
       if (const Entry* const before = &entry == &level.map->entries.front() ? nullptr : &entry - 1;
           before && entry.value.kind == Node::Kind::null && entry.key.find_first_not_of("0123456789") == std::string::npos &&
           !before->value.text.empty() && before->value.text.find_first_not_of("-0123456789") == std::string::npos)
-        likely = "", remedy = fmt::format("write '{}: {}.{}' with a decimal point", before->key, before->value.text, entry.key);
+        likely = "", remedy = fmt::format("write '{}: {}.{}' with a decimal point{}", before->key, before->value.text, entry.key,
+                                          thousands_words(before->value.text + '.' + entry.key, before->value.text + entry.key));
       misnamed.push_back(likely);
       problems_.add(entry.where, fmt::format("unknown key '{}'", path_of(entry.key)), remedy,
                     likely.empty() ? "" : path_of(likely));

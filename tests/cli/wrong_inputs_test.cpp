@@ -155,7 +155,7 @@ const Wrong wrong[] = {
     {"hose.yaml", "count: 4", "count: 4.5", "hose.yaml:13:12: error: ", "count is 4.5 (must be a whole number)", "; ", draw},
     {"hose.yaml", "count: 4\n", "count: 400\n", "hose.yaml:12:5: error: ", "the 400 parts 'lead' are 0.2199 mm apart", "give count: 10 or less", draw},
     // Spreadsheets, units and typing habits
-    {"job.yaml", "free_length_m: 2.035", "free_length_m: 2,035", "job.yaml:13:18: error: ", "'2,035' (must be a number", "write 2.035 with a point"},
+    {"job.yaml", "free_length_m: 2.035", "free_length_m: 2,035", "job.yaml:13:18: error: ", "'2,035' (must be a number", "write 2.035 with a point, or 2035 if the comma separates thousands"},
     {"job.yaml", "dwell_s: 0.5", "dwell_s: 0,5", "job.yaml:8:", "unknown key 'motion.steps[3].5'", "write 'dwell_s: 0.5' with a decimal point"},
     {"job.yaml", "free_length_m: 2.035", "free_length_m: \"2.035\"", "job.yaml:13:18: error: ", "'2.035' (must be a number", "; "},
     {"job.yaml", "position_m: [-0.1, 0", "position_m: [\xE2\x88\x92" "0.1, 0", "job.yaml:11:43: error: ", "(must be a number", "; "},

@@ -154,11 +154,12 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
 
 std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
   constexpr double worth_a_line = 1e-3;  // of the cost
+  constexpr double coin = 0.01;          // in any currency less is nothing
   constexpr std::size_t most = 3;
   std::string lines;
   std::size_t count = 0;
   for (const TestValue& test : tests) {
-    if (!(test.saves > worth_a_line * plan.cost) || ++count > most) break;
+    if (!(test.saves > std::max(coin, worth_a_line * plan.cost)) || ++count > most) break;
     const UncertainParameter& parameter = uncertain_parameters()[test.what.parameter];
     lines += fmt::format("  {:>9}  {}: {}{}\n", readable(test.saves), parameter.test, parameter.name,
                          test.what.of.empty() ? "" : fmt::format(" of '{}'", test.what.of));

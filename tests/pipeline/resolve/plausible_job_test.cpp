@@ -135,6 +135,12 @@ TEST_CASE("plausible jobs: angles in radians, obstacles without contact, repeats
   job.simulation.most_repeats = 100, job.dresspacks[0].routing.free_length = 1800;
   REQUIRE(plausibility_warnings(job).size() == 1);
   CHECK_THAT(plausibility_warnings(job)[0].words, Catch::Contains("routing.free_length_m: 1.8 if that was millimetres"));
+  job.dresspacks[0].routing.free_length = 1.8;
+  for (const auto& [twist, doubts] : {std::pair{1.57, 1}, {-0.785, 1}, {0.5, 1}, {-4.91, 0}, {2.7, 0}, {45.0, 0}, {3601.0, 1}}) {
+    job.dresspacks[0].routing.pre_twist = twist * degree;  // eighths of a turn in radians, halves of a turn, or angles that a search found
+    CAPTURE(twist);
+    CHECK(plausibility_warnings(job).size() == std::size_t(doubts));
+  }
 }
 
 TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hides cycles") {
