@@ -32,12 +32,12 @@ struct Law {
   std::function<double(double curvature)> simulated;  ///< of the first bend in the simulation [N m]; empty: not simulated
 };
 
-constexpr int steps = 120;  // from end to end, each some 7 px wide
+constexpr int curve_steps = 120;  // from end to end, each some 7 px wide
 
 /// On the way up, between minus and plus the largest curvature.
 Curve way_up(const Law& law, double friction) {
   Curve half;
-  for (int k = 0; k <= steps; ++k) half.push_back(law.largest * k / steps);
+  for (int k = 0; k <= curve_steps; ++k) half.push_back(law.largest * k / curve_steps);
   Curve moment = law.moment(friction, half);
   const double end = moment.back();
   for (double& at : moment) at = 2 * at - end;
@@ -61,20 +61,20 @@ std::string words_of(const Law& law, const std::array<double, 3>& frictions) {
 void draw(Picture& picture, const Panel& panel, const Law& law, const std::array<double, 3>& frictions) {
   const Curve low = way_up(law, frictions[0]), middle = way_up(law, frictions[1]), high = way_up(law, frictions[2]);
   const auto point = [&](int k, double moment, int sign) {
-    return std::pair(panel.across(sign * law.largest * (2.0 * k / steps - 1)), panel.down(sign * moment));
+    return std::pair(panel.across(sign * law.largest * (2.0 * k / curve_steps - 1)), panel.down(sign * moment));
   };
   std::vector<std::pair<double, double>> loop, first, simulated;
   for (const int sign : {1, -1}) {
     std::vector<std::pair<double, double>> band;
-    for (int k = 0; k <= steps; ++k) band.push_back(point(k, high[k], sign));
-    for (int k = steps; k >= 0; --k) band.push_back(point(k, low[k], sign));
+    for (int k = 0; k <= curve_steps; ++k) band.push_back(point(k, high[k], sign));
+    for (int k = curve_steps; k >= 0; --k) band.push_back(point(k, low[k], sign));
     picture.curve(band, "dark");
   }
   panel.draw_axes(picture);
   for (const int sign : {1, -1})
-    for (int k = 0; k <= steps; ++k) loop.push_back(point(k, middle[k], sign));
-  for (int k = 0; k <= steps; ++k) {
-    const double curvature = law.largest * k / steps;
+    for (int k = 0; k <= curve_steps; ++k) loop.push_back(point(k, middle[k], sign));
+  for (int k = 0; k <= curve_steps; ++k) {
+    const double curvature = law.largest * k / curve_steps;
     first.emplace_back(panel.across(curvature), panel.down((middle[k] + middle.back()) / 2));
     if (law.simulated) simulated.emplace_back(panel.across(curvature), panel.down(law.simulated(curvature)));
   }

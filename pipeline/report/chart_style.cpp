@@ -17,7 +17,7 @@ extern char** environ;
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::string_view style = R"(
+constexpr std::string_view drawing_style = R"(
 :root { color-scheme: light dark; --page: #ffffff; --ink: #1b1f24; --soft: #5b6570; --rule: #d5dae0; --grid: #e6e9ed;
   --blue: #0072b2; --hot: #c94f00; --band: #eef1f5; --band-2: #d9dfe7; --arm: #c3ccd6; --arm-2: #b3bdc9; }
 @media screen and (prefers-color-scheme: dark) { :root { --page: #14171b; --ink: #e8eaed; --soft: #a0a9b4; --rule: #3a424c;
@@ -54,13 +54,13 @@ constexpr std::string_view chart_rules = R"(
 /// The value that the first, light, set of colours gives a variable.
 std::string_view light_colour(std::string_view variable) {
   const std::string declared = fmt::format("{}: ", variable);
-  const std::size_t at = style.find(declared) + declared.size();
-  return style.substr(at, style.find(';', at) - at);
+  const std::size_t at = drawing_style.find(declared) + declared.size();
+  return drawing_style.substr(at, drawing_style.find(';', at) - at);
 }
 
 /// The rules with the light colours in the place of variables.
 std::string light_rules() {
-  std::string rules(style.substr(style.find("svg {")));
+  std::string rules(drawing_style.substr(drawing_style.find("svg {")));
   constexpr std::string_view open = "var(";
   for (std::size_t at = rules.find(open); at != std::string::npos; at = rules.find(open, at)) {
     const std::size_t end = rules.find(')', at);
@@ -97,7 +97,7 @@ int run_converter(std::FILE* in, std::FILE* out) {
 
 }  // namespace
 
-std::string chart_style() { return std::string(style).append(chart_rules); }
+std::string chart_style() { return std::string(drawing_style).append(chart_rules); }
 
 std::string chart_in_page(const std::string& svg) { return "<div class=\"chart\">" + svg + "</div>\n"; }
 

@@ -94,7 +94,7 @@ Stiffness stiffness_of(const Dresspack& dresspack, const Component& part, int le
 
 // ---- the picture ------------------------------------------------------------------------------------------
 
-constexpr std::string_view style =
+constexpr std::string_view section_style =
     "text{font:13px sans-serif;fill:#222}.wall{fill:none;stroke:#777}.room{fill:#f4f4f2}.core{fill:#ddd}"
     ".part{fill:#cfe0ee;stroke:#5a7d99}.plain{fill:#b9b4aa;stroke:#77726a}.air{fill:#fff}.water{fill:#9fc6e8}"
     ".estimate{stroke-dasharray:4 4}.wire{fill:#c0733d}.over{fill:#e23b3b}.scale{stroke:#222;stroke-width:"
@@ -127,7 +127,7 @@ class Drawing {
         "height=\"{1:.5g}\" "
         "role=\"img\">\n<title>Cross-section of "
         "{2}</title>\n<style>{3}</style>\n<defs>\n{4}</defs>\n{5}</svg>\n",
-        picture, height, escaped(dresspack_.name), style, definitions_, body);
+        picture, height, escaped(dresspack_.name), section_style, definitions_, body);
   }
 
  private:

@@ -13,14 +13,14 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double width = 960, names = 190, row_height = 40;
+constexpr double duty_width = 960, duty_names = 190, duty_row = 40;
 
 /// Two bars of each program: its share of the time, and of the damage.
 std::string shares_chart(const DutyResult& duty) {
   constexpr double top = 8, legend = 300;
-  const double height = row_height * double(duty.parts.size());
-  const Panel panel{names, top, width - names - 60, height, linear_axis("share [%]", 0, 100), {}};
-  Picture picture(width, panel.bottom() + 44, "Shares", "Share of the time and of the damage of each program.");
+  const double height = duty_row * double(duty.parts.size());
+  const Panel panel{duty_names, top, duty_width - duty_names - 60, height, linear_axis("share [%]", 0, 100), {}};
+  Picture picture(duty_width, panel.bottom() + 44, "Shares", "Share of the time and of the damage of each program.");
   for (const Tick& tick : panel.x.ticks(8)) {
     picture.line(panel.across(tick.value), top, panel.across(tick.value), panel.bottom(), "grid");
     picture.text(panel.across(tick.value), panel.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
@@ -31,8 +31,8 @@ std::string shares_chart(const DutyResult& duty) {
   picture.box(panel.right() - legend / 2, panel.bottom() + 27, 14, 10, "bar-hot");
   picture.text(panel.right() - legend / 2 + 20, panel.bottom() + 36, "of the damage", "tick");
   for (std::size_t k = 0; k < duty.parts.size(); ++k) {
-    const double y = top + row_height * double(k), time = 100 * duty.parts[k].share_of_time, damage = 100 * duty.lives.share[k];
-    picture.text(names - 8, y + row_height / 2 + 4, duty.parts[k].job, "name", Picture::Anchor::end, names - 12);
+    const double y = top + duty_row * double(k), time = 100 * duty.parts[k].share_of_time, damage = 100 * duty.lives.share[k];
+    picture.text(duty_names - 8, y + duty_row / 2 + 4, duty.parts[k].job, "name", Picture::Anchor::end, duty_names - 12);
     picture.box(panel.left, y + 5, panel.across(time) - panel.left, 14, "dark");
     picture.text(panel.across(time) + 5, y + 16, fmt::format("{:.1f} %", time), "tick");
     picture.box(panel.left, y + 20, panel.across(damage) - panel.left, 14, "bar-hot");

@@ -19,8 +19,8 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double width = 960, left = 78, right = 14, axis_height = 44;  // [px]
-constexpr double panel_width = width - left - right;
+constexpr double figure_width = 960, figure_left = 78, figure_right = 14, axis_height = 44;  // [px]
+constexpr double figure_panel = figure_width - figure_left - figure_right;
 constexpr double percent = 100;
 constexpr double degrees = 57.29577951308232;
 
@@ -94,11 +94,11 @@ std::string deformation_chart(const std::array<Along, 3>& all, const std::vector
   double whole = 0;
   for (const double length : lengths) whole += length;
   const PlotAxis x{"base clamp   \u2192   along the dresspack [m]   \u2192   tool clamp", 0, whole};
-  Picture picture(width, heading + 3 * (height + gap) + axis_height, title, title);
-  picture.text(left, 15, title, "note");
+  Picture picture(figure_width, heading + 3 * (height + gap) + axis_height, title, title);
+  picture.text(figure_left, 15, title, "note");
   for (std::size_t p = 0; p < all.size(); ++p) {
     const auto [low, high] = extremes(all[p].value);
-    const Panel panel{left, heading + static_cast<double>(p) * (height + gap),     panel_width, height,
+    const Panel panel{figure_left, heading + static_cast<double>(p) * (height + gap),     figure_panel, height,
                       x,    linear_axis(all[p].title, std::min(low, 0.0), high, 4)};
     panel.draw_axes(picture, p + 1 == all.size());
     std::vector<std::pair<double, double>> points;
@@ -148,14 +148,14 @@ std::string curvature_figure(const JobFiles& files) {
   }
   const auto [low, high] = extremes(strain);
   const auto [straightest, most] = extremes(curvature);
-  const Panel panel{left,
+  const Panel panel{figure_left,
                     10,
-                    panel_width,
+                    figure_panel,
                     420,
                     linear_axis("curvature of the segment [1/m]", std::min(straightest, 0.0), most, 9),
                     linear_axis("strain [%]", percent * low, percent * high)};
   const std::string words = fmt::format("{}, segment {} from the tool", history.words(), worst.from_tool);
-  Picture picture(width, panel.bottom() + axis_height, "Strain of the worst wire over curvature", words);
+  Picture picture(figure_width, panel.bottom() + axis_height, "Strain of the worst wire over curvature", words);
   panel.draw_axes(picture);
   picture.text(panel.left + 6, panel.top + 12, words, "note");
   std::vector<std::pair<double, double>> points;

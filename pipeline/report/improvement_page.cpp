@@ -12,7 +12,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr const char* page_style = R"(
+constexpr const char* improvement_style = R"(
 body { margin: 0 auto; max-width: 90rem; padding: 1.5rem 1rem 4rem; background: var(--page); color: var(--ink);
   font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
 h1 { font-size: 1.7rem; margin: 0 0 .3rem; } h2 { font-size: 1.3rem; margin: 2rem 0 .3rem; }
@@ -189,7 +189,7 @@ std::string improvement_page(const ImprovementStory& story) {
       "content=\"width=device-width\"><title>{0}: improved</title>\n<style>{1}{2}</style></head>\n<body>\n<h1>{0}: improved</h1>\n"
       "<p class=\"soft\">All trials stand in improve.csv, the last jobs in <a href=\"report.html\">their report</a>.</p>\n"
       "{3}{4}{5}{6}{7}{8}</body></html>\n",
-      escaped(story.name), chart_style(), page_style, lives_section(story),
+      escaped(story.name), chart_style(), improvement_style, lives_section(story),
       story.after ? changes_section(story) : "", front_charts(story), beside_section(story),
       nudges_section(story), history_section(story));
 }

@@ -53,8 +53,6 @@ void check_together(const FileReader& life, const FileReader* other) {
                    "run the stages again, one after the other");
 }
 
-bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
-
 std::string paragraph(const std::string& words) {
   return words.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(words));
 }
@@ -85,7 +83,7 @@ std::string lives(const RankingRow& row) {
                          printed_hours(row.glued_hours[0]), printed_hours(row.free_hours[0]));
   if (const std::string own = own_values_words(row); !own.empty()) words += own + " ";
   words += fmt::format("The median of the worst wire is {}.", printed_hours(row.life_hours));
-  return paragraph(words) + paragraph(uncertainty_words(row)) + (damaged(row) ? paragraph(failure_words(row)) : "");
+  return paragraph(words) + paragraph(uncertainty_words(row)) + (row.damaged() ? paragraph(failure_words(row)) : "");
 }
 
 /// "E I 25 N m2, G J 20 N m2, E A 1e+05 N" of each dresspack as it was simulated; empty where an older file
@@ -228,7 +226,7 @@ class Page {
         "<div id=\"view\"></div>\n<div class=\"beside\"><div id=\"timeline\"></div>\n<div id=\"place\"></div></div>\n"
         "<div id=\"section\"></div>\n<div id=\"wire\"></div>\n<h2>Lives of the wires</h2>\n" +
         lives(row_);
-    if (damaged(row_)) {
+    if (row_.damaged()) {
       const LifeSummary life = read_life(files_.life());
       text += "<h2>Where the damage comes from</h2>\n" + damage_along(life, row_) + damage_tables(life, row_);
     }

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double page_width = 960, left_margin = 78, right_margin = 14, x_axis_height = 44;
 constexpr double panel_width = page_width - left_margin - right_margin;
-constexpr double percent = 100;
+constexpr double in_percent = 100;
 constexpr double narrow_span = 30;     // ratios below this stay on a linear axis
 constexpr double widest_span = 1e6;    // what lies further below the largest is nothing beside it
 constexpr double smallest_cell = 0.5;  // narrower stretches of the program cannot be seen
@@ -73,7 +73,7 @@ std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<Progr
         costliest = &run;
     if (!costliest) continue;
     labels.push_back({panel.across((costliest->begin + costliest->end) / 2),
-                      fmt::format("{:.0f} %: line {}, {}", percent * life.step_damage[line] / total, line + 1,
+                      fmt::format("{:.0f} %: line {}, {}", in_percent * life.step_damage[line] / total, line + 1,
                                   life.step_text[line])});
   }
   std::stable_sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.x < b.x; });
@@ -116,7 +116,7 @@ void draw_program(Picture& picture, const LifeSummary& life, const std::vector<P
                 : dark               ? "dark"
                                      : "light",
                 fmt::format("{:.1f} .. {:.1f} s, line {}: {}; {:.1f} % of the damage", run.begin, run.end,
-                            line, line_name(life, run.step), percent * share));
+                            line, line_name(life, run.step), in_percent * share));
     const std::string number = std::to_string(line);
     if (run.step >= 0 && to - from > text_width(number) + 2)
       picture.text((from + to) / 2, top + height - 4.5, number, "cell", Picture::Anchor::middle);
@@ -128,7 +128,7 @@ std::vector<double> shares_so_far(const std::vector<double>& rates) {
   std::vector<double> shares;
   double so_far = 0;
   for (const double rate : rates) shares.push_back(so_far += rate);
-  for (double& share : shares) share *= so_far > 0 ? percent / so_far : 0;
+  for (double& share : shares) share *= so_far > 0 ? in_percent / so_far : 0;
   return shares;
 }
 
@@ -159,7 +159,7 @@ std::vector<Bin> bins_of(const std::vector<WorstCycle>& cycles) {
   std::map<int, Bin> bins;
   for (const WorstCycle& cycle : cycles) {
     if (!(cycle.range > 0)) continue;
-    const int index = static_cast<int>(std::floor(std::log10(percent * cycle.range) * bins_per_decade));
+    const int index = static_cast<int>(std::floor(std::log10(in_percent * cycle.range) * bins_per_decade));
     Bin& bin = bins[index];
     bin.low = std::pow(10, static_cast<double>(index) / bins_per_decade);
     bin.high = std::pow(10, static_cast<double>(index + 1) / bins_per_decade);
@@ -284,7 +284,7 @@ std::string strain_chart(const LifeSummary& life) {
   const std::vector<ProgramRun> runs = program_runs(life);
   PlotAxis time{"time [s]", life.time.front(), life.time.back()};
   Panel strain{left_margin,   0,    panel_width,
-               strain_height, time, linear_axis("strain [%]", percent * *low, percent * *high)};
+               strain_height, time, linear_axis("strain [%]", in_percent * *low, in_percent * *high)};
   const std::vector<Label> labels = costly_lines(life, runs, strain);
   strain.top = 8 + label_row * static_cast<double>(labels.size());
   const double strip = strain.bottom() + gap;
@@ -293,8 +293,8 @@ std::string strain_chart(const LifeSummary& life) {
   const bool damaged = sum(life.damage_rate) > 0;
   const double bottom = damaged ? share.bottom() : strip + strip_height;
   Picture picture(page_width, bottom + x_axis_height, "Strain of the worst wire over time",
-                  fmt::format("Strain between {:.3g} and {:.3g} percent over {:.0f} seconds.", percent * *low,
-                              percent * *high, life.time.back() - life.time.front()));
+                  fmt::format("Strain between {:.3g} and {:.3g} percent over {:.0f} seconds.", in_percent * *low,
+                              in_percent * *high, life.time.back() - life.time.front()));
   strain.draw_axes(picture, false);
   if (strain.y.low < 0 && strain.y.high > 0)
     picture.line(strain.left, strain.down(0), strain.right(), strain.down(0), "mark");
@@ -303,7 +303,7 @@ std::string strain_chart(const LifeSummary& life) {
       thinned(life.time, life.strain, static_cast<std::size_t>(panel_width));
   for (auto& [x, y] : points) {
     x = strain.across(x);
-    y = strain.down(percent * y);
+    y = strain.down(in_percent * y);
   }
   picture.curve(points, "curve");
   picture.text(strain.left + 6, strain.bottom() - 7, life.strain_of, "note");
@@ -368,7 +368,7 @@ std::string cycle_chart(const LifeSummary& life) {
   const std::vector<double> counts = column(bins, &Bin::count);
   std::vector<double> shares = column(bins, &Bin::damage);
   const double total = sum(shares);
-  for (double& share : shares) share *= total > 0 ? percent / total : 0;
+  for (double& share : shares) share *= total > 0 ? in_percent / total : 0;
   const PlotAxis x = range_axis(bins);
   const Panel count{left_margin, 10, panel_width, 130, x, axis_of_amounts("cycles per repeat", counts)};
   const Panel share{

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint32_t no_site = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t most_strains = 200'000;  // whole histories, of two bytes each
 constexpr std::size_t most_turns = 30'000;     // of other places, of six bytes each
-constexpr std::size_t most_samples = 20'000;
+constexpr std::size_t most_life_samples = 20'000;
 constexpr std::size_t most_closings = 300;  // of each segment
 constexpr double least_closing = 1e-4;      // of a segment's damage: 0.01 %
 constexpr int cycle_cells = 24;             // along range and mean, each wide enough for a thumb on a phone
@@ -27,7 +27,7 @@ constexpr int cycle_cells = 24;             // along range and mean, each wide e
 class Thinning {
  public:
   explicit Thinning(std::size_t samples)
-      : samples_(samples), stretch_(1 + (samples - 1) / most_samples * 2) {}
+      : samples_(samples), stretch_(1 + (samples - 1) / most_life_samples * 2) {}
 
   bool thins() const { return stretch_ > 1; }
   std::size_t length() const { return thins() ? 2 * ((samples_ + stretch_ - 1) / stretch_) : samples_; }

@@ -69,7 +69,7 @@ std::vector<Key> axes_of(const std::vector<RankingRow>& rows) {
 }
 
 /// The row with the shortest life, a failed one before all, and how many there are.
-struct Cell {
+struct MatrixCell {
   std::size_t row = 0, jobs = 0;
 };
 
@@ -80,7 +80,7 @@ bool shorter(const RankingRow& a, const RankingRow& b) {
 
 /// Logarithms of the shortest and the longest finite life among the cells; none without any.
 std::optional<std::pair<double, double>> span_of(
-    const std::vector<RankingRow>& rows, const std::map<std::pair<std::size_t, std::size_t>, Cell>& cells) {
+    const std::vector<RankingRow>& rows, const std::map<std::pair<std::size_t, std::size_t>, MatrixCell>& cells) {
   std::optional<std::pair<double, double>> span;
   for (const auto& [place, cell] : cells) {
     const double hours = rows[cell.row].headline_hours();
@@ -91,7 +91,7 @@ std::optional<std::pair<double, double>> span_of(
   return span;
 }
 
-std::string cell_text(const RankingRow& row, const Cell& cell,
+std::string cell_text(const RankingRow& row, const MatrixCell& cell,
                       const std::optional<std::pair<double, double>>& span, const std::string& address) {
   const auto linked = [&](const std::string& words) {
     return address.empty() ? words : fmt::format("<a href=\"{}\">{}</a>", address, words);
@@ -123,10 +123,10 @@ std::string life_matrix(const std::vector<RankingRow>& rows,
   if (axes.size() != 2 || axes[0].values.size() * axes[1].values.size() > most_cells) return "";
   if (axes[0].values.size() < axes[1].values.size()) std::swap(axes[0], axes[1]);
   const Key &down = axes[0], &across = axes[1];
-  std::map<std::pair<std::size_t, std::size_t>, Cell> cells;
+  std::map<std::pair<std::size_t, std::size_t>, MatrixCell> cells;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (rows[k].varied.size() <= std::max(down.index, across.index)) continue;
-    Cell& cell = cells[{down.place(rows[k].varied[down.index].second),
+    MatrixCell& cell = cells[{down.place(rows[k].varied[down.index].second),
                         across.place(rows[k].varied[across.index].second)}];
     if (cell.jobs++ == 0 || shorter(rows[k], rows[cell.row])) cell.row = k;
   }

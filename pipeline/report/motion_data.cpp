@@ -12,11 +12,11 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_bytes = 2'150'000;     // of the page, before base64 adds a third
+constexpr std::size_t most_motion_bytes = 2'150'000;     // of the page, before base64 adds a third
 constexpr std::size_t most_samples = 20'000;      // considered; of longer motions every second, third, ...
 constexpr double first_miss = 0.5e-3;             // allowed of a place [m]
 constexpr double shape_miss = 0.01 / first_miss;  // of largest curvature and twist, per metre of that
-constexpr std::size_t rows_at_once = 512;
+constexpr std::size_t samples_at_once = 512;
 constexpr std::string_view contact = "contact";  // a group
 
 /// Every second of 64 centres, with a spline through them, misses those between by hundredths of a
@@ -36,8 +36,8 @@ std::vector<double> read_strided(const FileReader& file, const std::string& data
   if (stride == 1) return file.read<double>(dataset);
   const std::size_t rows = file.rows(dataset), size = file.row_size(dataset);
   std::vector<double> all, some;
-  for (std::size_t first = 0; first < rows; first += rows_at_once * stride) {
-    file.read_rows(dataset, first, std::min(rows_at_once * stride, rows - first), some);
+  for (std::size_t first = 0; first < rows; first += samples_at_once * stride) {
+    file.read_rows(dataset, first, std::min(samples_at_once * stride, rows - first), some);
     for (std::size_t at = 0; at < some.size(); at += stride * size)
       all.insert(all.end(), some.begin() + static_cast<std::ptrdiff_t>(at),
                  some.begin() + static_cast<std::ptrdiff_t>(at + size));
@@ -84,7 +84,7 @@ class Player {
   Json json() {
     double miss = first_miss;
     std::vector<std::size_t> keys = key_samples(histories_, tolerance(miss));
-    while (keys.size() * row_bytes() > most_bytes && keys.size() > 2)
+    while (keys.size() * row_bytes() > most_motion_bytes && keys.size() > 2)
       keys = key_samples(histories_, tolerance(miss *= 2));
     gather_contacts(keys);
     return written(keys);

@@ -15,7 +15,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double width = 960, names = 190, right_margin = 14;
+constexpr double plan_width = 960, plan_names = 190, plan_right = 14;
 constexpr std::size_t most_rows = 40;      // of the calendar: with more it does not fit on a sheet
 constexpr std::size_t most_columns = 130;  // of the calendar: narrower cells cannot be seen
 
@@ -55,7 +55,7 @@ class Calendar {
 
   std::string svg() const {
     const double bottom = first_row + row_height * double(order_.size());
-    Picture picture(width, bottom + 50, "Calendar", "Probability of failure of each dresspack over the weeks of the plan, its windows and replacements.");
+    Picture picture(plan_width, bottom + 50, "Calendar", "Probability of failure of each dresspack over the weeks of the plan, its windows and replacements.");
     for (const Window& window : plan_.windows)
       picture.box(x(window.first), top, std::max(2.0, x(window.last + std::chrono::days(1)) - x(window.first)), bottom - top, "window",
                   window_text(window));
@@ -71,7 +71,7 @@ class Calendar {
 
   double x(Day day) const {
     const double share = double((day - plan_.today).count()) / double((plan_.end - plan_.today).count());
-    return names + (width - names - right_margin) * std::clamp(share, 0.0, 1.0);
+    return plan_names + (plan_width - plan_names - plan_right) * std::clamp(share, 0.0, 1.0);
   }
   Day week(std::size_t number) const { return plan_.today + std::chrono::days(7 * static_cast<int>(number)); }
 
@@ -84,7 +84,7 @@ class Calendar {
     }
     const double most = std::max(*std::max_element(by_plan.begin(), by_plan.end()), *std::max_element(without.begin(), without.end()));
     if (!(most > 0)) return;
-    const Panel panel{names, top, width - names - right_margin, strip, {}, linear_axis("failures a week", 0, most, 4)};
+    const Panel panel{plan_names, top, plan_width - plan_names - plan_right, strip, {}, linear_axis("failures a week", 0, most, 4)};
     for (const Tick& tick : panel.y.ticks(3)) {
       picture.line(panel.left, panel.down(tick.value), panel.right(), panel.down(tick.value), "grid");
       picture.text(panel.left - 6, panel.down(tick.value) + 4, tick.label, "tick", Picture::Anchor::end);
@@ -104,7 +104,7 @@ class Calendar {
   void row(Picture& picture, std::size_t i, double y) const {
     const RowPlan& plan = plan_.rows[i];
     const std::string& name = fleet_.rows[i].name;
-    picture.text(names - 8, y + row_height - 4, name, "name", Picture::Anchor::end, names - 12);
+    picture.text(plan_names - 8, y + row_height - 4, name, "name", Picture::Anchor::end, plan_names - 12);
     const Day end = plan.window ? plan_.windows[*plan.window].first : plan_.end;
     for (std::size_t k = 0; k < plan.fails_in_week.size() && week(k) < end; k += weeks_per_cell_) {
       double fails = 0;
@@ -121,21 +121,21 @@ class Calendar {
   }
 
   void months(Picture& picture, double bottom) const {
-    picture.line(names, bottom, width - right_margin, bottom, "mark");
+    picture.line(plan_names, bottom, plan_width - plan_right, bottom, "mark");
     const std::chrono::year_month_day today(plan_.today);
-    double free = names;
+    double free = plan_names;
     for (std::chrono::year_month month = today.year() / today.month() + std::chrono::months(1); Day(month / 1) < plan_.end; month += std::chrono::months(1)) {
       const double at = x(Day(month / 1));
       picture.line(at, bottom, at, bottom + 4, "mark");
       const std::string words = day_text(Day(month / 1)).substr(0, 7);
-      if (at < free || at + text_width(words) / 2 > width) continue;
+      if (at < free || at + text_width(words) / 2 > plan_width) continue;
       picture.text(at, bottom + 17, words, "tick", Picture::Anchor::middle);
       free = at + text_width(words) + 8;
     }
   }
 
   static void legend(Picture& picture, double y) {
-    double at = names;
+    double at = plan_names;
     const auto entry = [&](const char* style, const std::string& words) {
       picture.box(at, y, 14, 11, style);
       picture.text(at + 19, y + 10, words, "tick");

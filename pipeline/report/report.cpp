@@ -47,8 +47,6 @@ std::string place_words(const RankingRow& row) {
                      row.worst_dresspack.empty() ? "" : " of the " + escaped(row.worst_dresspack));
 }
 
-bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
-
 /// Of a page beside the job's results, as seen from the study's; empty where there is none.
 std::string page_address(const RankingRow& row, const std::string& page) {
   if (row.life_file.empty() || kind_of(row.life_file.parent_path() / page) != FileKind::file)
@@ -115,11 +113,11 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
           (row.waits() ? "" : escaped(row.failure)) + page_link(row, "preview.html", "See where")));
       continue;
     }
-    const std::string where = !damaged(row)
+    const std::string where = !row.damaged()
                                   ? "no wire is damaged"
                                   : fmt::format("{}<br>{}", escaped(row.worst_component), place_words(row));
     const std::string moved =
-        !damaged(row)
+        !row.damaged()
             ? ""
             : fmt::format("{}<br><span class=\"soft\">at {:.1f} s of {:.0f} s</span>",
                           escaped(row.worst_step), row.worst_time, row.repeat_seconds) +
@@ -127,7 +125,7 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
                        ? ""
                        : fmt::format("<br><span class=\"soft\">{}</span>", escaped(joint_words(row))));
     const std::string fails_first =
-        row.failing_mode.empty() || !damaged(row)
+        row.failing_mode.empty() || !row.damaged()
             ? ""
             : fmt::format("{} ({:.0f} %)<br>", escaped(row.failing_mode), 100 * row.failing_mode_share);
     const std::string unvalidated =
@@ -162,7 +160,7 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
   std::vector<const RankingRow*> shown;
   double low = INFINITY, high = 0;
   for (const RankingRow& row : rows) {
-    if (!row.done() || !damaged(row) || shown.size() == most_compared) continue;
+    if (!row.done() || !row.damaged() || shown.size() == most_compared) continue;
     shown.push_back(&row);
     for (const double hours :
          {row.headline_hours(), row.hours_of(row.life_repeats_all_stick),
@@ -339,7 +337,7 @@ std::string facts(const RankingRow& row) {
   scatter("first broken wire", row.first_wire_hours);
   scatter("share of a conductor broken anywhere in it", row.conductor_hours);
   if (!row.not_evaluated.empty()) fact("not evaluated", escaped(row.not_evaluated));
-  if (damaged(row)) {
+  if (row.damaged()) {
     fact("breaks first",
          escaped(row.worst_component) + (row.worst_shear_range >= least_shear_told
                                              ? fmt::format(" (its surface is sheared by {:.2f} % to and fro)",
@@ -377,7 +375,7 @@ std::string charts(const RankingRow& row) {
 /// The worst moment as a picture; none when the motion file has been cleared away.
 std::string scene(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
-  if (!damaged(row) || kind_of(motion) == FileKind::absent) return "";
+  if (!row.damaged() || kind_of(motion) == FileKind::absent) return "";
   const std::string picture =
       scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack);
   return picture.empty()

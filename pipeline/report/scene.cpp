@@ -15,7 +15,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double picture_width = 860, margin = 24;  // [px]
+constexpr double picture_width = 860, scene_margin = 24;  // [px]
 constexpr double most_height = 620;                 // [px]
 constexpr double azimuth = -62, elevation = 16;     // of the viewer, from +x and above the floor [deg]
 constexpr double piece = 0.06;  // thick parts are cut into pieces to sort them by depth [m]
@@ -38,8 +38,8 @@ struct View {
     right = Vector3d(-std::sin(a), std::cos(a), 0);
     up = toward_viewer.cross(right);
   }
-  double x(const Vector3d& p) const { return margin + scale * (p.dot(right) - left); }
-  double y(const Vector3d& p) const { return margin + scale * (top - p.dot(up)); }
+  double x(const Vector3d& p) const { return scene_margin + scale * (p.dot(right) - left); }
+  double y(const Vector3d& p) const { return scene_margin + scale * (top - p.dot(up)); }
 };
 
 void add_in_pieces(std::vector<Stroke>& strokes, const Stroke& whole) {
@@ -138,11 +138,11 @@ View fit(const std::vector<Stroke>& strokes, double& height) {
       bottom = std::min(bottom, p.dot(view.up) - stroke.radius);
       top = std::max(top, p.dot(view.up) + stroke.radius);
     }
-  view.scale = std::min((picture_width - 2 * margin) / std::max(right - left, 0.1),
-                        (most_height - 2 * margin) / std::max(top - bottom, 0.1));
-  view.left = left - ((picture_width - 2 * margin) / view.scale - (right - left)) / 2;
+  view.scale = std::min((picture_width - 2 * scene_margin) / std::max(right - left, 0.1),
+                        (most_height - 2 * scene_margin) / std::max(top - bottom, 0.1));
+  view.left = left - ((picture_width - 2 * scene_margin) / view.scale - (right - left)) / 2;
   view.top = top;
-  height = view.scale * (top - bottom) + 2 * margin;
+  height = view.scale * (top - bottom) + 2 * scene_margin;
   return view;
 }
 
@@ -162,7 +162,7 @@ std::string scale_bar(const View& view, double height) {
       "<line class=\"mark\" x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{1:.1f}\" "
       "stroke-width=\"2\"/>\n"
       "<text class=\"tick\" x=\"{3:.1f}\" y=\"{4:.1f}\">{5}</text>\n",
-      margin, y, margin + length * view.scale, margin + 4, y - 5, length < 1 ? "100 mm" : "1 m");
+      scene_margin, y, scene_margin + length * view.scale, scene_margin + 4, y - 5, length < 1 ? "100 mm" : "1 m");
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 constexpr double row_height = 26, top = 44, left = 170, plot_width = 560, verdicts = 190;
 constexpr double least = 1e2, most = 1e14;  // lives that are shown; beyond, a line ends at the edge
 
-constexpr const char* style = R"(<style>
+constexpr const char* rows_style = R"(<style>
 svg { font: 12px sans-serif; background: #fff }
 .grid { stroke: #e2e2e2; fill: none } .mark { stroke: #444; fill: none }
 .tick, .axis-title, .name { fill: #333 } .axis-title { font-weight: bold }
@@ -85,7 +85,7 @@ class Rows {
     const std::size_t open = text.find('>');
     text.insert(open,
                 fmt::format(" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\"", picture_.width()));
-    return text.insert(text.find('>') + 1, std::string("\n") + style);
+    return text.insert(text.find('>') + 1, std::string("\n") + rows_style);
   }
 
  private:

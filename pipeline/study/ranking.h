@@ -109,6 +109,7 @@ struct RankingRow {
   /// The unvalidated mode of this name that fails first by its median; null: it was not evaluated.
   const UnvalidatedMode* unvalidated_mode(std::string_view mode) const;
   bool done() const { return failure.empty(); }
+  bool damaged() const { return worst_segment_from_tool > 0 && damage_per_repeat > 0; }
   bool has_result() const { return done() || stale; }
   bool waits() const {
     return failure == "stale" || failure == "to do";
