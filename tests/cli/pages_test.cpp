@@ -98,6 +98,7 @@ const std::map<std::string, std::string> instead{
      "dresslife import CONFIG/programs/pick_and_place.src -o motion.yaml"},
     {"dresslife import LOG.csv --log JOB.yaml -o shift.yaml", "not run"},  // tests/cli/log_test
     {"dresslife export runs/two_robots/hard --paraview hard.xdmf", "not run"},  // tests/cli/paraview_test
+    {"dresslife plot JOB --what bending", "not run"},  // tests/cli/plot_test
     {"dresslife show FILE.h5", "dresslife show motion.h5"},
     {"dresslife submit STUDY", "not run"},  // needs a cluster: tests/pipeline/study
     {"dresslife run --launcher WORDS", "not run"},
