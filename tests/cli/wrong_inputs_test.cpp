@@ -487,14 +487,14 @@ TEST_CASE("plausible mistakes that make a job are warned of, with place, limit a
 }
 
 TEST_CASE("waits of a program that take more than half of its cycle are named with their share, others are not") {
-  const auto told = [](const std::string& wait) {
+  const auto answer_to = [](const std::string& wait) {
     const Scratch scratch;
     write_inputs(scratch);
     scratch.write("spot.mod", replaced_all(module, "ENDPROC", "  WaitTime " + wait + ";\n  MoveAbsJ [[20,0,0,0,60,90],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\nENDPROC"));
     return run(scratch, "dresslife", "check module.yaml").out;
   };
-  CHECK_THAT(told("60"), Contains("note: The waits of the program take 60 s, 9") && Contains("the longest one is 60 s, at spot.mod:5:"));
-  CHECK_THAT(told("0.06"), !Contains("The waits of the program"));
+  CHECK_THAT(answer_to("60"), Contains("note: The waits of the program take 60 s, 9") && Contains("the longest one is 60 s, at spot.mod:5:"));
+  CHECK_THAT(answer_to("0.06"), !Contains("The waits of the program"));
 }
 
 TEST_CASE("files as other systems write them are read: byte order marks, line ends, letters, separators") {
