@@ -419,7 +419,7 @@ std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std
     }
     row.age_hours = age, row.run_hours = run;
     if (days > 0 && given > all + hours_in(7, row.duty) && count++ == 0)  // a week: dates are seldom exact to the day
-      younger = &row, words = fmt::format("{}, of which its history by hours has {}", hours_text(all), hours_text(given));
+      younger = &row, words = fmt::format("{}, and its history by hours has more: {}", hours_text(all), hours_text(given));
   }
   if (!younger) return {};
   return {warning_of(WarningKind::motion, younger->where.text(),
