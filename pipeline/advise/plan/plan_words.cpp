@@ -275,9 +275,8 @@ std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const F
   return rows;
 }
 
-std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
-  const auto name = [](const Fleet& of) { return std::filesystem::path(of.rows.front().where.file).stem().string(); };
-  std::string text = fmt::format("What if {} were the fleet\n{:<34}  {:>20}  {:>20}  {:>12}\n", name(changed), "", "today's fleet", "what if", "difference");
+std::string what_if_words(const std::string& name, const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
+  std::string text = fmt::format("What if {} were the fleet\n{:<34}  {:>20}  {:>20}  {:>12}\n", name, "", "today's fleet", "what if", "difference");
   for (const BesideRow& row : beside_rows(fleet, plan, changed, other))
     text += fmt::format("{:<34}  {:>20}  {:>20}  {:>12}\n", row.what, row.now, row.then, row.more);
   const auto when = [](const Plan& of, std::size_t i) {
