@@ -86,6 +86,9 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
       if (entry.path().extension() == ".yaml") entries.push_back(entry.path().stem().string());
   }
   std::sort(entries.begin(), entries.end());
+  if (name.find_first_not_of("0123456789") == std::string::npos)
+    throw InputError({name}, "is a number where a study or job is expected",
+                     "write the study's or job's name. -n prints what would run and takes no number; -j COUNT sets how many stages run at a time");
   const std::string near = nearest_entry(fs::path(name).filename().string(), entries);
   throw InputError({name},
                    fmt::format("is no file, and {} holds no {}", shipped_catalogue().string(), looked_for),

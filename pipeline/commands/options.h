@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct RunOptions : StudyOptions {
   bool quiet = false;
   std::string launcher;  ///< before each stage's command
   std::string shard;     ///< "2/8": only the second eighth of the jobs; empty: all
+  /// Of runs within a search: gets the share of the stages that are done, and no line of its own shows it.
+  std::function<void(double)> share_done{};
   StageLimits limits{24 * 3600, installed_memory_mb()};  // a day, and what the machine has
   RunOptions();
 };

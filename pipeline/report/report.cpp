@@ -301,6 +301,7 @@ std::string facts(const RankingRow& row) {
     fact("mean stress", fmt::format("{} if none of it relaxed, {} without any, median of the same wire",
                                     printed_hours(*row.hours_mean_stress_kept),
                                     printed_hours(*row.hours_without_mean_stress)));
+  if (const std::string held = held_words(row); !held.empty()) fact("comparable", escaped(held));
   if (!row.settings.empty()) fact("settings", row.settings + " in ranking.csv");
   for (const Warning& warning : warnings_of(row)) fact("warning", "<b>" + escaped(warning.text()) + "</b>");
   if (row.clamp_moment_share) {
