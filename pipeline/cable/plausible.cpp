@@ -92,6 +92,8 @@ class Judge {
   }
 
   void parts(const std::vector<Component>& components) {
+    double widest = 0;  // of what is laid together: its layers have one lay length, so that the innermost has a small angle
+    for (const Component& of : components) widest = std::max(widest, 2 * (of.helix_radius + of.radius));
     for (std::size_t k = 0; k < components.size(); ++k) {
       const Component& of = components[k];
       if (is_wire(of) && of.radius < thinnest)
@@ -100,7 +102,7 @@ class Judge {
                         1e3 * of.radius, 1e3 * thinnest),
             "metres instead of millimetres",
             fmt::format("radius_mm: {:.3g} if that was metres", 1e6 * of.radius));
-      if (of.lay_angle > 0 && of.lay_angle < least_lay)
+      if (of.lay_angle > 0 && of.lay_angle < least_lay && 2 * pi * of.helix_radius > longest_lay * widest * std::tan(of.lay_angle))
         add(of.where,
             fmt::format(
                 "lay_angle_deg of '{}' is {:.3g}, a turn in {:.3g} m (limit 0, or {:.2g} deg or more)",

@@ -315,6 +315,10 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
                                   "each move of the program has its own speed",
                                   fmt::format("motion.override_percent: {:g} for the speed override of the controller",
                                               motion.speed_percent < least_percent ? 100 * motion.speed_percent : motion.speed_percent)));
+  if (motion.override_percent <= least_percent)
+    warnings.push_back(warning_of(WarningKind::motion, motion.where.text(),
+                                  fmt::format("motion.override_percent is {:g} (limit more than {:g})", motion.override_percent, least_percent),
+                                  "a share instead of a percentage", fmt::format("motion.override_percent: {:g}", 100 * motion.override_percent)));
   doubt_single_targets(motion.steps, warnings);
   doubt_small_steps(motion.steps, warnings);
   doubt_frames(motion.tools, "tool", motion.where, warnings);

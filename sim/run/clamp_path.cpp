@@ -195,7 +195,8 @@ bool leads_flange(const std::vector<pipeline::MotionStep>& steps, const pipeline
 
 /// What a run notes of its program, and of what may be an input in another unit or one that is missing.
 std::string note_of(const RunMotion& run, double cycle) {
-  constexpr double most = 0.5, long_wait = 2, longest_wait = 20;  // of the cycle; [s]: grippers take 0.2 to 1, robots wait for a machine
+  constexpr double most = 0.5, long_wait = 5,
+                   longest_wait = 20;  // of the cycle; [s]: grippers take 0.2 to 1, spot welds with their guns up to 4
   std::vector<std::string> notes;
   Waits waits;
   add_waits(run.motion.steps, 1, waits);

@@ -260,6 +260,9 @@ TEST_CASE("the inputs that are changed below are accepted as they are") {
     INFO(outcome.err);
     CHECK(outcome.status == 0);
   }
+  scratch.write("thick.yaml", edited(content(scratch / "cable.yaml"), "7 x 0.5 mm2, wire 0.1 mm, outer diameter 8.2 mm, jacket 1.1 mm", "7 x 50 mm2, class 6"));
+  const Outcome thick = run(scratch, "dresslife", "draw thick.yaml");  // its innermost wires have a small lay angle
+  CHECK_THAT(thick.out + thick.err, !Contains("warning: "));
   for (const char* pack : {"hose.yaml", "cable.yaml"}) {
     const Outcome outcome = run(scratch, "dresslife", std::string("draw ") + pack);
     INFO(outcome.err);
@@ -420,6 +423,7 @@ const Doubtful doubtful[] = {
     {"job.yaml", "speed_percent: 50", "speed_mm_per_s: 2.5", "job.yaml:7:7", "the tool's speed is 2.5 mm/s (limit 3 or more)", "10 or 100 times as much if the decimal point slipped"},
     {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: air, radius_mm: 10, helix_radius_mm: 0, without_wires: {kind: hose, bore_mm: 8}}", "hose.yaml:19:67", "bore_mm of 'air' is 8, and it is 20 mm wide outside", "radius_mm: 5 if 10 is the outer diameter"},
     {"cable.yaml", "wire 0.1 mm, outer diameter 8.2 mm, jacket 1.1 mm", "class 6, jacket PVC 3 mm", "cable.yaml:4:5", "the jacket of 'cable' is 3 mm thick (limit 2.45: 2 times a usual one)", "jacket 1.5 mm if that was both walls", "draw cable.yaml"},
+    setting("motion.override_percent: 1", "motion.override_percent is 1 (limit more than 1)", "motion.override_percent: 100"),
     // Programs of KUKA
     {"nod.src", "VEL_PTP,60", "VEL_PTP,350", "nod.src:2:1", "BAS(#vel_ptp, 350): more than 100 % (limit 100, which counts)", "a percentage up to 100", "check krl.yaml"},
     {"nod.src", "ACC_PTP,80", "ACC_PTP,800", "nod.src:3:1", "BAS(#acc_ptp, 800): more than 100 %", "a percentage up to 100", "check krl.yaml"},
@@ -522,7 +526,10 @@ TEST_CASE("waits of a program that take more than half of its cycle are named wi
     return run(scratch, "dresslife", "check module.yaml").out;
   };
   CHECK_THAT(answer_to("60"), Contains("note: The waits of the program take 60 s, 9") && Contains("the longest one is 60 s, at spot.mod:5:"));
-  CHECK_THAT(answer_to("3"), Contains("the longest one is 3 s"));
+  // A long wait is named in a long program, too.
+  const std::string loop = ";\n  FOR i FROM 1 TO 100 DO\n  MoveAbsJ [[20,0,0,0,60,90],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n  MoveAbsJ a,v1000,fine,tool0;\n  ENDFOR\n  WaitTime 0.1";
+  CHECK_THAT(answer_to("30" + loop), Contains("note: The waits of the program take 30.1 s, 1") && Contains("the longest one is 30 s"));
+  CHECK_THAT(answer_to("10" + loop), !Contains("The waits of the program"));
   CHECK_THAT(answer_to("0.06"), !Contains("The waits of the program"));
 }
 
