@@ -122,8 +122,8 @@ std::array<double, uncertain_count> Uncertainty::default_spread() {
 void describe(Fields& f, Uncertainty& uncertainty) {
   f.boolean(
       "enabled", uncertainty.enabled, Need::optional,
-      "Whether lives include the uncertain parameters beside the wires' scatter. It takes at most as much "
-      "time again.");
+      "Whether lives include the uncertain parameters beside the wires' scatter. It takes at most twice as "
+      "much time again.");
   f.choice("ratings", uncertainty.ratings,
            "What is known of cables without a calibration. typical: what makers promise of their cables in tests "
            "(config/observations/ratings.yaml); without effect if enabled is false. none: only the deviations below.");

@@ -22,7 +22,8 @@ struct Places {
   void add(const Sample& sample) {
     for (const Vector3& place : sample.state.position) put(position, place);
     for (const Quaternion& turn : sample.state.orientation) put(orientation, turn);
-    for (const Frame& clamp : sample.clamps) put(clamp_position, clamp.position), put(clamp_orientation, clamp.orientation);
+    for (const Frame& clamp : sample.clamps)
+      put(clamp_position, clamp.position), put(clamp_orientation, clamp.orientation);
   }
   void write(pipeline::FileWriter& file, const std::string& group) const {
     file.append(group + "/segment/position", std::span<const double>(position));
@@ -32,8 +33,12 @@ struct Places {
   }
 
  private:
-  static void put(std::vector<double>& row, const Vector3& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
-  static void put(std::vector<double>& row, const Quaternion& q) { row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()}); }
+  static void put(std::vector<double>& row, const Vector3& v) {
+    row.insert(row.end(), {v.x(), v.y(), v.z()});
+  }
+  static void put(std::vector<double>& row, const Quaternion& q) {
+    row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()});
+  }
 };
 
 pipeline::Setup setup_with(const pipeline::Job& job, double factor, double time_step) {
@@ -49,7 +54,8 @@ pipeline::Setup setup_with(const pipeline::Job& job, double factor, double time_
 
 }  // namespace
 
-std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step, pipeline::FileWriter& file) {
+std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step,
+                                             pipeline::FileWriter& file) {
   const double reach = pipeline::other_stiffness(job.uncertainty);
   std::vector<Warning> refused;
   if (reach == 0) return refused;
@@ -73,9 +79,10 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double ti
     if (problem.empty()) continue;
     refused.push_back(pipeline::warning_of(
         pipeline::WarningKind::slack, "",
-        fmt::format("with {:.2g} times the hose's bending stiffness the simulation is refused ({}); its lives there are those of a "
-                    "straight line through the other stiffness",
-                    factor, problem),
+        fmt::format(
+            "with {:.2g} times the hose's bending stiffness the simulation is refused ({}); its lives there are those of a "
+            "straight line through the other stiffness",
+            factor, problem),
         "the routing leaves this hose no room for another stiffness",
         "more free length; or measure the hose, and give bending_stiffness_Nm2 and a smaller uncertainty.hose_stiffness"));
   }
