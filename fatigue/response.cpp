@@ -107,6 +107,10 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
       all[v].rest = static_cast<std::size_t>(rest[v]);
     }
   }
+  if (strain.has("/variation/stiffness")) {
+    const auto stiffness = strain.read<double>("/variation/stiffness");
+    for (std::size_t v = 0; v < all.size(); ++v) all[v].z[index_of(pipeline::Uncertain::hose_stiffness)] = stiffness[v];
+  }
   std::size_t next = 0;
   for (std::size_t row = 0; row < of_row.size(); ++row) {
     if (of_row[row] >= all.size() || site[row] >= sites || turning[row] > strains.size() - next)

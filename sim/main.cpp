@@ -15,6 +15,7 @@
 #include "sim/run/cures.h"
 #include "sim/run/memory.h"
 #include "sim/run/motion_file.h"
+#include "sim/run/other_stiffness.h"
 #include "sim/run/prescribed.h"
 #include "sim/run/simulate.h"
 
@@ -87,9 +88,10 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
   const sim::RunSummary summary = simulation.run({[&](const sim::Sample& sample) { motion->add(sample); },
                                                   begin, [&](double share) { progress.show(share); }});
   motion->finish(summary, [&](double time) { return simulation.path().step(time); });
+  const std::vector<pipeline::Warning> refused = sim::write_other_stiffnesses(job, summary.time_step, *file);
   for (const std::string& note : {sim::repeats_note(summary), simulation.program_note()})
     if (!note.empty()) progress.note(note);
-  pipeline::note_warnings(*file, call, progress, sim::warnings_of(simulation, summary));
+  pipeline::note_warnings(*file, call, progress, pipeline::joined(sim::warnings_of(simulation, summary), refused));
   pipeline::stamp(*file, call, job, "");
   file->commit();
 }

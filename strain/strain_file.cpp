@@ -37,6 +37,7 @@ constexpr double first_pass_share = 0.05;   // of the work, for the progress dis
 // to.
 constexpr double believable_mesh_error = 0.02;
 constexpr double loose_pass_share = 0.5;  // the same where cables lie loose
+constexpr double own_work_share = 0.75;   // the same of all but other stiffnesses of the hose
 // Of the end of the motion [s], before the repeat that counts: loose cables forget their first places (W36). After 160 s
 // the last start of robot 1 comes to its rest.
 constexpr double rehearsed = 180;
@@ -55,8 +56,10 @@ struct MotionBlock {
 /// Reads the motion block by block and measures the deformation of every segment.
 class MotionReader {
  public:
-  MotionReader(const FileReader& file, const pipeline::Job& job)
+  /// group: of the places of segments and clamps; empty: of the job's own motion.
+  MotionReader(const FileReader& file, const pipeline::Job& job, std::string group = "")
       : file_(file),
+        group_(std::move(group)),
         lengths_(file.read<double>("/segment/length")),
         samples_(file.rows("/time")),
         step_(step_of(file, job)),
@@ -98,10 +101,10 @@ class MotionReader {
     std::vector<double> pull;
     for (std::size_t first = from; first < end; first += block_samples) {
       const std::size_t count = std::min(block_samples, end - first);
-      file_.read_rows("/segment/position", first, count, position);
-      file_.read_rows("/segment/orientation", first, count, orientation);
-      file_.read_rows("/clamp/position", first, count, clamp_position);
-      file_.read_rows("/clamp/orientation", first, count, clamp_orientation);
+      file_.read_rows(group_ + "/segment/position", first, count, position);
+      file_.read_rows(group_ + "/segment/orientation", first, count, orientation);
+      file_.read_rows(group_ + "/clamp/position", first, count, clamp_position);
+      file_.read_rows(group_ + "/clamp/orientation", first, count, clamp_orientation);
       deformation.resize(count * segments);
       at_wires.resize(count * segments);
       for (std::size_t t = 0; t < count; ++t) {
@@ -143,7 +146,7 @@ class MotionReader {
     const std::size_t segments = lengths_.size(), row = 3 * segments;
     const std::size_t before = first > 0 ? 1 : 0, after = first + count < samples_ ? 1 : 0;
     std::vector<double> position;
-    file_.read_rows("/segment/position", first - before, count + before + after, position);
+    file_.read_rows(group_ + "/segment/position", first - before, count + before + after, position);
     const std::size_t rows = position.size() / row;
     pull.assign(count * segments * 2, 0.0);
     for (std::size_t t = 0; t < count; ++t) {
@@ -169,6 +172,7 @@ class MotionReader {
   }
 
   const FileReader& file_;
+  std::string group_;
   std::vector<double> lengths_;
   std::size_t samples_;
   double step_;
@@ -229,18 +233,39 @@ class SiteWriter {
   std::vector<std::uint64_t> offsets_;
 };
 
+/// The job's motion with another stiffness of the hose.
+struct OtherMotion {
+  MotionReader reader;
+  double z;  ///< of hose_stiffness
+};
+
+std::vector<OtherMotion> other_motions(const FileReader& motion, const pipeline::Job& job) {
+  std::vector<OtherMotion> all;
+  if (!job.uncertainty.enabled) return all;
+  for (const std::string group : {"softer", "stiffer"})
+    if (motion.has("/" + group + "/segment/position"))
+      all.push_back({MotionReader(motion, job, "/" + group), motion.number_attribute(group + "_z")});
+  return all;
+}
+
 /// Appends what variations make of likely worst wires.
 class VariationWriter {
  public:
-  VariationWriter(FileWriter& file, const Variations& variations) : file_(file) {
+  /// The variations of others follow the first ones.
+  VariationWriter(FileWriter& file, const Variations& variations, const std::vector<OtherMotion>& others) : file_(file) {
     std::vector<double> z;
     for (const Variations::Point& point : variations.points()) z.insert(z.end(), point.begin(), point.end());
+    z.resize(z.size() + others.size() * Variations::Point{}.size());
     if (z.empty()) return;
     file.append("/variation/z", z);
-    std::vector<std::int32_t> inside;
+    std::vector<std::int32_t> inside, rests = variations.rests();
     for (const pipeline::Inside one : variations.inside()) inside.push_back(static_cast<std::int32_t>(one));
+    std::vector<double> stiffness(inside.size());
+    for (const OtherMotion& other : others) stiffness.push_back(other.z);
+    inside.resize(stiffness.size()), rests.resize(stiffness.size());
     file.append("/variation/inside", inside);
-    file.append("/variation/rest", variations.rests());
+    file.append("/variation/rest", rests);
+    if (!others.empty()) file.append("/variation/stiffness", stiffness);
   }
 
   void append(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows) {
@@ -580,7 +605,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
                    std::size_t history_bytes) {
   MotionReader reader(motion, job);
   check(motion, job, reader);
+  std::vector<OtherMotion> others = other_motions(motion, job);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
+  const double own_work = others.empty() ? 1 : own_work_share;
   check_probes(job);
   // Half of the room: the hose's deformation wants the other.
   const Scratch scratch{
@@ -616,8 +643,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
           segment >= first_segment && segment < first_segment + per_pass)
         history.set(segment - first_segment, first + k / segments, block[k]);
   };
-  bool varied = false;  // whether variations go through the motion, too
-  const auto each_span = [&](const MotionBlock& block, const auto& use) {
+  using OfSpan = std::function<std::vector<Evaluation*>(std::size_t)>;
+  // use: evaluations of a span that go through the same motion.
+  const auto each_span = [&](const MotionBlock& block, const OfSpan& of_span_all, const auto& use) {
     const std::size_t count = block.deformation.size() / segments;
     std::vector<double> pull;
     std::vector<Deformation> ends;
@@ -635,12 +663,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
         pull.insert(pull.end(), own.begin(), own.end());
       }
       const SpanBlock span_block{of_span, pull, reader.step(), ends};
-      std::vector<Evaluation*> together{evaluations[k].get()};
-      for (const auto& more : {starts.placed(k), varied ? variations.placed(k) : std::vector<Evaluation*>()})
-        together.insert(together.end(), more.begin(), more.end());
       std::vector<std::vector<Evaluation*>> of_thread(threads);  // those that share loose cables in one
       std::size_t next = 0;
-      for (Evaluation* const evaluation : together) {
+      for (Evaluation* const evaluation : of_span_all(k)) {
         const auto shares = [&](const std::vector<Evaluation*>& own) {
           return std::ranges::any_of(own, [&](const Evaluation* other) {
             return other->cables().shares_loose(evaluation->cables());
@@ -655,75 +680,90 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     }
   };
   // use: of a span, its segment, and where `history` has that. `history` has the first segments before.
-  const auto each_segment = [&](const std::function<void(std::size_t, std::size_t, std::size_t)>& use) {
+  const auto each_segment = [&](MotionReader& of, const std::function<void(std::size_t, std::size_t, std::size_t)>& use) {
     for (std::size_t k = 0, span = 0; k < segments; ++k) {
       if (k == reader.spans()[span].first_segment + reader.spans()[span].segments) ++span;
       if (k % per_pass == 0 && k > 0)
-        reader.run(false, [&](const MotionBlock& block) { keep(k, block.first, block.at_wires); });
+        of.run(false, [&](const MotionBlock& block) { keep(k, block.first, block.at_wires); });
       use(span, k - reader.spans()[span].first_segment, k % per_pass);
     }
   };
   const auto any = [&](auto does) { return std::any_of(evaluations.begin(), evaluations.end(), does); };
   const bool loose = any([](const auto& evaluation) { return evaluation->any_loose(); });
-  // Samples before the first one, from `left` to `until` of them before it: of the motion's end, or of whole repeats.
-  const auto rehearse = [&](std::size_t left, std::size_t until) {
+  const auto samples_of = [&](double seconds) {
+    return static_cast<std::size_t>(std::ceil(seconds / reader.step()));
+  };
+  // The job's own motion, or another: samples before the first one, from `left` to `until` of them before it, of the motion's
+  // end or of whole repeats.
+  const auto rehearse = [&](MotionReader& of, Starts& those, const OfSpan& evaluated, std::size_t left, std::size_t until) {
     while (left > until) {
       const std::size_t first = (samples - left % samples) % samples,
                         count = std::min(left - until, samples - first);
       const auto move = [&](const MotionBlock& block) {
-        each_span(block, Evaluation::rehearse);
-        starts.merge();
+        each_span(block, evaluated, Evaluation::rehearse);
+        those.merge();
       };
-      reader.run(true, move, first, first + count);
+      of.run(true, move, first, first + count);
       left -= count;
     }
   };
-  const auto samples_of = [&](double seconds) {
-    return static_cast<std::size_t>(std::ceil(seconds / reader.step()));
+  // put: of every block.
+  const auto pass = [&](MotionReader& of, Starts& those, const OfSpan& evaluated, const std::function<void(const MotionBlock&)>& put) {
+    of.run(loose, [&](const MotionBlock& block) {
+      put(block);
+      each_span(block, evaluated, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
+        Evaluation::add(own, of_span);
+      });
+      those.merge();
+      keep(0, block.first, block.at_wires);
+    });
+    for (std::size_t k = 0; k < evaluations.size(); ++k)
+      for (Evaluation* const evaluation : evaluated(k)) evaluation->end_first_pass();
+    if (any([](const auto& evaluation) { return evaluation->wants_again(); }))
+      of.run(false, [&](const MotionBlock& block) {
+        each_span(block, evaluated, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
+          for (Evaluation* const evaluation : own)
+            if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
+        });
+      });
   };
-  if (loose && samples > 1) rehearse(samples_of(rehearsed), samples_of(rehearsed_varied));
+  const auto choose = [&](MotionReader& of, Starts& those) {
+    if (those.rests() == 1) return;
+    for (std::size_t rest = 0; rest < those.rests(); ++rest)
+      for (const auto& evaluation : those.spans(rest)) evaluation->find_bent();
+    std::vector<double> damage(those.rests(), 0.0);
+    each_segment(of, [&](std::size_t span, std::size_t segment, std::size_t row) {
+      for (std::size_t rest = 0; rest < those.rests(); ++rest)
+        damage[rest] = std::max<double>(damage[rest], those.spans(rest)[span]->damage_of_bent(segment, history, row));
+    });
+    those.choose(job.strain.rest, damage);
+    if (per_pass < segments)
+      of.run(false, [&](const MotionBlock& block) { keep(0, block.first, block.at_wires); });
+  };
+  const auto of_starts = [](const Starts& those, std::size_t span) {
+    std::vector<Evaluation*> all_starts{those.spans(0)[span].get()};
+    for (Evaluation* const placed : those.placed(span)) all_starts.push_back(placed);
+    return all_starts;
+  };
+  bool varied = false;  // whether variations go through the motion, too
+  const OfSpan own_and_varied = [&](std::size_t span) {
+    std::vector<Evaluation*> together = of_starts(starts, span);
+    if (varied)
+      for (Evaluation* const placed : variations.placed(span)) together.push_back(placed);
+    return together;
+  };
+  if (loose && samples > 1) rehearse(reader, starts, own_and_varied, samples_of(rehearsed), samples_of(rehearsed_varied));
   variations.go_on();
   varied = true;
-  if (loose && samples > 1) rehearse(samples_of(rehearsed_varied), 0);
-  for (std::size_t k = 0; k < evaluations.size(); ++k) {  // each of these may become the job's own
-    evaluations[k]->record_rubbing();
-    for (Evaluation* const placed : starts.placed(k)) placed->record_rubbing();
-  }
-  reader.run(loose, [&](const MotionBlock& block) {
+  if (loose && samples > 1) rehearse(reader, starts, own_and_varied, samples_of(rehearsed_varied), 0);
+  for (std::size_t k = 0; k < evaluations.size(); ++k)  // each of these may become the job's own
+    for (Evaluation* const evaluation : of_starts(starts, k)) evaluation->record_rubbing();
+  pass(reader, starts, own_and_varied, [&](const MotionBlock& block) {
     append_deformation(strain, block.deformation);
-    each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
-      Evaluation::add(own, of_span);
-    });
-    starts.merge();
-    keep(0, block.first, block.at_wires);
-    progress((loose ? loose_pass_share : first_pass_share) * static_cast<double>(block.first) /
+    progress(own_work * (loose ? loose_pass_share : first_pass_share) * static_cast<double>(block.first) /
              static_cast<double>(samples));
   });
-  for (std::size_t k = 0; k < evaluations.size(); ++k) {
-    evaluations[k]->end_first_pass();
-    for (Evaluation* const placed : starts.placed(k)) placed->end_first_pass();
-    for (Evaluation* const placed : variations.placed(k)) placed->end_first_pass();
-  }
-  if (any([](const auto& evaluation) { return evaluation->wants_again(); }))
-    reader.run(false, [&](const MotionBlock& block) {
-      each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
-        for (Evaluation* const evaluation : own)
-          if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
-      });
-    });
-  if (starts.rests() > 1) {
-    std::vector<double> damage(starts.rests(), 0.0);
-    for (std::size_t rest = 0; rest < starts.rests(); ++rest)
-      for (const auto& evaluation : starts.spans(rest)) evaluation->find_bent();
-    each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
-      for (std::size_t rest = 0; rest < starts.rests(); ++rest)
-        damage[rest] =
-            std::max<double>(damage[rest], starts.spans(rest)[span]->damage_of_bent(segment, history, row));
-    });
-    starts.choose(job.strain.rest, damage);
-    if (per_pass < segments)
-      reader.run(false, [&](const MotionBlock& block) { keep(0, block.first, block.at_wires); });
-  }
+  choose(reader, starts);
   for (std::size_t k = 0; k < evaluations.size(); ++k)
     for (Evaluation* const placed : variations.placed(k)) placed->find_bent();
   variations.add(starts);
@@ -748,21 +788,49 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   };
   if (const std::vector<std::int32_t> rests(starts.rest_of().begin(), starts.rest_of().end()); !rests.empty())
     strain.append("/start/rest", rests);
-  VariationWriter variation_rows(strain, variations);
+  VariationWriter variation_rows(strain, variations, others);
   std::size_t segment = 0;
   sink.progress = [&](double) {
     const double share = static_cast<double>(segment + 1) / static_cast<double>(segments);
     const double done = loose ? loose_pass_share : first_pass_share;
-    progress(done + (1 - done) * share);
+    progress(own_work * (done + (1 - done) * share));
   };
-  each_segment([&](std::size_t span, std::size_t in_span, std::size_t row) {
+  std::vector<std::vector<Evaluation::Site>> likely;  // (segment)
+  each_segment(reader, [&](std::size_t span, std::size_t in_span, std::size_t row) {
     evaluations[span]->evaluate(in_span, history, row, sink);
+    likely.push_back(evaluations[span]->likely_worst());
     variations.evaluate(span, in_span, history, row,
                         [&](std::size_t variation, const std::vector<std::size_t>& of, const SiteRows& rows) {
                           variation_rows.append(variation, of, rows);
                         });
     ++segment;
   });
+  for (Evaluations& laid : otherwise_laid) laid.of_span.clear();  // their memory is for others
+  for (std::size_t other = 0; other < others.size(); ++other) {
+    MotionReader& of = others[other].reader;
+    std::list<Evaluations> laid;
+    const auto lay = [&]() -> Starts::Spans& {
+      return laid.emplace_back(job, of, threads, job.strain.factors, scratch, &all).of_span;
+    };
+    Starts those(lay(), lay);
+    const OfSpan evaluated = [&](std::size_t span) { return of_starts(those, span); };
+    if (loose && samples > 1) rehearse(of, those, evaluated, samples_of(rehearsed_varied), 0);
+    pass(of, those, evaluated, [&](const MotionBlock&) {});
+    choose(of, those);
+    if (those.rests() == 1)  // else it is done
+      for (const auto& evaluation : those.spans(0)) evaluation->find_bent();
+    std::size_t seen = 0;
+    each_segment(of, [&](std::size_t span, std::size_t in_span, std::size_t row) {
+      Evaluation& evaluation = *those.spans(0)[span];
+      std::vector<Evaluation::Site> wires = with_likely_of_bent(likely[seen++], evaluation, in_span, history, row);
+      if (wires.empty()) return;
+      std::vector<std::size_t> rows;
+      for (const Evaluation::Site site : wires) rows.push_back(evaluation.row_of(in_span, site));
+      variation_rows.append(variations.points().size() + other, rows,
+                            evaluation.varied(wires, {1.0}, in_span, history, row).front());
+    });
+    progress(own_work + (1 - own_work) * static_cast<double>(other + 1) / static_cast<double>(others.size()));
+  }
   const auto worst =
       std::max_element(evaluations.begin(), evaluations.end(),
                        [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });

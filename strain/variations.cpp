@@ -54,6 +54,7 @@ pipeline::StrainFactors moved(pipeline::StrainFactors factors, Uncertain paramet
       break;
     case Uncertain::friction_inside:
     case Uncertain::rest:
+    case Uncertain::hose_stiffness:
     case Uncertain::strength:
     case Uncertain::slope:
     case Uncertain::scatter:
@@ -65,6 +66,15 @@ pipeline::StrainFactors moved(pipeline::StrainFactors factors, Uncertain paramet
 }
 
 }  // namespace
+
+std::vector<Evaluation::Site> with_likely_of_bent(std::vector<Evaluation::Site> likely, Evaluation& placed, std::size_t segment,
+                                                  const DeformationHistory& history, std::size_t row) {
+  const std::vector<Evaluation::Site>& own = placed.likely_of_bent(segment, history, row);
+  likely.insert(likely.end(), own.begin(), own.end());
+  std::ranges::sort(likely);
+  likely.erase(std::unique(likely.begin(), likely.end()), likely.end());
+  return likely;
+}
 
 std::size_t placements_at_most(const pipeline::Job& job) {
   if (!job.uncertainty.enabled) return 0;
@@ -149,12 +159,8 @@ void Variations::evaluate(std::size_t span, std::size_t segment, const Deformati
   for (const Placement& placement : placements_) {
     Evaluation& placed = *(*placement.spans)[span];
     std::vector<Evaluation::Site> wires = likely;
-    if (placement.spans != &as_given_) {  // where cables rest elsewhere, other wires may be the worst
-      const std::vector<Evaluation::Site>& own = placed.likely_of_bent(segment, history, row);
-      wires.insert(wires.end(), own.begin(), own.end());
-      std::ranges::sort(wires);
-      wires.erase(std::unique(wires.begin(), wires.end()), wires.end());
-    }
+    if (placement.spans != &as_given_)  // where cables rest elsewhere, other wires may be the worst
+      wires = with_likely_of_bent(std::move(wires), placed, segment, history, row);
     std::vector<std::size_t> sites;
     for (const Evaluation::Site site : wires) sites.push_back(as_given_[span]->row_of(segment, site));
     const std::vector<SiteRows> rows = placed.varied(wires, placement.factors, segment, history, row);

@@ -22,6 +22,11 @@ namespace dresslife::strain {
 /// In how many ways cables are laid besides the job's own, at most; 0 where its uncertainty is off.
 std::size_t placements_at_most(const pipeline::Job& job);
 
+/// Likely worst wires of the job as it is, and those of an evaluation whose cables lie otherwise. Segments as in
+/// Evaluation::likely_of_bent().
+std::vector<Evaluation::Site> with_likely_of_bent(std::vector<Evaluation::Site> likely, Evaluation& placed, std::size_t segment,
+                                                  const DeformationHistory& history, std::size_t row);
+
 class Variations {
  public:
   static constexpr double reach = 1.5;  ///< 87 % of all that may be lie between

@@ -154,6 +154,14 @@ Format make_motion_format() {
     {"/tension",               f64,  "sample, segment",    "N",    decimals_4,
      "axial force in each segment, kept to 5e-5 N"},
   });
+  for (const char* group : {"/softer", "/stiffer"})
+    add(format, {
+      {"/segment/position",    f64, "sample, segment, 3", "m", maybe | decimals_12,
+       "as /segment/position, with another bending stiffness of each hose (uncertainty.hose_stiffness)"},
+      {"/segment/orientation", f64, "sample, segment, 4", "1", maybe | decimals_12, "as /segment/orientation"},
+      {"/clamp/position",      f64, "sample, clamp, 3",   "m", maybe, "as /clamp/position"},
+      {"/clamp/orientation",   f64, "sample, clamp, 4",   "1", maybe, "as /clamp/orientation"},
+    }, group);
   add_dresspacks(format);
   add_rubbing(format);
   add(format, {
@@ -193,6 +201,8 @@ Format make_motion_format() {
      "distance between the dresspack's places at the start and at the end of the repeat, m; absent if the motion "
      "does not return"},
     {"time_step", f64, maybe, "integration step of the last repeat, s"},
+    {"softer_z", f64, maybe, "standardised value of hose_stiffness in /softer (pipeline/job/uncertainty.h)"},
+    {"stiffer_z", f64, maybe, "the same of /stiffer"},
     {"curvature_error", f64, maybe,
      "estimated relative rms error of the curvature by the time step, in the most dynamic seconds"},
     {"warnings", text, maybe,
@@ -279,6 +289,8 @@ Format make_strain_format() {
      "slip inside the cables: 0 with that friction, 1 none (glued), 2 free"},
     {"/variation/rest",          i32,  "variation",          "1",    maybe,
      "rest of its loose cables, a number of /start/rest; absent in older files"},
+    {"/variation/stiffness",     f64,  "variation",          "1",    maybe,
+     "standardised value of hose_stiffness; absent: 0 in all"},
     {"/start/rest",              i32,  "start",              "1",    maybe,
      "place of rest to which each start of the rings of loose cables came; 0: the job's own; absent: no ring (W40)"},
     {"/variation/row/variation", u32,  "variation_row",      "1",    maybe,

@@ -18,6 +18,8 @@ void describe(Fields& f, SimulationSettings& simulation) {
       "The largest estimated rms error of the curvature in the fastest seconds, for an automatic step.");
   f.number("sample_rate_Hz", simulation.sample_rate, Need::optional, between(0.1, 10000),
            "The sample rate of motion.h5. The time between samples is a whole number of steps.");
+  f.number("stiffness_factor", simulation.stiffness_factor, Need::optional, between(0.01, 100),
+           "A factor on the bending stiffness of each hose and on the moments of its friction.");
   f.vector("gravity_m_per_s2", simulation.gravity, Need::optional, "The gravity in the world.");
   f.boolean("contact", simulation.contact, Need::optional,
             "Whether the dresspack touches the robot's links.");

@@ -17,6 +17,7 @@ struct SimulationSettings {
   bool choose_time_step = false;     ///< time_step_ms: auto; time_step is then where the choice begins
   double curvature_error = 0.5;      ///< that a chosen step may leave [%]
   double sample_rate = 25;           ///< of motion.h5 [Hz]; 1/rate is a multiple of the step
+  double stiffness_factor = 1;       ///< of each hose's bending, with its friction
   Vector3d gravity{0, 0, -9.81};     ///< [m/s2]
   bool contact = true;               ///< with the robot's links
   bool self_contact = true;          ///< of dresspacks with themselves and each other

@@ -31,13 +31,14 @@ enum class Uncertain {
   play,
   grip,
   rest,
+  hose_stiffness,
   strength,
   slope,
   scatter,
   model,
   motion
 };
-constexpr std::size_t uncertain_count = 11;
+constexpr std::size_t uncertain_count = 12;
 
 /// Which jobs share one value of a parameter.
 enum class SharedBy {
@@ -96,6 +97,9 @@ struct ParameterKnowledge {
   Eigen::VectorXd mean;        ///< (parameter), in the order of uncertain_parameters()
   Eigen::MatrixXd covariance;  ///< (parameter, parameter)
 };
+/// z of the two other stiffnesses that dresslife-sim and dresslife-strain evaluate, -z and z: by default half and twice the
+/// hose's. 0: none, where the stiffness is known or moves nothing.
+double other_stiffness(const Uncertainty& uncertainty);
 /// Independent, mean 0, of the spreads that the job gives.
 ParameterKnowledge prior_of(const Uncertainty& uncertainty);
 

@@ -255,10 +255,16 @@ void check(const LifeResponse& response) {
   if (!whole) throw std::invalid_argument("lists of other lengths");
 }
 
-/// A list of the uncertain parameters, or of the first of them, as it was before there was `rest`: with a 0 for that.
-std::vector<double> with_rest(std::vector<double> numbers, std::size_t whole) {
-  if (numbers.size() + 1 == whole)
-    numbers.insert(numbers.begin() + static_cast<std::ptrdiff_t>(of_rest), 0.0);
+/// How many of the last parameters of the strain side an older list lacks: first there was no `rest`, then no
+/// `hose_stiffness`. 0: the list is whole, or none of these.
+std::size_t later_parameters(std::size_t size, std::size_t whole) {
+  return size < whole && whole - size <= strain_parameters - of_rest ? whole - size : 0;
+}
+
+/// A list of the uncertain parameters, or of the first of them, with a 0 for each that it lacks.
+std::vector<double> completed(std::vector<double> numbers, std::size_t whole) {
+  const std::size_t lacks = later_parameters(numbers.size(), whole);
+  numbers.insert(numbers.begin() + static_cast<std::ptrdiff_t>(lacks > 0 ? strain_parameters - lacks : 0), lacks, 0.0);
   return numbers;
 }
 
@@ -283,17 +289,18 @@ bool read_name(LifeResponse& response, const std::string& name, const std::strin
 void read_numbers(LifeResponse& response, const std::string& name, const std::vector<double>& numbers,
                   std::vector<double>& covariance) {
   const auto add_point = [&](Inside inside) {
-    fix(response.points.emplace_back(), with_rest(numbers, strain_parameters));
+    fix(response.points.emplace_back(), completed(numbers, strain_parameters));
     response.inside.push_back(inside);
   };
   if (name == "mean") {
-    const std::vector<double> mean = with_rest(numbers, uncertain_count);
+    const std::vector<double> mean = completed(numbers, uncertain_count);
     response.knowledge.mean =
         Eigen::Map<const Eigen::VectorXd>(mean.data(), static_cast<Eigen::Index>(mean.size()));
   } else if (name == "covariance") {
-    const std::vector<double> row = with_rest(numbers, uncertain_count);
-    if (numbers.size() < row.size() && covariance.size() == of_rest * uncertain_count)
-      covariance.resize(covariance.size() + uncertain_count, 0.0);
+    const std::vector<double> row = completed(numbers, uncertain_count);
+    const std::size_t lacks = later_parameters(numbers.size(), uncertain_count);
+    if (lacks > 0 && covariance.size() == (strain_parameters - lacks) * uncertain_count)
+      covariance.resize(covariance.size() + lacks * uncertain_count, 0.0);
     covariance.insert(covariance.end(), row.begin(), row.end());
   }
   if (name == "point")

@@ -23,7 +23,7 @@
 namespace dresslife::pipeline {
 
 /// Parameters of the strain side: the first of uncertain_parameters().
-constexpr std::size_t strain_parameters = 6;
+constexpr std::size_t strain_parameters = 7;
 
 using ParameterPoint = std::array<double, uncertain_count>;  ///< (parameter) z
 

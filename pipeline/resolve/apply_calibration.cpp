@@ -46,6 +46,7 @@ void put_medians(Node& tree, Job& job) {
     value.where = learned.where;
     set_value(tree, std::string(parameter.key), std::move(value), job.calibration->where);
   }
+  if (const Node* simulation = tree.find("simulation")) read_fields(*simulation, job.simulation);
   if (const Node* strain = tree.find("strain")) read_fields(*strain, job.strain);
   if (const Node* fatigue = tree.find("fatigue")) read_fields(*fatigue, job.fatigue);
 }

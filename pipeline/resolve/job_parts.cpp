@@ -200,6 +200,8 @@ void describe_sim(Fields& echo, Job copy) {
   copy.cell.temperature = Cell::usual_temperature;  // the stiffnesses contain it
   echo.group("cell", copy.cell, Need::optional, "");
   echo.group("simulation", copy.simulation, Need::optional, "");
+  double other = copy.motion.is_prescribed() ? 0 : other_stiffness(copy.uncertainty);
+  echo.number("other_stiffness", other, Need::optional, any_number(), "");
 }
 
 void describe_strain(Fields& echo, Job copy) {

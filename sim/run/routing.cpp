@@ -18,9 +18,9 @@ RodProperties properties_of(const pipeline::MountedDresspack& mounted,
   properties.length = mounted.routing.free_length;
   properties.mass_per_length = hose.mass_per_length;
   properties.diameter = hose.diameter;
-  properties.bending_stiffness = pipeline::elastic_bending_stiffness(hose);
+  properties.bending_stiffness = settings.stiffness_factor * pipeline::elastic_bending_stiffness(hose);
   for (const pipeline::BendingFriction& friction : hose.bending_friction)
-    properties.friction.push_back({friction.stiffness, friction.slides_at});
+    properties.friction.push_back({settings.stiffness_factor * friction.stiffness, friction.slides_at});
   properties.loss_factor = hose.loss_factor.value_or(0);
   properties.torsional_stiffness = hose.torsional_stiffness;
   properties.axial_stiffness = hose.axial_stiffness;

@@ -66,6 +66,7 @@ Simulation::Simulation(const pipeline::Setup& setup)
   description_.samples = intervals(path_->duration(), setup_.simulation.sample_rate) + 1;
   for (const pipeline::MountedDresspack& mounted : setup_.dresspacks)
     describe_dresspack(description_, mounted);
+  for (double& stiffness : description_.bending_stiffness) stiffness *= setup_.simulation.stiffness_factor;
   for (int i = 0; i < rod_.segments(); ++i) {
     description_.dresspack.push_back(rod_.span_of(i).dresspack);
     description_.segment_length.push_back(rod_.span_of(i).segment_length);

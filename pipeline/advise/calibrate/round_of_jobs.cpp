@@ -49,6 +49,8 @@ bool acts(const Job& job, Uncertain parameter) {
     case Uncertain::scatter:
     case Uncertain::model:
       return true;
+    case Uncertain::hose_stiffness:
+      return !job.motion.is_prescribed();
     case Uncertain::motion:
       return !job.robot.joints.empty();
   }
@@ -79,9 +81,9 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
     const Job plain = job_from(variant.job, sets_);
     if (plain.calibration)
       refuse("its job names a calibration, whose observations would count twice", "leave calibration out");
-    if (plain.strain.factors != StrainFactors{} || plain.strain.rest != 0 || is_changed(plain.fatigue) ||
+    if (plain.strain.factors != StrainFactors{} || plain.strain.rest != 0 || plain.simulation.stiffness_factor != 1 || is_changed(plain.fatigue) ||
         plain.fatigue.scatter_factor != 1)
-      refuse("its job gives a key that is to be learned", "leave the factors of strain and fatigue out");
+      refuse("its job gives a key that is to be learned", "leave the factors of simulation, strain and fatigue out");
     if (plain.uncertainty.spread != Uncertainty::default_spread())
       refuse("its job gives uncertainties of its own, but all rows of a calibration must have the same",
              "leave section uncertainty out of its job");

@@ -134,3 +134,18 @@ TEST_CASE("job: a slope that leaves no strain-life curve is refused") {
   const auto file = scratch.write("job.yaml", sample_job);
   CHECK_THROWS_WITH(read_job(file, {"fatigue.slope_change=0.1"}), Catch::Contains("must be -0.02 or less"));
 }
+
+TEST_CASE("other stiffnesses of the hose are half and twice its own, and follow the deviation that a job gives") {
+  const UncertainParameter& stiffness = uncertain_parameters()[index_of(Uncertain::hose_stiffness)];
+  Uncertainty uncertainty;
+  constexpr double half_a_per_cent = 0.005;  // 1.25 deviations of a factor of 1.75: 2.013
+  CHECK(stiffness.value(other_stiffness(uncertainty)) == Approx(2).epsilon(2 * half_a_per_cent));
+  double& spread = uncertainty.spread[index_of(Uncertain::hose_stiffness)];
+  spread = 1.1;
+  CHECK(stiffness.value(other_stiffness(uncertainty)) == Approx(std::pow(1.1, 1.25)).epsilon(rounding));
+  spread = 1;
+  CHECK(other_stiffness(uncertainty) == 0);
+  uncertainty = {};
+  uncertainty.enabled = false;
+  CHECK(other_stiffness(uncertainty) == 0);
+}

@@ -247,28 +247,33 @@ TEST_CASE("beyond the rests of all starts a life is that of the last one") {
     CHECK(response.change(at(rest, z)) == Approx(change).margin(rounding));
 }
 
-TEST_CASE("a text from before there were rests is read: the same lives") {
+TEST_CASE("a text from before there were rests, or the hose's stiffness, is read: the same lives") {
   const LifeResponse response = straight_response(0.6, 0.2, 0.4);
+  constexpr std::size_t rest = index_of(Uncertain::rest), stiffness = index_of(Uncertain::hose_stiffness);
+  const std::size_t first = GENERATE(true, false) ? rest : stiffness;  // of those that the text lacks
   std::istringstream lines(response.text());
-  constexpr std::size_t rest = index_of(Uncertain::rest);
   std::string older;
   std::size_t row = 0;  // of the covariance
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::vector<std::string> all{std::istream_iterator<std::string>(words), {}};
-    if (all[0] == "covariance" && row++ == rest) continue;
+    if (all[0] == "covariance") {
+      const std::size_t of = row++;
+      if (of >= first && of <= stiffness) continue;
+    }
     if (all[0] == "mean" || all[0] == "covariance" || all[0] == "point")
-      all.erase(all.begin() + static_cast<std::ptrdiff_t>(1 + rest));
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(1 + first), all.begin() + static_cast<std::ptrdiff_t>(2 + stiffness));
     for (const std::string& word : all) older += word + " ";
     older += "\n";
   }
-  REQUIRE(older.find("point 0 0 -1.5 0 0 \n") != std::string::npos);
+  REQUIRE(older.find(first == rest ? "point 0 0 -1.5 0 0 \n" : "point 0 0 -1.5 0 0 0 \n") != std::string::npos);
   const LifeResponse read = LifeResponse::from_text(older);
   for (const std::size_t parameter : {friction, slack, strength, model})
     CHECK(read.change(at(parameter, 0.8)) ==
           Approx(response.change(at(parameter, 0.8))).margin(1e-5));  // six digits
-  CHECK(read.knowledge.covariance(rest + 1, rest + 1) == 1);
-  CHECK(read.knowledge.covariance(rest, rest) == 0);
+  CHECK(read.knowledge.covariance(stiffness + 1, stiffness + 1) == 1);
+  CHECK(read.knowledge.covariance(stiffness, stiffness) == 0);
+  CHECK(read.knowledge.covariance(rest, rest) == (first == rest ? 0 : 1));
 }
 
 TEST_CASE("a response and its text lead to each other, no other text is one") {

@@ -1,0 +1,92 @@
+#include "sim/run/other_stiffness.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "pipeline/base/warning_words.h"
+#include "pipeline/job/uncertainty.h"
+#include "sim/run/simulate.h"
+
+namespace dresslife::sim {
+namespace {
+
+using pipeline::Uncertain;
+using pipeline::Warning;
+
+/// Of one motion, until it is known that its simulation reaches the end.
+struct Places {
+  std::vector<double> position, orientation, clamp_position, clamp_orientation;
+
+  void add(const Sample& sample) {
+    for (const Vector3& place : sample.state.position) put(position, place);
+    for (const Quaternion& turn : sample.state.orientation) put(orientation, turn);
+    for (const Frame& clamp : sample.clamps)
+      put(clamp_position, clamp.position), put(clamp_orientation, clamp.orientation);
+  }
+  void write(pipeline::FileWriter& file, const std::string& group) const {
+    file.append(group + "/segment/position", std::span<const double>(position));
+    file.append(group + "/segment/orientation", std::span<const double>(orientation));
+    file.append(group + "/clamp/position", std::span<const double>(clamp_position));
+    file.append(group + "/clamp/orientation", std::span<const double>(clamp_orientation));
+  }
+
+ private:
+  static void put(std::vector<double>& row, const Vector3& v) {
+    row.insert(row.end(), {v.x(), v.y(), v.z()});
+  }
+  static void put(std::vector<double>& row, const Quaternion& q) {
+    row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()});
+  }
+};
+
+pipeline::Setup setup_with(const pipeline::Job& job, double factor, double time_step) {
+  pipeline::Setup setup = job;
+  pipeline::SimulationSettings& settings = setup.simulation;
+  settings.stiffness_factor *= factor;
+  settings.choose_time_step = false;
+  const double steps = 1 / (settings.sample_rate * time_step);  // between samples
+  settings.time_step = std::lround(steps) % 2 == 0 ? 2 * time_step : time_step;
+  settings.most_repeats = std::min(settings.most_repeats, 2);  // the first leads in
+  return setup;
+}
+
+}  // namespace
+
+std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step,
+                                             pipeline::FileWriter& file) {
+  const double reach = pipeline::other_stiffness(job.uncertainty);
+  std::vector<Warning> refused;
+  if (reach == 0) return refused;
+  for (const auto& [name, side] : {std::pair("softer", -reach), std::pair("stiffer", reach)}) {
+    std::string problem;
+    double factor = 1;
+    for (const double z : {side, side / 2}) {  // nearer where the routing leaves no room for so much
+      factor = pipeline::uncertain_parameters()[index_of(Uncertain::hose_stiffness)].value(z);
+      try {
+        const Simulation simulation(setup_with(job, factor, time_step));
+        Places places;
+        simulation.run({[&](const Sample& sample) { places.add(sample); }, [&](int) { places = {}; }});
+        places.write(file, std::string("/") + name);
+        file.attribute(std::string(name) + "_z", z);
+        problem.clear();
+        break;
+      } catch (const pipeline::InputError& refusal) {
+        problem = refusal.what();
+      }
+    }
+    if (problem.empty()) continue;
+    refused.push_back(pipeline::warning_of(
+        pipeline::WarningKind::slack, "",
+        fmt::format(
+            "with {:.2g} times the hose's bending stiffness the simulation is refused ({}); its lives there are those of a "
+            "straight line through the other stiffness",
+            factor, problem),
+        "the routing leaves this hose no room for another stiffness",
+        "more free length; or measure the hose, and give bending_stiffness_Nm2 and a smaller uncertainty.hose_stiffness"));
+  }
+  return refused;
+}
+
+}  // namespace dresslife::sim

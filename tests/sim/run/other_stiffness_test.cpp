@@ -1,0 +1,99 @@
+#include "sim/run/other_stiffness.h"
+
+#include <cmath>
+
+#include "pipeline/job/uncertainty.h"
+#include "sim/run/motion_file.h"
+#include "sim/run/simulate.h"
+#include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
+#include "tests/sim/simple_job.h"
+
+namespace dresslife::sim {
+namespace {
+
+using pipeline::Uncertain;
+
+struct Written {
+  std::vector<pipeline::Warning> warnings;
+  std::vector<double> softer, stiffer, factors;  // as /segment/position; of those that are there
+};
+
+Written written(const pipeline::Job& job) {
+  const pipeline::Scratch scratch;
+  const auto name = scratch / "motion.h5";
+  Written result;
+  {
+    pipeline::FileWriter file(name, pipeline::motion_format());
+    const Simulation simulation(job);
+    MotionFile motion(file, simulation.description());
+    const RunSummary summary = simulation.run({[&](const Sample& sample) { motion.add(sample); }});
+    motion.finish(summary, [&](double time) { return simulation.path().step(time); });
+    result.warnings = write_other_stiffnesses(job, summary.time_step, file);
+    for (const char* attribute : {"job", "history", "input_sha256"}) file.attribute(attribute, "");
+    file.commit();
+  }
+  const pipeline::FileReader file(name, pipeline::motion_format());
+  const auto& stiffness = pipeline::uncertain_parameters()[index_of(Uncertain::hose_stiffness)];
+  for (auto& [group, values] : {std::pair("softer", &result.softer), std::pair("stiffer", &result.stiffer)}) {
+    const std::string path = std::string("/") + group + "/segment/position";
+    if (!file.has(path)) continue;
+    *values = file.read<double>(path);
+    result.factors.push_back(stiffness.value(file.number_attribute(std::string(group) + "_z")));
+  }
+  return result;
+}
+
+/// Positions of a run by itself, as dresslife-sim has them for a job with these keys.
+std::vector<double> positions_with(pipeline::Job job, double factor) {
+  job.simulation.stiffness_factor = factor;
+  job.simulation.time_step *= 2;
+  std::vector<double> positions;
+  const Simulation simulation(job);
+  simulation.run({[&](const Sample& sample) {
+    for (const Vector3& x : sample.state.position) positions.insert(positions.end(), x.begin(), x.end());
+  }});
+  return positions;
+}
+
+double largest_difference(const std::vector<double>& one, const std::vector<double>& other) {
+  REQUIRE(one.size() == other.size());
+  double largest = 0;
+  for (std::size_t k = 0; k < one.size(); ++k) largest = std::max(largest, std::abs(one[k] - other[k]));
+  return largest;
+}
+
+pipeline::Job sagging() {
+  pipeline::Job job = simple_job();
+  job.dresspacks[0].routing.tool_clamp->position = {0.85, 0, 0.1};  // it swings the hose, too
+  job.simulation.most_repeats = 1;
+  return job;
+}
+
+}  // namespace
+
+TEST_CASE("other stiffnesses: the places are those of jobs whose hose is half and twice as stiff") {
+  const pipeline::Job job = sagging();
+  const Written both = written(job);
+  CHECK(both.warnings.empty());
+  REQUIRE(both.factors.size() == 2);
+  constexpr double kept = 1e-12;  // decimals of the file [m]
+  CHECK(largest_difference(both.softer, positions_with(job, both.factors[0])) < kept);
+  CHECK(largest_difference(both.stiffer, positions_with(job, both.factors[1])) < kept);
+  CHECK(largest_difference(both.softer, both.stiffer) > 1e-3);  // else nothing is tested
+  // A factor on the stiffness and the stiffness itself are one thing.
+  pipeline::Job stiff = job;
+  stiff.dresspacks[0].dresspack.bending_stiffness *= both.factors[1];
+  CHECK(largest_difference(both.stiffer, positions_with(stiff, 1)) < kept);
+}
+
+TEST_CASE("other stiffnesses: none where the stiffness is known") {
+  pipeline::Job job = sagging();
+  job.uncertainty.spread[index_of(Uncertain::hose_stiffness)] = 1;
+  CHECK(written(job).factors.empty());
+  job = sagging();
+  job.uncertainty.enabled = false;
+  CHECK(written(job).factors.empty());
+}
+
+}  // namespace dresslife::sim
