@@ -33,6 +33,12 @@ namespace {
 using pipeline::FileReader;
 using pipeline::FileWriter;
 
+std::vector<float> as_floats(const std::vector<Reversal>& reversals) {
+  std::vector<float> strains;
+  for (const Reversal& reversal : reversals) strains.push_back(static_cast<float>(reversal.strain));
+  return strains;
+}
+
 /// Everything about the file that several parts of the output need.
 struct Context {
   const FileReader& strain;
@@ -105,12 +111,7 @@ struct Context {
   double offset_share(std::size_t site) const {
     return counters.of(site).share_over(life_in_repeats(damage.damage[site]), strains_of(site));
   }
-  std::vector<float> strains_of(std::size_t site) const {
-    std::vector<float> strains;
-    for (const Reversal& reversal : reversals_of(site))
-      strains.push_back(static_cast<float>(reversal.strain));
-    return strains;
-  }
+  std::vector<float> strains_of(std::size_t site) const { return as_floats(reversals_of(site)); }
   /// Of the strain that the site was judged by.
   std::vector<Reversal> reversals_of(std::size_t site) const {
     if (!planes || !planes->of(site)) return sites.reversals_of(site);
@@ -119,6 +120,8 @@ struct Context {
     return reversals;
   }
 };
+
+constexpr std::array<const char*, percentiles.size()> ends{"p10", "p50", "p90"};
 
 void check_steps(const Context& c) {
   for (const std::int32_t step : c.step) {
@@ -161,26 +164,25 @@ void write_sites(const Context& c) {
 }
 
 void write_listed_cycles(const Context& c) {
-  std::vector<std::uint32_t> site, begin, end;
-  std::vector<double> range, mean, count, damage;
+  std::vector<std::size_t> site;
+  std::vector<DamagingCycle> cycles;
   for (const std::size_t listed : worst_wires(c.damage, c.job.fatigue.listed_sites)) {
-    for (const DamagingCycle& d : c.cycles_of(listed)) {
-      site.push_back(static_cast<std::uint32_t>(listed));
-      begin.push_back(static_cast<std::uint32_t>(d.cycle.begin.sample));
-      end.push_back(static_cast<std::uint32_t>(d.cycle.end.sample));
-      range.push_back(d.cycle.range());
-      mean.push_back(d.cycle.mean());
-      count.push_back(d.cycle.count);
-      damage.push_back(d.damage);
-    }
+    const std::vector<DamagingCycle> own = c.cycles_of(listed);
+    site.insert(site.end(), own.size(), listed);
+    cycles.insert(cycles.end(), own.begin(), own.end());
   }
-  put(c.life, "/cycles/site", site);
-  put(c.life, "/cycles/begin", begin);
-  put(c.life, "/cycles/end", end);
-  put(c.life, "/cycles/range", range);
-  put(c.life, "/cycles/mean", mean);
-  put(c.life, "/cycles/count", count);
-  put(c.life, "/cycles/damage", damage);
+  const auto put_column = [&](const char* name, auto value) {
+    std::vector<decltype(value(cycles[0]))> column;
+    for (const DamagingCycle& d : cycles) column.push_back(value(d));
+    put(c.life, name, column);
+  };
+  put(c.life, "/cycles/site", as_index(site));
+  put_column("/cycles/begin", [](const DamagingCycle& d) { return static_cast<std::uint32_t>(d.cycle.begin.sample); });
+  put_column("/cycles/end", [](const DamagingCycle& d) { return static_cast<std::uint32_t>(d.cycle.end.sample); });
+  put_column("/cycles/range", [](const DamagingCycle& d) { return d.cycle.range(); });
+  put_column("/cycles/mean", [](const DamagingCycle& d) { return d.cycle.mean(); });
+  put_column("/cycles/count", [](const DamagingCycle& d) { return d.cycle.count; });
+  put_column("/cycles/damage", [](const DamagingCycle& d) { return d.damage; });
 }
 
 /// The worst wire, or place of the hose's wall, of each segment.
@@ -314,7 +316,6 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
   put(c.life, "/conductor/worst_site", as_index(conductors.worst));
   put(c.life, "/conductor/life", lives);
   put(c.life, "/conductor/place_life", scatter.place);
-  const std::array<const char*, percentiles.size()> ends{"p10", "p50", "p90"};
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const double by_scatter = hours(scatter.first_place.lives[i], c.repeat_seconds());
     c.life.attribute(fmt::format("life_hours_{}", ends[i]),
@@ -461,6 +462,19 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   return worst;
 }
 
+/// before, place: go before the names of the attributes.
+void put_attributes(FileWriter& life, const Worst& worst, const std::string& before, const std::string& place) {
+  life.attribute(before + "life_repeats", worst.repeats);
+  life.attribute(before + "life_hours", worst.life_hours);
+  life.attribute(before + "life_months", worst.life_months);
+  life.attribute(before + "damage_per_repeat", worst.damage);
+  life.attribute(place + "segment_from_tool", worst.segment_from_tool);
+  life.attribute(place + "position_from_tool", worst.position_from_tool);
+  life.attribute(place + "component", worst.component);
+  life.attribute(place + "time", worst.time);
+  life.attribute(place + "step", worst.step);
+}
+
 /// What the mesh of loose cables leaves out, handed on to the ranking.
 void copy_mesh_error(const Context& c) {
   constexpr const char* name = "loose_mesh_error";
@@ -511,17 +525,9 @@ void write_mean_stress(const Context& c) {
 /// The worst wire's life, place and moment. Returns the summary for the terminal.
 std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycles, double p10_repeats) {
   const Worst worst = worst_of(c, c.worst, cycles);
-  c.life.attribute("life_repeats", worst.repeats);
-  c.life.attribute("life_hours", worst.life_hours);
-  c.life.attribute("life_months", worst.life_months);
-  c.life.attribute("damage_per_repeat", worst.damage);
+  put_attributes(c.life, worst, "", "worst_");
   c.life.attribute("repeat_seconds", c.repeat_seconds());
   c.life.attribute("worst_site", c.worst == no_site ? -1 : double(c.worst));
-  c.life.attribute("worst_segment_from_tool", worst.segment_from_tool);
-  c.life.attribute("worst_position_from_tool", worst.position_from_tool);
-  c.life.attribute("worst_time", worst.time);
-  c.life.attribute("worst_component", worst.component);
-  c.life.attribute("worst_step", worst.step);
   write_mean_stress(c);
   copy_mesh_error(c);
   write_estimates(c);
@@ -547,15 +553,7 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c, const std::v
   put(c.life, "/hose/worst_site", as_index(worst_sites));
   put(c.life, "/hose/damage", damage_at(c, worst_sites));
   const Worst worst = worst_of(c, c.worst_wall, c.cycles_of(c.worst_wall));
-  c.life.attribute("hose_life_repeats", worst.repeats);
-  c.life.attribute("hose_life_hours", worst.life_hours);
-  c.life.attribute("hose_life_months", worst.life_months);
-  c.life.attribute("hose_damage_per_repeat", worst.damage);
-  c.life.attribute("hose_segment_from_tool", worst.segment_from_tool);
-  c.life.attribute("hose_position_from_tool", worst.position_from_tool);
-  c.life.attribute("hose_component", worst.component);
-  c.life.attribute("hose_time", worst.time);
-  c.life.attribute("hose_step", worst.step);
+  put_attributes(c.life, worst, "hose_", "hose_");
   std::vector<pipeline::UnvalidatedMode> modes;
   pipeline::FailureModes responses;
   for (const std::size_t site : worst_by_group(c.damage, c.job.dresspacks.size(), [&](std::size_t of) {
@@ -585,19 +583,12 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c, const std::v
 /// that are. tension: see corkscrew.h.
 std::string write_unvalidated(const Context& c, const std::vector<double>& lives,
                               const std::vector<std::vector<double>>& tension) {
-  std::vector<pipeline::UnvalidatedMode> modes = abrasion_modes(c.strain, c.job, lives);
-  const auto jackets = jacket_modes(c.strain, c.job, lives);
-  modes.insert(modes.end(), jackets.begin(), jackets.end());
-  const auto rated = rating_modes(c.strain, c.job, lives);
-  modes.insert(modes.end(), rated.begin(), rated.end());
-  const auto coils = corkscrew_modes(c.strain, c.job, lives, tension);
-  modes.insert(modes.end(), coils.begin(), coils.end());
-  const auto kinks = kink_modes(c.strain, c.job, lives);
-  modes.insert(modes.end(), kinks.begin(), kinks.end());
+  std::vector<pipeline::UnvalidatedMode> modes = unvalidated_modes(c.strain, c.job, lives, tension);
+  const auto coils = std::ranges::count(modes, pipeline::UnvalidatedMode::corkscrew, &pipeline::UnvalidatedMode::mode);
   const auto wall = write_hose(c, lives);
   modes.insert(modes.end(), wall.begin(), wall.end());
   c.life.attribute("unvalidated_modes", pipeline::unvalidated_text(modes));
-  c.life.attribute("not_evaluated", not_evaluated(c.strain, c.job, coils.size() == c.job.dresspacks.size()));
+  c.life.attribute("not_evaluated", not_evaluated(c.strain, c.job, coils == std::ssize(c.job.dresspacks)));
   std::string summary;
   for (const pipeline::UnvalidatedMode& mode : modes)
     if (!is_credible(mode))
@@ -633,13 +624,7 @@ SiteDamage damage_of_bound(const Context& c, const SiteSet& sites, const TextCol
   const SettledGroups group_of(c, sites, component);
   settle(
       damage, counters, group_of.count, group_of,
-      [&](std::size_t site) {
-        std::vector<float> strains;
-        for (const Reversal& reversal : sites.reversals_of(site))
-          strains.push_back(static_cast<float>(reversal.strain));
-        return strains;
-      },
-      c.threads);
+      [&](std::size_t site) { return as_floats(sites.reversals_of(site)); }, c.threads);
   return damage;
 }
 
@@ -695,7 +680,6 @@ void write_shear(const Context& c) {
 /// Lives over everything that is uncertain (F27), with bounds, causes, and what to measure.
 pipeline::FirstFailures write_first_failures(const Context& c, const pipeline::FailureModes& modes) {
   pipeline::FirstFailures lives = pipeline::summary_of(modes, "");
-  const std::array<const char*, percentiles.size()> ends{"p10", "p50", "p90"};
   const auto put_hours = [&](const std::string& name, double repeats) {
     c.life.attribute(name, hours(repeats, c.repeat_seconds()));
   };

@@ -113,54 +113,66 @@ std::vector<std::vector<RubbedPatch>> patches_of_jackets(const FileReader& strai
   return patches;
 }
 
-/// Over the samples that the validated modes have; its spread, a deviation of log10 of repeats, is of its own. name: what has
-/// the same name shares that, too.
-LifeResponse response_of(const std::string& name, double repeats, double log10_spread,
-                         const pipeline::Job& job, const std::string& dresspack) {
-  LifeResponse response;
-  response.mode = name;
-  response.dresspack = dresspack;
-  response.knowledge = pipeline::prior_of(job.uncertainty);
-  if (!job.uncertainty.enabled) response.knowledge.covariance.setZero();
-  const double median = std::min(std::log10(repeats), LifeResponse::undamaged);
-  response.worst_life = {median};
-  response.bound = {median, median, median};
-  response.planned.resize(1);
-  for (std::size_t i = 0; i < percentiles.size(); ++i)
-    response.planned[0][i] = median + pipeline::normal_quantile(percentiles[i]) * log10_spread;
-  response.scatter_shared = 0;
-  return response;
-}
+/// What every mode is found from, and the modes so far.
+struct Search {
+  const FileReader& strain;
+  const pipeline::Job& job;
+  const std::vector<double>& lives;  ///< (sample) log10 repeats by the validated modes
+  std::vector<double> time = strain.read<double>("/time");
+  std::vector<std::int32_t> step = strain.read<std::int32_t>("/program/step");
+  std::vector<std::string> text = strain.read<std::string>("/program/text");
+  std::vector<UnvalidatedMode> modes = {};
 
-/// Segments and length of a dresspack's piece from a place to its tool clamp.
-void put_place(UnvalidatedMode& mode, const FileReader& strain, std::size_t dresspack, double position) {
-  const auto length = strain.read<double>("/segment/length");
-  const auto of = pipeline::dresspack_of_segments(strain);
-  double whole = 0;
-  for (std::size_t k = 0; k < length.size(); ++k)
-    if (of[k] == dresspack) whole += length[k];
-  mode.position_from_tool = std::max(0.0, whole - position);
-  double end = 0;
-  for (std::size_t k = 0; k < length.size(); ++k)
-    if (of[k] == dresspack && (end += length[k]) > position) ++mode.segment_from_tool;
-}
-
-/// The program as the strain file has it.
-struct Program {
-  std::vector<double> time;
-  std::vector<std::int32_t> step;
-  std::vector<std::string> text;
-
-  explicit Program(const FileReader& strain)
-      : time(strain.read<double>("/time")),
-        step(strain.read<std::int32_t>("/program/step")),
-        text(strain.read<std::string>("/program/text")) {}
-  double repeat() const { return time.empty() ? 0 : time.back() - time.front(); }
-  std::size_t sample_at(double when) const {
-    return static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), when) - time.begin());
+  UnvalidatedMode& add(const char* mode, std::size_t dresspack) {
+    UnvalidatedMode& added = modes.emplace_back();
+    added.mode = mode;
+    added.dresspack = pipeline::name_among(job, dresspack);
+    return added;
   }
-  void put_sample(UnvalidatedMode& mode, std::size_t sample) const {
+
+  double repeat() const { return time.empty() ? 0 : time.back() - time.front(); }  ///< [s]
+  std::vector<double> never() const { return std::vector<double>(lives.size(), std::numeric_limits<double>::infinity()); }
+
+  /// Over the samples that the validated modes have; its spread, a deviation of log10 of repeats, is of its own. of: a part; what
+  /// has the same mode and part shares that spread, too.
+  std::vector<double> own_lives(const UnvalidatedMode& mode, double repeats, double log10_spread, const std::string& of = "") const {
+    if (!std::isfinite(repeats)) return never();
+    LifeResponse response;
+    response.mode = mode.mode + of;
+    response.dresspack = mode.dresspack;
+    response.knowledge = pipeline::prior_of(job.uncertainty);
+    if (!job.uncertainty.enabled) response.knowledge.covariance.setZero();
+    const double median = std::min(std::log10(repeats), LifeResponse::undamaged);
+    response.worst_life = {median};
+    response.bound = {median, median, median};
+    response.planned.resize(1);
+    for (std::size_t i = 0; i < percentiles.size(); ++i)
+      response.planned[0][i] = median + pipeline::normal_quantile(percentiles[i]) * log10_spread;
+    response.scatter_shared = 0;
+    return pipeline::first_failures({response}, "", lives.size());
+  }
+
+  void put_lives(UnvalidatedMode& mode, std::vector<double> own) const {
+    set_lives(mode, std::move(own), lives, repeat());
+  }
+
+  /// Segments and length of the dresspack's piece from a place to its tool clamp, and the program line.
+  void put_place(UnvalidatedMode& mode, std::size_t dresspack, double position, std::size_t sample) const {
+    const auto length = strain.read<double>("/segment/length");
+    const auto of = pipeline::dresspack_of_segments(strain);
+    double whole = 0;
+    for (std::size_t k = 0; k < length.size(); ++k)
+      if (of[k] == dresspack && (whole += length[k]) > position) ++mode.segment_from_tool;
+    mode.position_from_tool = std::max(0.0, whole - position);
     if (sample < step.size() && step[sample] >= 0) mode.step = text[static_cast<std::size_t>(step[sample])];
+  }
+
+  /// Lives of what wears, of which the worst patch is given, and where it is.
+  std::vector<double> put_wear(UnvalidatedMode& mode, std::size_t dresspack, const Abrasion& worn) const {
+    if (std::isfinite(worn.repeats))
+      put_place(mode, dresspack, worn.position,
+                static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), worn.time) - time.begin()));
+    return own_lives(mode, worn.repeats, worn.log10_spread);
   }
 };
 
@@ -248,47 +260,37 @@ bool is_smooth_hose(const pipeline::Dresspack& dresspack) {
   return dresspack.inner_diameter && !dresspack.hose_corrugation;
 }
 
-}  // namespace
-
-std::vector<UnvalidatedMode> abrasion_modes(const FileReader& strain, const pipeline::Job& job,
-                                            const std::vector<double>& lives) {
-  std::vector<UnvalidatedMode> modes;
-  if (!strain.has(table_of_work)) return modes;
+/// Abrasion of each dresspack whose contacts are in the strain file, and whose thickness and wear rates are known.
+void find_abrasion(Search& found) {
+  const FileReader& strain = found.strain;
+  const pipeline::Job& job = found.job;
+  if (!strain.has(table_of_work)) return;
   const auto patches = patches_of(strain, job.dresspacks.size());
-  const Program program(strain);
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     std::optional<WornMaterial> material = worn_of(job.dresspacks[d].dresspack);
     if (!material) continue;
     material->warm = pipeline::wear_at(job.cell.temperature);
     const Abrasion worn = abrasion(*material, patches[d]);
-    UnvalidatedMode& mode = modes.emplace_back();
-    mode.mode = UnvalidatedMode::abrasion;
-    mode.dresspack = pipeline::name_among(job, d);
+    UnvalidatedMode& mode = found.add(UnvalidatedMode::abrasion, d);
     mode.place = worn.obstacle;
     mode.time = worn.time;
-    std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
-    if (std::isfinite(worn.repeats)) {
-      own = pipeline::first_failures(
-          {response_of(mode.mode, worn.repeats, worn.log10_spread, job, mode.dresspack)}, "", lives.size());
-      put_place(mode, strain, d, worn.position);
-      program.put_sample(mode, program.sample_at(worn.time));
-    }
+    std::vector<double> own = found.put_wear(mode, d, worn);
     mode.visible_from = visible_from(*material, worn, job.inspection);
-    if (job.inspection.interval_weeks > 0) put_inspection(mode, own, program.repeat(), job);
-    set_lives(mode, std::move(own), lives, program.repeat());
+    if (job.inspection.interval_weeks > 0) put_inspection(mode, own, found.repeat(), job);
+    found.put_lives(mode, std::move(own));
   }
-  return modes;
 }
 
-std::vector<UnvalidatedMode> jacket_modes(const FileReader& strain, const pipeline::Job& job,
-                                          const std::vector<double>& lives) {
-  std::vector<UnvalidatedMode> modes;
-  if (!strain.has(work_of_jackets)) return modes;
+/// Wear of the cables' jackets in each hose, of the cable that is worn through first. Jackets without thickness or wear rates
+/// are left out.
+void find_jackets(Search& found) {
+  const FileReader& strain = found.strain;
+  const pipeline::Job& job = found.job;
+  if (!strain.has(work_of_jackets)) return;
   const auto names = strain.read<std::string>("/cable/name");
   const auto dresspack = strain.read<std::int32_t>("/cable/dresspack"),
              component = strain.read<std::int32_t>("/cable/component");
-  const Program program(strain);
-  const auto patches = patches_of_jackets(strain, names.size(), program.time);
+  const auto patches = patches_of_jackets(strain, names.size(), found.time);
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     const pipeline::Dresspack& mounted = job.dresspacks[d].dresspack;
     if (!is_hose(mounted)) continue;
@@ -304,81 +306,42 @@ std::vector<UnvalidatedMode> jacket_modes(const FileReader& strain, const pipeli
       if (!first || worn.repeats < worst.repeats) first = k, worst = worn;
     }
     if (!first) continue;
-    UnvalidatedMode& mode = modes.emplace_back();
-    mode.mode = UnvalidatedMode::jacket;
-    mode.dresspack = pipeline::name_among(job, d);
-    std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
-    if (std::isfinite(worst.repeats)) {
-      mode.place = cable_in_words(job, names[*first]);
-      mode.time = worst.time;
-      own = pipeline::first_failures(
-          {response_of(mode.mode, worst.repeats, worst.log10_spread, job, mode.dresspack)}, "", lives.size());
-      put_place(mode, strain, d, worst.position);
-      program.put_sample(mode, program.sample_at(worst.time));
-    }
-    set_lives(mode, std::move(own), lives, program.repeat());
+    UnvalidatedMode& mode = found.add(UnvalidatedMode::jacket, d);
+    if (std::isfinite(worst.repeats)) mode.place = cable_in_words(job, names[*first]), mode.time = worst.time;
+    found.put_lives(mode, found.put_wear(mode, d, worst));
   }
-  return modes;
 }
 
-void set_lives(UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives,
-               double repeat) {
-  std::vector<double> together(lives.size());
-  std::size_t first = 0;
-  for (std::size_t s = 0; s < lives.size(); ++s)
-    first += own[s] < lives[s], together[s] = std::min(own[s], lives[s]);
-  mode.first_share = static_cast<double>(first) / static_cast<double>(lives.size());
-  const auto repeats = pipeline::percentiles_of(std::move(own));
-  for (std::size_t i = 0; i < repeats.size(); ++i) mode.hours[i] = hours(repeats[i], repeat);
-  mode.together_p10 = hours(pipeline::percentiles_of(std::move(together))[0], repeat);
-}
-
-std::vector<UnvalidatedMode> rating_modes(const FileReader& strain, const pipeline::Job& job,
-                                          const std::vector<double>& lives) {
-  std::vector<UnvalidatedMode> modes;
-  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+/// The ends of what makers promise of the cables without described wires (rated_cables.h), one mode for each. The damage exponent
+/// is sampled beside the validated modes.
+void find_ratings(Search& found) {
+  for (std::size_t d = 0; d < found.job.dresspacks.size(); ++d) {
     std::optional<HoseMotion> hose;
-    for (const pipeline::Component* const each : parts_of(job.dresspacks[d].dresspack)) {
-      const pipeline::Component& part = *each;
-      if (!is_rated(part)) continue;
-      if (!hose) hose.emplace(strain, d);
-      const RatedLife rated = rated_life(part, hose->segments);
-      UnvalidatedMode& mode = modes.emplace_back();
-      mode.mode = UnvalidatedMode::rating;
-      mode.dresspack = pipeline::name_among(job, d);
-      mode.place = part.name;
+    for (const pipeline::Component* const part : parts_of(found.job.dresspacks[d].dresspack)) {
+      if (!is_rated(*part)) continue;
+      if (!hose) hose.emplace(found.strain, d);
+      const RatedLife rated = rated_life(*part, hose->segments);
+      UnvalidatedMode& mode = found.add(UnvalidatedMode::rating, d);
+      mode.place = part->name;
       mode.note = rating_words(rated);
-      std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
-      const Program program(strain);
       if (std::isfinite(rated.repeats)) {
-        own = pipeline::first_failures({response_of(mode.mode + " of " + part.name, rated.repeats,
-                                                    rated.log10_spread, job, mode.dresspack)},
-                                       "", lives.size());
-        put_place(mode, strain, d, hose->position[rated.segment]);
-        mode.time = program.time[rated.sample];
-        program.put_sample(mode, rated.sample);
+        found.put_place(mode, d, hose->position[rated.segment], rated.sample);
+        mode.time = found.time[rated.sample];
       }
-      set_lives(mode, std::move(own), lives, program.repeat());
+      found.put_lives(mode, found.own_lives(mode, rated.repeats, rated.log10_spread, " of " + part->name));
     }
   }
-  return modes;
 }
 
-std::vector<UnvalidatedMode> corkscrew_modes(const FileReader& strain, const pipeline::Job& job,
-                                             const std::vector<double>& lives,
-                                             const std::vector<std::vector<double>>& tension) {
-  std::vector<UnvalidatedMode> modes;
-  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
-    const std::optional<Corkscrew> worst = corkscrew(strain, job, d, tension);
+/// Corkscrew of each dresspack with loose cables (corkscrew.h), of the cable that is nearest to it. tension: see there.
+void find_corkscrews(Search& found, const std::vector<std::vector<double>>& tension) {
+  for (std::size_t d = 0; d < found.job.dresspacks.size(); ++d) {
+    const std::optional<Corkscrew> worst = corkscrew(found.strain, found.job, d, tension);
     if (!worst) continue;
-    const Program program(strain);
-    UnvalidatedMode& mode = modes.emplace_back();
-    mode.mode = UnvalidatedMode::corkscrew;
-    mode.dresspack = pipeline::name_among(job, d);
-    mode.place = cable_in_words(job, strain.read<std::string>("/cable/name")[worst->cable]);
-    mode.time = program.time[worst->sample];
-    program.put_sample(mode, worst->sample);
-    put_place(mode, strain, d, worst->position);
+    UnvalidatedMode& mode = found.add(UnvalidatedMode::corkscrew, d);
+    mode.place = cable_in_words(found.job, found.strain.read<std::string>("/cable/name")[worst->cable]);
+    mode.time = found.time[worst->sample];
+    found.put_place(mode, d, worst->position, worst->sample);
     mode.note = worst->margin < BoredCable::largest_margin
                     ? fmt::format("Forces and twist {} times as large would wind it.",
                                   pipeline::readable(worst->margin, 2))
@@ -386,18 +349,10 @@ std::vector<UnvalidatedMode> corkscrew_modes(const FileReader& strain, const pip
     if (worst->turn_left > 0)
       mode.note += fmt::format(" A repeat leaves {} degrees of twist.",
                                pipeline::readable(180 / std::numbers::pi * worst->turn_left, 2));
-    // Stiffnesses of a cable are known within a factor of two. ESTIMATE.
-    constexpr double spread = 0.3;
-    std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
-    if (std::isfinite(worst->repeats))
-      own = pipeline::first_failures({response_of(mode.mode, worst->repeats, spread, job, mode.dresspack)},
-                                     "", lives.size());
-    set_lives(mode, std::move(own), lives, program.repeat());
+    constexpr double spread = 0.3;  // stiffnesses of a cable are known within a factor of two; ESTIMATE
+    found.put_lives(mode, found.own_lives(mode, worst->repeats, spread));
   }
-  return modes;
 }
-
-namespace {
 
 /// A tube that may kink.
 struct SmoothTube {
@@ -434,46 +389,64 @@ TightestBend tightest_bend(const HoseMotion& hose) {
   return bend;
 }
 
-}  // namespace
-
-std::vector<UnvalidatedMode> kink_modes(const FileReader& strain, const pipeline::Job& job,
-                                        const std::vector<double>& lives) {
-  std::vector<UnvalidatedMode> modes;
-  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
-    const std::vector<SmoothTube> tubes = tubes_of(job.dresspacks[d].dresspack);
+/// Kinks of the smooth tubes in each dresspack and of a smooth hose (pipeline/cable/kink.h): of the tube that the tightest bend of
+/// the dresspack's axis brings nearest to its kink. A tube that kinks does so in the first repeat. A loose tube's own waves and
+/// coils in the hose are left out.
+void find_kinks(Search& found) {
+  for (std::size_t d = 0; d < found.job.dresspacks.size(); ++d) {
+    const std::vector<SmoothTube> tubes = tubes_of(found.job.dresspacks[d].dresspack);
     if (tubes.empty()) continue;
-    const HoseMotion hose(strain, d);
+    const HoseMotion hose(found.strain, d);
     const TightestBend bend = tightest_bend(hose);
     // On the inner side of the bend.
     const auto radius_of = [&](const SmoothTube& tube) { return std::max(0.0, bend.radius - tube.offset); };
     const auto margin_of = [&](const SmoothTube& tube) { return radius_of(tube) / tube.kinks.median; };
-    const SmoothTube& worst =
-        *std::min_element(tubes.begin(), tubes.end(),
-                          [&](const auto& a, const auto& b) { return margin_of(a) < margin_of(b); });
-    const Program program(strain);
-    UnvalidatedMode& mode = modes.emplace_back();
-    mode.mode = UnvalidatedMode::kink;
-    mode.dresspack = pipeline::name_among(job, d);
+    const SmoothTube& worst = *std::ranges::min_element(tubes, {}, margin_of);
+    UnvalidatedMode& mode = found.add(UnvalidatedMode::kink, d);
     mode.place = worst.name;
     mode.margin = margin_of(worst);
-    std::vector<double> own(lives.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> own = found.never();
     if (std::isfinite(bend.radius)) {
-      const std::vector<double> scatter =
-          pipeline::standard_normals(mode.mode + " of " + worst.name, lives.size());
+      const std::vector<double> scatter = pipeline::standard_normals(mode.mode + " of " + worst.name, own.size());
       for (std::size_t s = 0; s < own.size(); ++s)
         if (mode.margin < std::pow(10.0, worst.kinks.log10_spread * scatter[s]))
           own[s] = 0;  // in the first repeat
-      put_place(mode, strain, d, hose.position[bend.segment]);
-      mode.time = program.time[bend.sample];
-      program.put_sample(mode, bend.sample);
+      found.put_place(mode, d, hose.position[bend.segment], bend.sample);
+      mode.time = found.time[bend.sample];
+      const bool spreads = worst.kinks.log10_spread > 0;
       mode.note = fmt::format(
           "Its tightest bend has a radius of {} mm. {} {} mm{}.", pipeline::readable(1e3 * radius_of(worst), 3),
-          worst.kinks.log10_spread > 0 ? "By its two diameters half of such tubes kink at" : "Its maker allows",
-          pipeline::readable(1e3 * worst.kinks.median, 3), worst.kinks.log10_spread > 0 ? "" : " or more");
+          spreads ? "By its two diameters half of such tubes kink at" : "Its maker allows",
+          pipeline::readable(1e3 * worst.kinks.median, 3), spreads ? "" : " or more");
     }
-    set_lives(mode, std::move(own), lives, program.repeat());
+    found.put_lives(mode, std::move(own));
   }
-  return modes;
+}
+
+}  // namespace
+
+void set_lives(UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives,
+               double repeat) {
+  std::vector<double> together(lives.size());
+  std::size_t first = 0;
+  for (std::size_t s = 0; s < lives.size(); ++s)
+    first += own[s] < lives[s], together[s] = std::min(own[s], lives[s]);
+  mode.first_share = static_cast<double>(first) / static_cast<double>(lives.size());
+  const auto repeats = pipeline::percentiles_of(std::move(own));
+  for (std::size_t i = 0; i < repeats.size(); ++i) mode.hours[i] = hours(repeats[i], repeat);
+  mode.together_p10 = hours(pipeline::percentiles_of(std::move(together))[0], repeat);
+}
+
+std::vector<UnvalidatedMode> unvalidated_modes(const FileReader& strain, const pipeline::Job& job,
+                                               const std::vector<double>& lives,
+                                               const std::vector<std::vector<double>>& tension) {
+  Search found{strain, job, lives};
+  find_abrasion(found);
+  find_jackets(found);
+  find_ratings(found);
+  find_corkscrews(found, tension);
+  find_kinks(found);
+  return std::move(found.modes);
 }
 
 std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, bool corkscrew) {

@@ -65,8 +65,11 @@ constexpr double heaviest_filling =
 constexpr double least_grams = 50;  // [kg/m]: more is g/m; less may be the mass of a whole dresspack
 constexpr double lightest_part =
     50;  // [kg/m3] over the section of a part without wires: foam; an air hose of 8/5.5 mm has 630
-// Bore over outer diameter: tubes for air and water have 0.5 (4 x 2 mm) to 0.8 (16 x 13 mm), hydraulic hoses with steel braid 0.4.
-constexpr double narrowest_bore = 0.38, widest_bore = 0.92, usual_bore = 0.45;
+// Bore over outer diameter: tubes for air and water have 0.5 (4 x 2 mm) to 0.8 (16 x 13 mm), hydraulic hoses with two braids of steel 0.43. A
+// radius in place of the diameter makes 0.40 of a tube of 10 x 8 mm.
+constexpr double narrowest_bore = 0.42, widest_bore = 0.92, usual_bore = 0.45;
+// Of a usual jacket, 1 mm + 0.035 bundle diameters (pipeline/resolve/cable_rules.h): two sheaths with a screen between them have 1.9.
+constexpr double thickest_jacket = 2, jacket_base = 1e-3, jacket_slope = 0.035;
 constexpr double shortest_pitch = 0.3e-3;  // [m]: the finest corrugated hoses have 1 mm
 constexpr double largest_grip = 1e5;       // [N]: ten times what tears a power cable
 
@@ -89,6 +92,8 @@ class Judge {
   }
 
   void parts(const std::vector<Component>& components) {
+    double widest = 0;  // of what is laid together: its layers have one lay length, so that the innermost has a small angle
+    for (const Component& of : components) widest = std::max(widest, 2 * (of.helix_radius + of.radius));
     for (std::size_t k = 0; k < components.size(); ++k) {
       const Component& of = components[k];
       if (is_wire(of) && of.radius < thinnest)
@@ -97,7 +102,7 @@ class Judge {
                         1e3 * of.radius, 1e3 * thinnest),
             "metres instead of millimetres",
             fmt::format("radius_mm: {:.3g} if that was metres", 1e6 * of.radius));
-      if (of.lay_angle > 0 && of.lay_angle < least_lay)
+      if (of.lay_angle > 0 && of.lay_angle < least_lay && 2 * pi * of.helix_radius > longest_lay * widest * std::tan(of.lay_angle))
         add(of.where,
             fmt::format(
                 "lay_angle_deg of '{}' is {:.3g}, a turn in {:.3g} m (limit 0, or {:.2g} deg or more)",
@@ -120,6 +125,13 @@ class Judge {
                 "radial_line_load_N_per_m of '{}' is {:.4g}, {:.3g} MPa on its width (limit {:g}: jackets yield)",
                 of.name, *of.radial_line_load, pressure / 1e6, strongest_jacket / 1e6),
             "another unit", "a jacket's 0.05 MPa times the part's width, or no key");
+      if (const double usual = jacket_base + jacket_slope * 2 * (of.radius - (of.jacket ? of.jacket->thickness : 0));
+          of.jacket && of.jacket->thickness > thickest_jacket * usual)
+        add(of.where,
+            fmt::format("the jacket of '{}' is {:.3g} mm thick (limit {:.3g}: {:g} times a usual one)", of.name,
+                        1e3 * of.jacket->thickness, 1e3 * thickest_jacket * usual, thickest_jacket),
+            "the added diameter instead of one wall, or another unit",
+            fmt::format("jacket {:.3g} mm if that was both walls, or {:.2g} mm, a usual one", 5e2 * of.jacket->thickness, 1e3 * usual));
       if (of.friction.value_or(0) > largest_friction)
         add(of.where, fmt::format("friction_coefficient of '{}' is {:.3g} (limit {:g})", of.name, *of.friction, largest_friction),
             "per cent instead of a share",

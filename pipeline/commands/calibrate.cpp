@@ -12,7 +12,7 @@
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/report/calibration_picture.h"
+#include "pipeline/report/observation_pictures.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/folder_source.h"
@@ -25,11 +25,6 @@ namespace fs = std::filesystem;
 struct CalibrateOptions : RunOptions {
   std::string job, since, today;
 };
-
-Day day_of(const std::string& option, const std::string& text) {
-  if (const std::optional<Day> day = exported_day(text)) return *day;
-  throw InputError({option}, fmt::format("'{}' is no date", text), day_remedy(text));
-}
 
 /// A table of a maintenance system, or observations.
 ServiceTests tests_of(const CalibrateOptions& options, const fs::path& file) {

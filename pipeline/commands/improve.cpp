@@ -61,40 +61,59 @@ int end_early(const Improvement& found, const StudyPlaces& places) {
   return 1;
 }
 
-/// The best of one job as a job of a few lines, here; nothing where no trial is better, and of jobs without a robot.
-void write_short_job(const ImproveRequest& request, const Improvement& found, const Finals& finals,
-                     const fs::path& job) {
+/// The best of one job as a job of a few lines, here; none where no trial is better, and of jobs without a robot.
+/// verified: within the mounting tolerance, or no tolerance is asked for. written: of this search, not verified. Returns whether
+/// this search has written it.
+bool write_short_job(const ImproveRequest& request, const Improvement& found, const Finals& finals,
+                     const fs::path& job, bool verified, bool written) {
   const Final* const best = finals.best();
   const Node document = read_document(request.file);
-  if (!best || !finals.is_gain(*best) || !document.find("robot") || !document.find("routing")) return;
+  check_replaceable(job);  // again: somebody may have changed it during the search
+  if (!best || !finals.is_gain(*best) || !document.find("robot") || !document.find("routing")) {
+    if (written) remove_ours(job);
+    return false;
+  }
   RouteRequest route{.of = request.file.string()};
   route.sets = request.sets;
   const std::vector<std::string>& sets = found.trials[best->trial].sets;
   route.sets.insert(route.sets.end(), sets.begin(), sets.end());
   const Draft draft = draft_of(route);
   const Node whole = routed(draft, to_yaml(*draft.document.find("routing")), "", 1, ".");
-  write_text_if_changed(job, with_mark(fmt::format("# Proposed by dresslife improve {}\n{}",
-                                                   shown(request.file.string()), to_yaml(whole)),
-                                       Mark::yaml));
-  print(shown(fmt::format("Short job: {}\n", job.string())));
+  write_text_if_changed(
+      job, with_mark(fmt::format("# Proposed by dresslife improve {}\n{}{}", shown(request.file.string()),
+                                 verified ? "" : not_verified, to_yaml(whole)),
+                     Mark::yaml));
+  if (verified) print(shown(fmt::format("Short job: {}\n", job.string())));
+  return true;
 }
 
 /// Runs the best again, in full and with clamps and length off, and writes the results.
 int judge_the_best(const ImproveOptions& options, const StudyPlaces& places, const Improvement& found,
-                   const MakeRows& make_rows, const fs::path& job) {
-  Finals finals = finals_of(found, options.request, make_rows);
+                   const FilesAtStart& files, const fs::path& job) {
+  Finals finals = finals_of(found, options.request, [&](const Study& study) {
+    return made_rows(study, places, options, files);
+  });
   const bool all_written = write_results(finals.study, places, finals.rows).empty();
   const MountingTolerance tolerance = tolerance_of(options.off_mm, options.off_deg);
-  if (!tolerance.none() && !options.quiet)
-    tell(shown(fmt::format(
-        "The trials are done; the jobs of the best are in {}. Next the best three are tried with {}. --off 0 "
-        "leaves that out.\n",
-        places.folder.string(), tolerance_text(tolerance))));
-  if (!tolerance.none()) judge(finals, found, options.request, tolerance, places, make_rows);
+  bool written = false;
+  if (!tolerance.none() && finals.of.size() > 1) {
+    written = write_short_job(options.request, found, finals, job, false, false);
+    if (!options.quiet)
+      tell(shown(fmt::format(
+          "The trials are done. The jobs of the best are in {}{}. Next the best run again with {}: up to 24 runs each, most often about 30 in all. --off 0 leaves that out.\n",
+          places.folder.string(),
+          written ? fmt::format(", the best as drawn also in {}", job.string()) : "",
+          tolerance_text(tolerance))));
+    ToleranceRuns runs(found.name, options);
+    judge(
+        finals, found, options.request, tolerance, places,
+        [&](const Study& study) { return made_rows(study, places, runs.options(), files); },
+        [&](const ToleranceCount& count) { runs.begin(count); });
+  }
   const ImprovementStory story = story_of(found, finals, options.request.second, places);
   write_text_if_changed(places.folder / "improve.html", with_mark(improvement_page(story), Mark::page));
   print(shown(improvement_words(found, finals, story, options.request.second, tolerance, places)));
-  write_short_job(options.request, found, finals, job);
+  write_short_job(options.request, found, finals, job, true, written);
   print(shown(fmt::format("Trials: {}\nReport: {}\n", (places.folder / "improve.csv").string(),
                           (places.folder / "improve.html").string())));
   const int failed = say_failures(options.study, finals.rows);
@@ -123,9 +142,8 @@ int improve_study(ImproveOptions options) {
   progress.clear();
   write_text_if_changed(places.folder / "improve.csv", improvement_csv(found));
   if (!found.ended.empty()) return end_early(found, places);
-  const MakeRows make_rows = [&](const Study& study) { return made_rows(study, places, options, files); };
   try {
-    return judge_the_best(options, places, found, make_rows, job);
+    return judge_the_best(options, places, found, files, job);
   } catch (const FilesChanged& change) {
     found.ended = change.what();
     return end_early(found, places);

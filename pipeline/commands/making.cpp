@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <string>
@@ -73,9 +74,12 @@ int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& 
   share_cores(options, left);
   Unkept unkept(study, places, states);
   const BuildResult built = run_build_graph(places, options.jobs, [&](const BuildEvent& event) {
-    progress.show(
-        event.total > 0 ? static_cast<double>(event.finished) / static_cast<double>(event.total) : 0,
-        fmt::format("{}/{}  {}", event.finished, event.total, event.what));
+    const double share =
+        event.total > 0 ? static_cast<double>(event.finished) / static_cast<double>(event.total) : 0;
+    if (options.share_done)
+      options.share_done(share);
+    else
+      progress.show(share, fmt::format("{}/{}  {}", event.finished, event.total, event.what));
     unkept.ended(event.what);
   });
   progress.clear();
@@ -159,6 +163,26 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
   std::vector<RankingRow> rows = made_rows(study, places, options);
   files.check();
   return rows;
+}
+
+ToleranceRuns::ToleranceRuns(const std::string& label, const RunOptions& options)
+    : progress_(label, options.quiet), options_(options) {
+  options_.share_done = [this](double share) { show(share); };
+}
+
+void ToleranceRuns::begin(const ToleranceCount& count) {
+  count_ = count;
+  show(0);
+}
+
+void ToleranceRuns::show(double share) {
+  const double done = static_cast<double>(count_.done) +
+                      share * static_cast<double>(std::min(tolerance_runs_at_once, count_.likely - count_.done));
+  progress_.show(done / static_cast<double>(count_.likely),
+                 fmt::format("mounting tolerance: run {:.0f} of {}{}", std::floor(done) + 1, count_.likely,
+                             count_.most > count_.likely
+                                 ? fmt::format(" (at most {} if another routing proves better)", count_.most)
+                                 : ""));
 }
 
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,

@@ -1,8 +1,11 @@
 // Runs the stages of a study that are not up to date.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "pipeline/advise/improve/tolerance.h"
+#include "pipeline/base/progress.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/study/changes.h"
 #include "pipeline/study/ranking.h"
@@ -23,6 +26,27 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
 /// options.
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,
                         std::vector<RankingRow>& rows);
+
+/// A line of a job that is written before these runs.
+inline constexpr const char* not_verified =
+    "# Not yet verified within the mounting tolerance. The command replaces this file at its end.\n";
+
+/// The runs within the mounting tolerance as one piece of work, whose remaining time is that of all runs.
+class ToleranceRuns {
+ public:
+  ToleranceRuns(const std::string& label, const RunOptions& options);
+  /// Of the runs that follow: how many were done before.
+  void begin(const ToleranceCount& count);
+  /// Options of these runs. Precondition: it stays where it is.
+  const RunOptions& options() const { return options_; }
+
+ private:
+  void show(double share);
+
+  Progress progress_;
+  RunOptions options_;
+  ToleranceCount count_;
+};
 
 int count_failed(const std::vector<RankingRow>& rows);
 

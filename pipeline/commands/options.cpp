@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/exported.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
@@ -86,6 +87,9 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
       if (entry.path().extension() == ".yaml") entries.push_back(entry.path().stem().string());
   }
   std::sort(entries.begin(), entries.end());
+  if (name.find_first_not_of("0123456789") == std::string::npos)
+    throw InputError({name}, "is a number where a study or job is expected",
+                     "write the study's or job's name. -n prints what would run and takes no number; -j COUNT sets how many stages run at a time");
   const std::string near = nearest_entry(fs::path(name).filename().string(), entries);
   throw InputError({name},
                    fmt::format("is no file, and {} holds no {}", shipped_catalogue().string(), looked_for),
@@ -122,6 +126,11 @@ fs::path input(fs::path file) {
 }
 
 }  // namespace
+
+Day day_of(const std::string& option, const std::string& text) {
+  if (const std::optional<Day> day = exported_day(text)) return *day;
+  throw InputError({option}, fmt::format("'{}' is no date", text), day_remedy(text));
+}
 
 fs::path named_file(const std::string& name, const std::string& shelf) { return input(file_or_entry(name, {shelf})); }
 

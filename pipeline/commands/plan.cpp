@@ -34,14 +34,18 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PlanOptions : RunOptions {
-  std::string fleet, windows, today, what_if;
+  std::string fleet, windows, today, what_if, what_if_from;
   std::optional<double> risk_percent;
 };
 
-Day day_of(const std::string& text) {
-  if (text.empty()) return today();
-  if (const std::optional<Day> day = exported_day(text)) return *day;
-  throw InputError({"--today"}, fmt::format("'{}' is no date", text), day_remedy(text));
+/// The day on which the duties of another table begin.
+Day change_day(const PlanOptions& options, Day today) {
+  const char* const option = "--what-if-from";
+  if (options.what_if_from.empty()) return today;
+  if (options.what_if.empty()) throw InputError({option}, "no table begins on this day", "add --what-if OTHER.csv");
+  const Day from = day_of(option, options.what_if_from);
+  if (from < today) throw InputError({option}, fmt::format("{} is before {}, the first day of the plan", day_text(from), day_text(today)), "give a later day");
+  return from;
 }
 
 std::vector<Warning> doubts_of(std::optional<double> risk_percent) {
@@ -146,7 +150,7 @@ std::string block(const std::vector<std::string>& texts) {
 }
 
 int plan(const PlanOptions& options) {
-  const Day day = day_of(options.today);
+  const Day day = options.today.empty() ? today() : day_of("--today", options.today), from = change_day(options, day);
   note_input(options.fleet);
   Fleet fleet = read_fleet(options.fleet, day);
   const std::vector<Window> windows = windows_from(options.windows, day);
@@ -208,13 +212,14 @@ int plan(const PlanOptions& options) {
   for (const Warning& warning : doubtful_ages(fleet, found)) tell(shown(warning.line() + "\n"));
   std::optional<Plan> other;
   std::string what_if;
+  const std::string what_if_name = fs::path(options.what_if).stem().string() + (from > day ? " from " + day_text(from) : "");
   if (changed) {
     add_past(*changed);
-    keep_ages(*changed, fleet, tables, day);
+    keep_ages(*changed, fleet, tables, day, from);
     PlanRule same = rule;
     same.weights = found.weights;  // of the plant as it is
     other = plan_of(*changed, tables, windows, day, same);
-    what_if = "\n" + what_if_words(fleet, found, *changed, *other);
+    what_if = "\n" + what_if_words(what_if_name, fleet, found, *changed, *other);
   }
   std::optional<std::vector<CheckValue>> checks;
   std::string tests;
@@ -243,7 +248,7 @@ int plan(const PlanOptions& options) {
                    its_page = made.places.folder / (stem + "_what_if.html");
     write_text_if_changed(beside, plan_csv(*changed, *other));
     write_text_if_changed(
-        its_page, with_mark(plan_page(fs::path(options.what_if).stem().string(), *changed, *other,
+        its_page, with_mark(plan_page(what_if_name, *changed, *other,
                                       {notes.doubts, "", notes.paragraphs, fs::path(options.fleet).stem().string(),
                                        beside_rows(fleet, found, *changed, *other)},
                                       beside.filename().string()),
@@ -293,6 +298,8 @@ Command plan_command() {
              {.range = {{0, 100}}}},
             {"--what-if", "OTHER.csv", "a changed table of the same plant: its plan beside that of the first",
              &options->what_if},
+            {"--what-if-from", "DATE", "the day on which the other duties of OTHER.csv begin; default: the first day of the plan",
+             &options->what_if_from},
             {"--today", "DATE", "the first day of the plan; default: the computer's date", &options->today},
             json_option(options->json)},
            run_options(*options),

@@ -86,6 +86,10 @@ std::string table_of(const std::string& job, const TriedWay& before, const std::
   std::string text =
       fmt::format("{}: {} h, {:.1f} s{}{}\n", job, readable(before.outcome.hours), before.seconds,
                   before.outcome.feasible() ? "" : "; ", before.outcome.words());
+  if (before.outcome.hours >= before.outcome.robot_life)
+    text += fmt::format(
+        "  The wires outlive the robot ({} h, fatigue.robot_life_hours): a longer life of the wires has no use. A shorter cycle may have.\n",
+        readable(before.outcome.robot_life));
   text += fmt::format("  {:>10} {:>10}  {}\n", "life", "cycle", "way");
   for (std::size_t k = 0; k < std::min(ways_shown, ways.size()); ++k) {
     const TriedWay& tried = ways[k];

@@ -136,6 +136,7 @@ MountingTolerance tolerance_for(const Draft& draft, const RouteOptions& options)
 void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const StudyPlaces& places,
            const FilesAtStart& files) {
   const Outcome as_it_is = trial.as_it_is();
+  ToleranceRuns runs(draft.name, options);
   std::vector<std::size_t> best_first;
   for (std::size_t k = 0; k < trial.outcomes.size(); ++k)
     if (!trial.rows[k].job.empty() && trial.outcomes[k].feasible()) best_first.push_back(k);
@@ -150,15 +151,15 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
                       nudges_of({{"place", std::make_shared<const Job>(job_from(document)), ""}},
                                 tolerance_for(draft, options)),
                       {}};
-    finalist.run = [&, k, document, nudges = finalist.nudges](std::size_t first, std::size_t count) {
+    finalist.run = [&, k, document, nudges = finalist.nudges](const std::vector<std::size_t>& numbers) {
       Study study{draft.name, {}, Keep::lives};
-      for (std::size_t j = first; j < first + count; ++j) {
+      for (const std::size_t j : numbers) {
         Node off = document;
         for (const std::string& set : nudges[j].sets) apply_set(off, set);
         study.jobs.push_back({fmt::format("{}_off_{:02}", trial.rows[k].job, j + 1),
                               std::make_shared<const Job>(job_from(off)), ""});
       }
-      const std::vector<RankingRow> rows = made_rows(study, places, options, files);
+      const std::vector<RankingRow> rows = made_rows(study, places, runs.options(), files);
       std::vector<Outcome> outcomes;
       for (const StudyJob& job : study.jobs)
         for (const RankingRow& row : rows)
@@ -167,7 +168,8 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
     };
     finalists.push_back(std::move(finalist));
   }
-  const std::vector<WithinTolerance> judged = within_tolerance(finalists, as_it_is);
+  const std::vector<WithinTolerance> judged = within_tolerance(
+      finalists, as_it_is, [&](const ToleranceCount& count) { runs.begin(count); });
   const std::size_t best = best_within(judged);
   trial.best = best_first[best];
   trial.nudges = judged[best].nudges;
@@ -185,10 +187,22 @@ std::optional<std::string> own_routing(const Draft& draft) {
   return to_yaml(*routing);
 }
 
+/// The best routing of a search, or the first if none ran. head: comment lines, or empty.
+void write_job(const Trial& of, const Draft& draft, const RouteOptions& options, const fs::path& job,
+               const std::string& head) {
+  check_replaceable(job);  // again: somebody may have changed it during the search
+  const Node document =
+      routed(draft, of.proposals.candidates[of.best.value_or(0)].changes, of.proposals.motion, of.factor,
+             job.has_parent_path() ? job.parent_path() : fs::path("."));
+  write_text_if_changed(job, with_mark(fmt::format("# Proposed by dresslife route {}\n{}{}",
+                                                   shown(options.request.of), head, to_yaml(document)),
+                                       Mark::yaml));
+}
+
 /// Those that kept all limits in their rehearsal, and the job's own; with a tolerance all of them, as it decides, else until one keeps all
 /// limits in the whole chain.
 Trial tried(const Draft& draft, const RouteOptions& options, double factor, const StudyPlaces& places,
-            const FilesAtStart& files) {
+            const FilesAtStart& files, const fs::path& job) {
   Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}, {}};
   if (const std::optional<std::string> own = own_routing(draft); own && factor == 1) {
     trial.start = trial.proposals.candidates.size();
@@ -211,7 +225,13 @@ Trial tried(const Draft& draft, const RouteOptions& options, double factor, cons
       run(trial, to_run[n], fmt::format("run {} of {}{}", n + 1, tolerance ? "" : "at most ", to_run.size()),
           draft, options, places, files);
     }
-    if (tolerance && trial.feasible()) judge(trial, draft, options, places, files);
+    if (tolerance && trial.feasible()) {
+      write_job(trial, draft, options, job, not_verified);
+      if (!options.quiet)
+        tell(shown(fmt::format("The best routing so far is in {}, not yet verified within the mounting tolerance.\n",
+                               job.string())));
+      judge(trial, draft, options, places, files);
+    }
   } catch (const FilesChanged& change) {
     trial.ended = change.what();
   }
@@ -253,7 +273,7 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
           kind != kinds.end() && warning.kind == kind->second && at != std::string::npos)
         return {"the limit that decides: " + warning.words.substr(0, at - 1),  // without its point
                 warning.words.substr(at + remedy.size()) + "; or " + other};
-    return {fmt::format("the limit that decides: {}, passed by {:.2g}", limit, passed[most]), other};
+    return {fmt::format("the limit that decides: {}, passed by {}", limit, passed_text(most, passed[most])), other};
   }
   // The limit shrinks with the hose, but a smaller one is bent tighter, too: abb_irb2600_12_165 with hard misses by
   // 0.14 at 100 % and by 0.033 at 78 %, and keeps all limits at 70 %. Short runs know a bend to some percent.
@@ -362,13 +382,13 @@ int route(const RouteOptions& options) {
   if (!options.quiet)
     tell(fmt::format("Checks {} routings by geometry and the best of them in {} short runs, for each size. This takes about a minute. "
                      "Runs with their remaining time follow{}.\n", options.tried, options.rehearsals,
-                     tolerance_for(draft, options).none() ? "" : "; the best three are tried up to 24 times with a clamp or length off, which takes most of the time (--off 0 leaves that out)"));
+                     tolerance_for(draft, options).none() ? "" : "; the best three run up to 24 times each with a clamp or length off, most often about 30 times in all (--off 0 leaves that out)"));
   if (kind_of(options.request.of) == FileKind::file) claim_folder(places.folder, options.request.of);
   const FilesAtStart files({std::make_shared<const Job>(draft.job)});
   std::optional<Trial> chosen, nearest;
   std::string ended;
   for (const double factor : factors) {
-    Trial trial = tried(draft, options, factor, places, files);
+    Trial trial = tried(draft, options, factor, places, files, job);
     const bool feasible = trial.feasible();
     ended = trial.ended;
     if (!ended.empty())
@@ -399,11 +419,7 @@ int route(const RouteOptions& options) {
   }
   const Trial& of = chosen ? *chosen : *nearest;
   const std::string& routing = of.proposals.candidates[of.best.value_or(0)].changes;
-  const Node document = routed(draft, routing, of.proposals.motion, of.factor,
-                               job.has_parent_path() ? job.parent_path() : fs::path("."));
-  const std::string text =
-      fmt::format("# Proposed by dresslife route {}\n{}", shown(options.request.of), to_yaml(document));
-  write_text_if_changed(job, with_mark(text, Mark::yaml));
+  write_job(of, draft, options, job, "");
   write_page(job, page);
   if (of.best && !options.keep) remove_others(places.folder, of.rows[*of.best].job);
   print(shown(of.best ? words_of(of, draft, tolerance_for(draft, options))

@@ -10,7 +10,7 @@
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/report/validation_picture.h"
+#include "pipeline/report/observation_pictures.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/folder_source.h"
 

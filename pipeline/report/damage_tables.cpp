@@ -192,8 +192,9 @@ std::string failure_table(const RankingRow& row) {
          "<th class=\"number\">half [h]</th><th class=\"number\">90 % [h]</th><th class=\"number\">before the wires</th><th class=\"number\">replace after, with it [h]</th>"
          "<th class=\"number\">from tool [m]</th><th class=\"number\">at [s]</th><th>during</th></tr></thead>\n<tbody>\n" +
          rows +
-         "</tbody></table></div>\n<p class=\"soft\">* No test confirms the law of this mode: 'replace after' leaves it out. h: hours of "
-         "motion until so many of such dresspacks have failed by it.</p>\n";
+         "</tbody></table></div>\n<p class=\"soft\">† No test confirms the law of this mode: 'replace after' leaves it out. h: hours of "
+         "motion until so many of such dresspacks have failed by it." +
+         cell_legend(mode_lines(row)) + "</p>\n";
 }
 
 std::string damage_along(const LifeSummary& life, const RankingRow& row) {

@@ -21,11 +21,7 @@ std::string shares_chart(const DutyResult& duty) {
   const double height = duty_row * double(duty.parts.size());
   const Panel panel{duty_names, top, duty_width - duty_names - 60, height, linear_axis("share [%]", 0, 100), {}};
   Picture picture(duty_width, panel.bottom() + 44, "Shares", "Share of the time and of the damage of each program.");
-  for (const Tick& tick : panel.x.ticks(8)) {
-    picture.line(panel.across(tick.value), top, panel.across(tick.value), panel.bottom(), "grid");
-    picture.text(panel.across(tick.value), panel.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
-  }
-  picture.text(panel.left + panel.width / 2, panel.bottom() + 36, panel.x.title, "axis-title", Picture::Anchor::middle);
+  panel.draw_upright_grid(picture);
   picture.box(panel.right() - legend, panel.bottom() + 27, 14, 10, "dark");
   picture.text(panel.right() - legend + 20, panel.bottom() + 36, "of the time", "tick");
   picture.box(panel.right() - legend / 2, panel.bottom() + 27, 14, 10, "bar-hot");

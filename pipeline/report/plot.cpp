@@ -245,6 +245,14 @@ void Panel::draw_axes(Picture& picture, bool with_x_labels) const {
     picture.text(left + width / 2, bottom() + 36, x.title, "axis-title", Picture::Anchor::middle);
 }
 
+void Panel::draw_upright_grid(Picture& picture) const {
+  for (const Tick& tick : x.ticks(8)) {
+    picture.line(across(tick.value), top, across(tick.value), bottom(), "grid");
+    picture.text(across(tick.value), bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
+  }
+  picture.text(left + width / 2, bottom() + 36, x.title, "axis-title", Picture::Anchor::middle);
+}
+
 // ---- curves -----------------------------------------------------------------------------------------------
 
 std::vector<std::pair<double, double>> thinned(const std::vector<double>& time,

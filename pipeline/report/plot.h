@@ -83,6 +83,8 @@ struct Panel {
 
   /// Grid, tick marks, labels and titles of both axes.
   void draw_axes(Picture& picture, bool with_x_labels = true) const;
+  /// Of the axis along x alone: lines over the whole height at its ticks, labels and title below.
+  void draw_upright_grid(Picture& picture) const;
 };
 
 /// The extremes of each of `columns` equal intervals of a history, in their order: the same curve at that width with at

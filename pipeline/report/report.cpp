@@ -181,12 +181,7 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
   Picture picture(
       width, panel.bottom() + 44, "Lives compared",
       "Life in hours with everything in the cables glued and free, and the range of 10 to 90 percent of dresspacks.");
-  for (const Tick& tick : panel.x.ticks(8)) {
-    picture.line(panel.across(tick.value), panel.top, panel.across(tick.value), panel.bottom(), "grid");
-    picture.text(panel.across(tick.value), panel.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
-  }
-  picture.text(panel.left + panel.width / 2, panel.bottom() + 36, panel.x.title, "axis-title",
-               Picture::Anchor::middle);
+  panel.draw_upright_grid(picture);
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const RankingRow& row = *shown[i];
     const double y = panel.top + row_height * (static_cast<double>(i) + 0.5);
@@ -306,6 +301,7 @@ std::string facts(const RankingRow& row) {
     fact("mean stress", fmt::format("{} if none of it relaxed, {} without any, median of the same wire",
                                     printed_hours(*row.hours_mean_stress_kept),
                                     printed_hours(*row.hours_without_mean_stress)));
+  if (const std::string held = held_words(row); !held.empty()) fact("comparable", escaped(held));
   if (!row.settings.empty()) fact("settings", row.settings + " in ranking.csv");
   for (const Warning& warning : warnings_of(row)) fact("warning", "<b>" + escaped(warning.text()) + "</b>");
   if (row.clamp_moment_share) {

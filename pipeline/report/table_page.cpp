@@ -19,18 +19,19 @@ namespace {
 constexpr std::size_t rows_at_once = 100;
 
 constexpr const char* table_style = R"(
-body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1rem 4rem; background: var(--page); color: var(--ink);
+body { margin: 0 auto; max-width: 96rem; padding: 1.5rem 1rem 4rem; background: var(--page); color: var(--ink);
   font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
 h1 { font-size: 1.7rem; margin: 0 0 .3rem; } h2 { font-size: 1.3rem; margin: 3rem 0 .3rem; padding-top: .8rem;
   border-top: 2px solid var(--rule); }
-h3 { font-size: 1rem; margin: 1.6rem 0 .2rem; } p { margin: .3rem 0 .6rem; max-width: 46rem; }
+h3 { font-size: 1rem; margin: 1.6rem 0 .2rem; } p { margin: .3rem 0 .6rem; max-width: 46rem; } .chart { max-width: 68rem; }
 .soft { color: var(--soft); font-size: .9rem; }
 a { color: var(--blue); } .wide { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .3rem .6rem .3rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
 th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .number { text-align: right;
   white-space: nowrap; } th.number, .certainty { white-space: normal; }
-.certainty { display: block; max-width: 9rem; margin-left: auto; } #ranking td:nth-child(n + 7) { min-width: 8rem; } .failed { color: var(--hot); font-weight: 600; }
+.certainty { display: block; max-width: 9rem; margin-left: auto; } #ranking td:nth-child(n + 7) { min-width: 8rem; }
+#ranking td:nth-child(2) { min-width: 9rem; overflow-wrap: anywhere; } #ranking td:is(:nth-child(4), :nth-child(5), :nth-child(6)) { white-space: normal; } .failed { color: var(--hot); font-weight: 600; }
 dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .1rem 1rem; margin: .5rem 0; }
 dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
 @media (max-width: 40rem) { dl { grid-template-columns: minmax(0, 1fr); } dd { margin-bottom: .5rem; } }

@@ -151,7 +151,12 @@ std::vector<AutoPart> auto_parts(const Node& components, const std::string& path
         !component.find("data_sheet"))  // one that is left is refused itself
       problems.add(component.where, "has place: auto and no radius_mm", "give radius_mm, or a data_sheet",
                    key);
-    const int count = component.find("count") ? static_cast<int>(number_of(component, "count")) : 1;
+    const Node* const given_count = component.find("count");
+    // Parts of a split component lose the key: it is checked here.
+    if (given_count && given_count->text.find_first_not_of("0123456789") != std::string::npos)
+      problems.add(given_count->where, fmt::format("count is '{}' (must be a whole number)", given_count->text),
+                   "give the number of equal parts", key);
+    const int count = given_count ? static_cast<int>(number_of(component, "count")) : 1;
     for (int number = 0; number < std::clamp(count, 1, 1000); ++number) parts.push_back({i, number});
   }
   return parts;

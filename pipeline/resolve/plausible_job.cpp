@@ -51,7 +51,9 @@ constexpr int repeats_to_steady = 100;         // of the motion: the default is 
 constexpr int least_targets = 30;              // of a recording: programs with so near targets are shorter
 constexpr double near_targets = 3 * degree;    // of the fastest axis from target to target
 constexpr int most_repeats = 1000;             // of steps within a program: a pallet has some hundred places
-constexpr double slowest_tool = 1e-3;          // [m/s]: arc welding moves at 5 to 20 mm/s
+constexpr double slowest_tool = 3e-3;          // [m/s]: arc welding moves at 5 to 20 mm/s
+constexpr double widest_path_zone = 0.5;       // [m]: controllers' own zones end at 0.2
+constexpr double tool_behind = 0.02;           // [m]: a flange is thicker than a tool's centre may lie below its face
 constexpr double slowest_move = 0.2 * degree;  // [rad/s] of the fastest axis in one move
 constexpr double slowest_axis = 5 * degree,
                  fastest_axis = 3000 * degree;  // [rad/s]: positioners 30, wrists of small robots 1000 deg/s
@@ -65,11 +67,14 @@ constexpr double farthest = 20;           // [m] from the origin: a cell
 constexpr double widest_spread = 20;  // a factor in one deviation: friction of seven published cables has 2.2
 constexpr double least_pre_twist = 6.2832 * degree, largest_pre_twist = 3600 * degree;
 constexpr double longest_hose = 20;  // [m]: as long as a cell; hoses on robots are 0.5 to 6 m long
+constexpr double shortest_in_mm = 300;  // a number below is centimetres: no hose on a robot is 0.3 m long
 constexpr double farthest_clamp =
     3;  // [m] from its link's frame: arms of large robots are 1.5 m long, brackets 0.3
 constexpr double longest_tool = 0.5,
                  near_link = 0.25;     // [m]: clamps on welding guns; usual brackets and small tools
-constexpr int few_segments = 16;       // with more, a hose whose segments are too long is too long itself
+constexpr double near_bracket = 0.15;    // [m]: as route tries brackets; beyond it another order of the coordinates must lie at a quarter of it
+constexpr int few_segments = 16;         // with more, a hose whose segments are too long is too long itself
+constexpr double longest_segment = 0.5;  // of the least bend radius: chords of 0.5 rad are 1 % shorter than their arcs
 constexpr double inside_robot = 0.01;  // [m] below a box's surface: floors and tables end at the base
 constexpr double shortest_bracket = 1e-3, longest_built = 2;  // [m]
 constexpr double widest_ring = 10;                            // of the dresspack's diameter
@@ -95,7 +100,7 @@ struct Doubted {
 struct Seen {
   const MotionStep* first = nullptr;
   std::vector<double> low, high;  ///< (axis) of all joint targets
-  Doubted slow, fast, waits, creeping, turning, repeats;
+  Doubted slow, fast, waits, creeping, turning, repeats, lazy, wide;
   std::vector<double> last;  ///< (axis) of the latest joint target
   double fastest = 0;        ///< of any axis, where moves have durations [rad/s]
   double farthest = 0;       ///< between joint targets without durations [rad]
@@ -110,6 +115,8 @@ void look_at(const std::vector<MotionStep>& steps, Seen& seen) {
   for (const MotionStep& step : steps) {
     look_at(step.steps, seen);
     if (step.speed_percent && *step.speed_percent < least_percent) seen.slow.add(step);
+    if (step.acceleration_percent.value_or(100) <= least_percent) seen.lazy.add(step);
+    if (step.tool_zone.value_or(0) > widest_path_zone) seen.wide.add(step);
     if (step.tool_speed.value_or(0) > fastest_tool) seen.fast.add(step);
     if (step.repeat > most_repeats) seen.repeats.add(step);
     if (step.tool_speed.value_or(1) < slowest_tool) seen.creeping.add(step);
@@ -232,6 +239,13 @@ void doubt_small_steps(const std::vector<MotionStep>& steps, std::vector<Warning
 void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Where& where, std::vector<Warning>& warnings) {
   for (const MotionFrame& frame : frames) {
     const Vector3d& at = frame.position;
+    if (std::string_view(kind) == "tool" && !frame.stationary && at.z() < -std::max(tool_behind, std::hypot(at.x(), at.y())))
+      warnings.push_back(warning_of(
+          WarningKind::motion, where.text(),
+          fmt::format("the centre of tool '{}' lies {:.4g} mm behind the flange, in the arm (limit {:g})", frame.name, -1e3 * at.z(),
+                      1e3 * tool_behind),
+          "a wrong sign: z points out of the flange",
+          fmt::format("[{:.4g}, {:.4g}, {:.4g}] in its declaration if so", 1e3 * at.x(), 1e3 * at.y(), -1e3 * at.z())));
     if (const double reach = at.cwiseAbs().maxCoeff(); reach < least_metres || reach > most_metres) continue;
     warnings.push_back(warning_of(
         WarningKind::motion, where.text(),
@@ -261,7 +275,17 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
   if (const MotionStep* step = seen.fast.first)
     warnings.push_back(seen.fast.warning(
         fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool),
-        "a speed in another unit, such as mm/s instead of m/s", "the speed in the program's unit"));
+        "a speed in another unit, such as mm/s instead of m/s",
+        fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * *step->tool_speed)));
+  if (const MotionStep* step = seen.lazy.first)
+    warnings.push_back(seen.lazy.warning(
+        fmt::format("the acceleration is {:g} % (limit more than {:g})", *step->acceleration_percent, least_percent),
+        "a share instead of a percentage", "the acceleration in per cent: 80 instead of 0.8"));
+  if (const MotionStep* step = seen.wide.first)
+    warnings.push_back(seen.wide.warning(
+        fmt::format("the zone is {:g} mm (limit {:g} or less)", 1e3 * *step->tool_zone, 1e3 * widest_path_zone),
+        "another unit or a slip of the decimal point",
+        fmt::format("{}{:g} mm if there are zeros too many", key("zone_mm: ", "a zone of ", *step), 10 * *step->tool_zone)));
   if (const MotionStep* step = seen.repeats.first)
     warnings.push_back(
         seen.repeats.warning(fmt::format("repeat is {} (limit {} or less)", step->repeat, most_repeats),
@@ -271,8 +295,9 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
     warnings.push_back(seen.creeping.warning(
         fmt::format("the tool's speed is {:.4g} mm/s (limit {:g} or more)", 1e3 * *step->tool_speed,
                     1e3 * slowest_tool),
-        "m/s instead of mm/s",
-        fmt::format("{}{:g}{} if that was m/s", key("speed_mm_per_s: ", "a speed of ", *step), 1e6 * *step->tool_speed, key("", " mm/s", *step))));
+        "m/s instead of mm/s, or a slip of the decimal point",
+        fmt::format("{}{:g}{} if that was m/s; 10 or 100 times as much if the decimal point slipped; leave it if the tool moves so slowly",
+                    key("speed_mm_per_s: ", "a speed of ", *step), 1e6 * *step->tool_speed, key("", " mm/s", *step))));
   if (const MotionStep* step = seen.turning.first)
     warnings.push_back(seen.turning.warning(
         fmt::format("speed_deg_per_s is {:.4g} (limit {:g} or more)", *step->speed / degree,
@@ -290,6 +315,10 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
                                   "each move of the program has its own speed",
                                   fmt::format("motion.override_percent: {:g} for the speed override of the controller",
                                               motion.speed_percent < least_percent ? 100 * motion.speed_percent : motion.speed_percent)));
+  if (motion.override_percent <= least_percent)
+    warnings.push_back(warning_of(WarningKind::motion, motion.where.text(),
+                                  fmt::format("motion.override_percent is {:g} (limit more than {:g})", motion.override_percent, least_percent),
+                                  "a share instead of a percentage", fmt::format("motion.override_percent: {:g}", 100 * motion.override_percent)));
   doubt_single_targets(motion.steps, warnings);
   doubt_small_steps(motion.steps, warnings);
   doubt_frames(motion.tools, "tool", motion.where, warnings);
@@ -595,9 +624,9 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, co
     Vector3d exchanged = clamp.position;
     std::swap(exchanged[one], exchanged[other]);
     const double then = *distance_to(robot, clamp.link, exchanged);
-    if (*away <= std::max(near_link, bracket) || then > *away / 2 || then == 0) continue;  // within the link is no clamp
+    if (*away <= std::max(near_bracket, bracket) || then > *away / (*away > near_link ? 2 : 4) || then == 0) continue;  // within the link is no clamp
     return add(clamp.where,
-               fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g})", key, *away, clamp.link, std::max(near_link, bracket)),
+               fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g})", key, *away, clamp.link, std::max(near_bracket, bracket)),
                "exchanged coordinates",
                fmt::format("position_m: [{:g}, {:g}, {:g}] if so, or routing.longest_bracket_mm: {:.0f} if a bracket is so long", exchanged.x(),
                            exchanged.y(), exchanged.z(), std::ceil(1e2 * *away) * 10));
@@ -646,7 +675,9 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
   doubt_mounting(routing, add);
   if (const double length = routing.free_length; length > longest_hose)
     add(routing.where, fmt::format("routing.free_length_m is {:.6g} (limit {:g})", length, longest_hose),
-        "millimetres instead of metres", fmt::format("routing.free_length_m: {:g} if that was millimetres", length / 1e3));
+        length < shortest_in_mm ? "centimetres instead of metres" : "millimetres instead of metres",
+        length < shortest_in_mm ? fmt::format("routing.free_length_m: {:g} if that was centimetres", length / 100)
+                                : fmt::format("routing.free_length_m: {:g} if that was millimetres", length / 1e3));
   for (const auto& [key, clamp] : {std::pair{"base_clamp", &routing.base_clamp}, {"tool_clamp", &routing.tool_clamp}}) {
     if (*clamp) doubt_direction(key, **clamp, add);
     if (*clamp && (*clamp)->position.norm() > farthest_clamp) {
@@ -661,10 +692,10 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
     }
   }
   if (const double limit = least_bend_radius(dresspack), segment = routing.free_length / segments;
-      routing.base_clamp && segments < few_segments && limit > 0 && segment > limit)
+      routing.base_clamp && segments < few_segments && segment > longest_segment * limit && limit > 0)
     add(routing.where,
-        fmt::format("simulation.segments is {}: a segment is {:.3g} m long (limit {:.3g} m, the least bend radius)", segments,
-                    segment, limit),
+        fmt::format("simulation.segments is {}: a segment is {:.3g} m long (limit {:.3g} m: {:g} of the least bend radius)", segments,
+                    segment, longest_segment * limit, longest_segment),
         "a number for a trial: the shape, the bends and the lives are wrong", "simulation.segments: 64");
   // Small angles in radians or turns are eighths or halves of a turn; a search proposes any angle.
   constexpr double rounded = 0.005;

@@ -20,9 +20,9 @@ std::string mode_life(const RankingRow& row, const UnvalidatedMode& mode, double
   return std::isinf(hours) && is_buckling(mode) ? "none" : shown_life(row, hours);
 }
 
-/// "abrasion* on link_4"
+/// "abrasion† on link_4"
 std::string mode_name(const UnvalidatedMode& mode) {
-  const std::string name = mode.mode + "*" + (mode.dresspack.empty() ? "" : " (" + mode.dresspack + ")");
+  const std::string name = mode.mode + "†" + (mode.dresspack.empty() ? "" : " (" + mode.dresspack + ")");
   if (mode.mode == UnvalidatedMode::wall) return name;
   if (mode.mode == UnvalidatedMode::kink && !std::isfinite(mode.margin)) return name + ": nothing bends";
   if (mode.place.empty()) return name + ": nothing rubs";
@@ -36,11 +36,7 @@ std::string mode_note(const UnvalidatedMode& mode) {
                        "hose endured {} without damage. Keep the maker's bend radius. A bending test by the maker, as strain_life_table "
                        "of the material of the wall, would give a life.",
                        readable(mode.bends_at_limit), readable(published_wall_bends));
-  const std::string what = mode.mode == UnvalidatedMode::rating ? "A lower bound of its life. "
-                           : mode.mode == UnvalidatedMode::kink && std::isfinite(mode.margin)
-                               ? fmt::format("The tightest bend has {} times the radius of a kink. ", readable(mode.margin, 2))
-                               : "";
-  const std::string words = what + mode.note;
+  const std::string words = (mode.mode == UnvalidatedMode::rating ? "A lower bound of its life. " : "") + mode.note;
   return words.substr(0, words.find_last_not_of(' ') + 1);
 }
 
@@ -63,6 +59,13 @@ ModeLine line_of(const RankingRow& row, const UnvalidatedMode& mode) {
 }
 
 }  // namespace
+
+std::string cell_legend(const std::vector<ModeLine>& lines) {
+  bool unknown = false, none = false;
+  for (const ModeLine& line : lines)
+    for (const std::string& cell : line.hours) unknown = unknown || cell == "-", none = none || cell == "none";
+  return std::string(none ? " none: it does not occur." : "") + (unknown ? " -: not predicted." : "");
+}
 
 std::vector<ModeLine> mode_lines(const RankingRow& row) {
   std::vector<ModeLine> lines;
@@ -102,9 +105,13 @@ std::string mode_table(const RankingRow& row, std::size_t width, const std::stri
   add_line([](const Column& column) { return column.title; });
   for (std::size_t k = 0; k < lines.size(); ++k) add_line([k](const Column& column) { return column.cells[k]; });
   const auto below = [&](const std::string& words) { text += wrapped(words, width, indent); };
-  below("* No test confirms the law of this mode: 'replace after' leaves it out.");
+  below("† No test confirms the law of this mode: 'replace after' leaves it out." + cell_legend(lines));
+  if (row.planned() && !row.worst_component.empty())
+    below(
+        "Wires: hours until a conductor has lost its share of wires, over all samples. The worst wire is that of the shortest median life "
+        "with the job's own values. It need not be in that conductor.");
   for (const ModeLine& line : lines)
-    if (line.early && !line.note.empty()) below(fmt::format("{}: {}", line.mode.substr(0, line.mode.find('*')), line.note));
+    if (line.early && !line.note.empty()) below(fmt::format("{}: {}", line.mode.substr(0, line.mode.find("†")), line.note));
   return text;
 }
 

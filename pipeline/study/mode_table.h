@@ -28,6 +28,9 @@ std::vector<ModeLine> mode_lines(const RankingRow& row);
 
 /// The same as a table with its legend, and the notes of early modes below it. Lines of at most width columns, each begun with indent.
 /// Empty: no lines.
+/// What "none" and "-" mean, where a line has them; begins with a space.
+std::string cell_legend(const std::vector<ModeLine>& lines);
+
 std::string mode_table(const RankingRow& row, std::size_t width, const std::string& indent);
 
 }  // namespace dresslife::pipeline

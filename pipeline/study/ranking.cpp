@@ -22,6 +22,7 @@
 #include "pipeline/study/ranking_columns.h"
 #include "pipeline/study/mode_table.h"
 #include "pipeline/study/row_warnings.h"
+#include "pipeline/job/job.h"
 #include "pipeline/study/row_words.h"
 #include "pipeline/study/shown_rows.h"
 #include "pipeline/study/study_problems.h"
@@ -299,6 +300,7 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
   if (!row.has_result()) return all;
   if (row.done())
     if (const std::string kinds = warning_kinds(row); !kinds.empty()) all.push_back("WARNING: " + kinds);
+  all.push_back(held_words(row));
   all.push_back(uncapped_words(row));
   all.push_back(repeat_words(row));
   all.push_back(uncertainty_words(row));
@@ -371,7 +373,9 @@ std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places
   for (const StudyJob& job : study.jobs) jobs.emplace(job.name, &job);
   for (RankingRow& row : rows) {
     const auto job = jobs.find(row.job);
-    if (job == jobs.end() || job->second->values.size() != study.varied.size()) continue;
+    if (job == jobs.end()) continue;
+    if (job->second->job) row.held_joint = job->second->job->motion.hold_joint;
+    if (job->second->values.size() != study.varied.size()) continue;
     for (std::size_t k = 0; k < study.varied.size(); ++k)
       row.varied.emplace_back(study.varied[k], job->second->values[k]);
   }

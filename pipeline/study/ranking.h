@@ -87,6 +87,7 @@ struct RankingRow {
   double failing_position_from_tool = 0;  ///< [m]
   std::array<double, 3> conductor_hours{unknown, unknown, unknown};
   double worst_shear_range = 0;  ///< of the worst wire's surface; 0: unknown
+  std::string held_joint;   ///< motion.hold_joint; empty: none
   std::string worst_joint;  ///< whose motion costs most; "carrying": none between the clamps; empty: unknown
   double worst_joint_share = 0;  ///< of the worst wire's damage; above 1 where other joints relieve
   std::vector<UnvalidatedMode> unvalidated;  ///< modes that are not in the hours above

@@ -261,13 +261,22 @@ std::string failure_words(const RankingRow& row) {
                        joint_words(row)});
 }
 
+std::string held_words(const RankingRow& row) {
+  if (row.held_joint.empty()) return "";
+  return fmt::format(
+      "{} is held (motion.hold_joint): the tool does not follow its program. This life shows what the axis costs. Compare it with the "
+      "same job without hold_joint only, not with other jobs.",
+      row.held_joint);
+}
+
 std::string joint_words(const RankingRow& row) {
+  if (!row.held_joint.empty()) return "";
   if (!is_damaged(row) || row.worst_joint.empty()) return "";
   const std::string moved =
       row.worst_joint == "carrying"
           ? "The damage follows the swing of the hose more than the position of any axis."
           : fmt::format("The strain of this wire follows {} most.", row.worst_joint);
-  return moved + " That is a correlation, no cause. Try what an axis costs: dresslife run JOB -o held --set motion.hold_joint=" +
+  return moved + " That is a correlation, no cause. Try what an axis costs. The tool then leaves its path: compare that life with this job's only. dresslife run JOB -o held --set motion.hold_joint=" +
          (row.worst_joint == "carrying" ? "AXIS" : row.worst_joint);
 }
 

@@ -50,6 +50,8 @@ std::string failure_words(const RankingRow& row);
 std::string own_values_words(const RankingRow& row);
 
 /// "The strain of this wire follows joint_6 most.", that this is no cause, and the command that tries it. Empty: not known.
+/// That a joint is held, so the job does not do its program; empty: none is.
+std::string held_words(const RankingRow& row);
 std::string joint_words(const RankingRow& row);
 
 /// "One repeat of the motion takes 13.8 s: 1 of 10 has failed after 108,000 repeats." Empty: none foreseen in the robot's life.

@@ -195,11 +195,12 @@ bool leads_flange(const std::vector<pipeline::MotionStep>& steps, const pipeline
 
 /// What a run notes of its program, and of what may be an input in another unit or one that is missing.
 std::string note_of(const RunMotion& run, double cycle) {
-  constexpr double most = 0.5, long_wait = 5;  // of the cycle; [s]: grippers take 0.2 to 1, spot welds with their guns up to 4
+  constexpr double most = 0.5, long_wait = 5,
+                   longest_wait = 20;  // of the cycle; [s]: grippers take 0.2 to 1, spot welds with their guns up to 4
   std::vector<std::string> notes;
   Waits waits;
   add_waits(run.motion.steps, 1, waits);
-  if (waits.time > most * cycle && waits.longest->dwell >= long_wait)
+  if (waits.longest && waits.longest->dwell >= (waits.time > most * cycle ? long_wait : longest_wait))
     notes.push_back(fmt::format(
         "The waits of the program take {:.4g} s, {:.0f} % of its cycle of {:.4g} s; the longest one is {:g} s, at {}. It counts in seconds: "
         "correct it if that was milliseconds or a decimal point is missing",

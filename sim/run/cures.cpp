@@ -85,8 +85,8 @@ class RestTrials {
   }
 
   double longest() const { return longest_; }
-  /// turned: (end) whether that clamp points along the mean of its chords.
-  double curvature(double length, const std::array<bool, 2>& turned = {}) const {
+  /// turned: (end) whether that clamp points along the mean of its chords. reversed: end that points the other way; -1: none.
+  double curvature(double length, const std::array<bool, 2>& turned = {}, int reversed = -1) const {
     RodProperties of = properties_;
     of.segments = std::min(of.segments, most_segments);
     of.length = length;
@@ -94,6 +94,7 @@ class RestTrials {
     for (ClampFrames clamps : poses_) {
       for (int end = 0; end < 2; ++end)
         if (turned[end]) clamps.end(end).orientation = clamps.end(end).orientation * chord_turn_[end];
+      if (reversed >= 0) clamps.end(reversed).orientation = clamps.end(reversed).orientation * Quaternion(0, 1, 0, 0);
       most = std::max(most, curvature_at_rest(of, clamps));
     }
     return most;
@@ -393,6 +394,15 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   } else {
     cause = fmt::format("the shape into which the program leads it: free of twist its smallest bend radius at rest is {}",
                         radius_words(k_rest));
+  }
+  for (const int end : {0, 1}) {  // a clamp that points away from the other one, and would keep the limit the other way round
+    if (!at_rest || !remedy.empty() || trials.chord_direction(end).z() >= 0) continue;
+    const double reversed = trials.curvature(trials.length(), {}, end);
+    if (reversed * broken.limit > 1) continue;
+    const std::string key = fmt::format("routing.{}_clamp", end == 0 ? "base" : "tool");
+    cause = fmt::format("a wrong sign: {}.direction points away from the other clamp", key);
+    remedy = fmt::format("{}: {} if so (bend radius at rest {})", key_of(motion.setup, broken.dresspack, key + ".direction"),
+                         vector_words(Vector3::Zero() - (end == 0 ? routing.base_clamp : routing.tool_clamp)->direction), radius_words(reversed));
   }
   if (remedy.empty() && swings)
     if (const double percent = slower(motion, checks, broken, k_rest); percent > 0)

@@ -109,6 +109,10 @@ class QuickChecks {
         said.push_back(check);
     std::vector<pipeline::Warning> cured = check_warnings(motion, said);
     if (found.run.taut_at) cured.push_back(taut_warning(motion, found.run));
+    if (!cured.empty() && std::ranges::any_of(found.others, [](const pipeline::Warning& other) {
+          return other.words.find(" instead of ") != std::string::npos;
+        }))
+      found.notes.push_back("Correct the doubtful numbers of the program first: the limits that the dresspack passes may follow from them");
     return {pipeline::joined(std::move(found.others), cured), std::move(found.notes)};
   }
 

@@ -217,6 +217,11 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   const std::string json = run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --json").out;
   CHECK(json.starts_with("{\"plan\":[{\"name\":\"new one\""));
   CHECK(json.find(",\"what_if\":[{\"name\":\"new one\"") != std::string::npos);
+  CHECK(must_run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --what-if-from 2027-01-01").out.find("What if other from 2027-01-01 were the fleet") !=
+        std::string::npos);
+  CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --what-if-from 2026-11-01").err.find("is before 2026-11-23, the first day of the plan") !=
+        std::string::npos);
+  CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if-from 2027-01-01").err.find("add --what-if OTHER.csv") != std::string::npos);
   scratch.write("other.csv", "name,duty,installed\nmore,d,\n");
   CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv").err.find("other.csv:1:1: error: has no costs, but fleet.csv has some") !=
         std::string::npos);

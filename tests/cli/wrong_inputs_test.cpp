@@ -53,6 +53,15 @@ const std::string module =
     "CONST jointtarget a:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
     "PROC main()\n  MoveAbsJ a,v1000,fine,tool0;\nENDPROC\nENDMODULE\n";
 
+const std::string krl =
+    "DEF nod()\nBAS(#VEL_PTP,60)\nBAS(#ACC_PTP,80)\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\n$TOOL={X 0,Y 0,Z 150,A 0,B 0,C 0}\n$VEL.CP=0.25\n$APO.CDIS=20\n"
+    "PTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}\nPTP {X 900,Y -350,Z 600,A 0,B 180,C 0,S 2,T 2}\nLIN_REL {Z -120} C_DIS\nLIN_REL {X 100}\nWAIT SEC 0.3\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}\nEND\n";
+const std::string krl_job =
+    "robot: kuka_kr16_2\nmotion: nod.src\ndresspack: control_cable\nrouting:\n"
+    "  base_clamp: {link: link_3, position_m: [-0.199, 0.133, -0.163], direction: [0.84, -0.29, -0.46]}\n"
+    "  tool_clamp: {link: link_6, position_m: [0.167, -0.016, 0.02], direction: [-0.21, -0.11, 0.97]}\n"
+    "  free_length_m: 1.135\nsimulation: {segments: 24, contact: false}\n";
+
 const std::string study = "base: job.yaml\nvary:\n  routing.free_length_m: [2.0, 2.1]\n";
 
 const std::string axes =
@@ -172,6 +181,7 @@ const Wrong wrong[] = {
     {"hose.yaml", "radius_mm: 4.1", "radius_mm: 8.2", "hose.yaml:12:5: error: ", "1.2 mm outside the hose's bore", "helix_radius_mm: 12.8 or less", draw},
     {"hose.yaml", "radius_mm: 4.1", "radius_mm: 22", "hose.yaml:12:5: error: ", "'lead' is 44 mm thick (the hose is 42 mm wide inside)", "take a hose with inner_diameter_mm: 44 or more", draw},
     {"hose.yaml", "helix_radius_mm: 14", "helix_radius_mm: 0.014", "hose.yaml:12:5: error: ", "'lead' covers the axis by 4.09 mm", "give helix_radius_mm: 4.1 or more", draw},
+    {"hose.yaml", "  - name: lead\n    count: 4\n    radius_mm: 4.1\n    helix_radius_mm: 14\n", "  - {name: filler, radius_mm: 7, place: auto, without_wires: {kind: filler}}\n  - name: lead\n    count: 2.5\n    radius_mm: 4.1\n    place: auto\n", "hose.yaml:14:12: error: ", "count is '2.5' (must be a whole number)", "; ", draw},
     {"hose.yaml", "name: lead", "name: lead/1", "hose.yaml:12:5: error: ", "holds a '/'", "choose another name", draw},
     {"hose.yaml", "count: 19, radius_mm: 0.1", "count: 19, radius_mm: 1", "hose.yaml:18:101: error: ", "outside it", "check helix_radius_mm and radius_mm", draw},
     {"cable.yaml", "outer diameter 8.2 mm", "outer diameter 82 mm", "cable.yaml:6:17: error: ", "times its conductor", "check outer_diameter_mm: 82", "dresslife draw cable.yaml"},
@@ -221,6 +231,8 @@ void write_inputs(const Scratch& scratch) {
   scratch.write("job.yaml", job);
   scratch.write("hose.yaml", hose);
   scratch.write("spot.mod", module);
+  scratch.write("nod.src", krl);
+  scratch.write("krl.yaml", krl_job);
   scratch.write("machine.urdf", "<robot name=\"arm\"/>\n");
   scratch.write("machine.xacro", "<robot name=\"arm\"/>\n");
   const std::size_t motion = job.find("motion:"), after = job.find("dresspack:");
@@ -248,6 +260,9 @@ TEST_CASE("the inputs that are changed below are accepted as they are") {
     INFO(outcome.err);
     CHECK(outcome.status == 0);
   }
+  scratch.write("thick.yaml", edited(content(scratch / "cable.yaml"), "7 x 0.5 mm2, wire 0.1 mm, outer diameter 8.2 mm, jacket 1.1 mm", "7 x 50 mm2, class 6"));
+  const Outcome thick = run(scratch, "dresslife", "draw thick.yaml");  // its innermost wires have a small lay angle
+  CHECK_THAT(thick.out + thick.err, !Contains("warning: "));
   for (const char* pack : {"hose.yaml", "cable.yaml"}) {
     const Outcome outcome = run(scratch, "dresslife", std::string("draw ") + pack);
     INFO(outcome.err);
@@ -314,7 +329,7 @@ const Doubtful doubtful[] = {
     setting("motion.speed_percent: 0.5", "motion.speed_percent is 0.5 (limit 1 or more). Likely cause: a share", "motion.speed_percent: 50 if"),
     setting("cell: {boxes: [{position_m: [0, 0, 0.5], sides_m: [1, 1, 1]}]}", "cell.boxes[1] contains joint_1 in the zero pose", "position_m of its centre"),
     {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: tube, radius_mm: 3, helix_radius_mm: 0, mass_kg_per_m: 0.00003, without_wires: {kind: hose, bore_mm: 0.004}}", "hose.yaml:19:5", "mass_kg_per_m of 'tube' is 3e-05 (limit 0.00141: foam)", "mass_kg_per_m: 0.03 if"},
-    {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: tube, radius_mm: 3, helix_radius_mm: 0, without_wires: {kind: hose, bore_mm: 0.004}}", "hose.yaml:19:67", "bore_mm of 'tube' is 0.004, and it is 6 mm wide outside by radius_mm 3 (limits 2.28 .. 5.52", "bore_mm: 4 if that was metres"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: tube, radius_mm: 3, helix_radius_mm: 0, without_wires: {kind: hose, bore_mm: 0.004}}", "hose.yaml:19:67", "bore_mm of 'tube' is 0.004, and it is 6 mm wide outside by radius_mm 3 (limits 2.52 .. 5.52", "bore_mm: 4 if that was metres"},
     {"job.yaml", "30, 0]}\n    - {text: nod, joints_deg: [20, 0, 0, 0, 60, 90]", "0.52, 0]}\n    - {text: nod, joints_deg: [0.35, 0, 0, 0, 1.05, 1.57]", "job.yaml:6:7", "no joint angle of the motion is larger than 1.57 deg (limit 6.28 or more). Likely cause: radians", "joints_deg in degrees"},
     {"job.yaml", "speed_percent: 50", "speed_percent: 0.5", "job.yaml:7:7", "speed_percent is 0.5 (limit 1 or more). Likely cause: a share", "speed_percent: 50 if that was a share"},
     {"job.yaml", "dwell_s: 0.5", "dwell_s: 500", "job.yaml:8:7", "dwell_s is 500 (limit 100 or less). Likely cause: milliseconds", "dwell_s: 0.5 if"},
@@ -393,15 +408,30 @@ const Doubtful doubtful[] = {
     setting("cell: {capsules: [{from_m: [3, 0, 0], to_m: [3, 0, 1], radius_mm: 0.05}]}", "radius_mm of cell.capsules[1] is 0.05 (limit 1 or more)", "radius_mm: 50 if that was metres"),
     {"job.yaml", "{text: wait, dwell_s: 0.5}", "{text: wait, repeat: 1200, steps: [{text: pause, dwell_s: 0.01}]}", "job.yaml:8:7", "repeat is 1200 (limit 1000 or less)", "no repeat"},
     {"job.yaml", "speed_percent: 50", "speed_deg_per_s: 0.1", "job.yaml:7:7", "speed_deg_per_s is 0.1 (limit 0.2 or more)", "speed_deg_per_s: 5.73 if that was rad/s"},
-    {"job.yaml", "speed_percent: 50", "speed_mm_per_s: 0.5", "job.yaml:7:7", "the tool's speed is 0.5 mm/s (limit 1 or more)", "speed_mm_per_s: 500 if that was m/s"},
+    {"job.yaml", "speed_percent: 50", "speed_mm_per_s: 0.5", "job.yaml:7:7", "the tool's speed is 0.5 mm/s (limit 3 or more)", "speed_mm_per_s: 500 if that was m/s"},
     {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 30", "hose.yaml:1:1", "least_bend_radius_mm is 30 (limits 50 .. 2000", "least_bend_radius_mm: 300 if a digit is missing"},
     {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: tube, radius_mm: 6, helix_radius_mm: 0, without_wires: {kind: hose, bore_mm: 4}}", "hose.yaml:19:67", "it is 12 mm wide outside by radius_mm 6", "radius_mm: 3 if 6 is the outer diameter"},
     {"job.yaml", "position_m: [0.15, 0, 0.18]", "position_m: [1.5, 0, 0.18]", "job.yaml:12:15", "routing.tool_clamp.position_m lies 1.5 m from all shapes of link_6", "position_m: [0.15, 0, 0.18] if a decimal point slipped"},
     setting("cell: {boxes: [{position_m: [50, 0, 0], sides_m: [800, 600, 10]}]}", "cell.boxes[1] is 800 m long (limit 60)", "sides_m: [0.8, 0.6, 0.01] if those were millimetres"),
     setting("robot.joints.3.upper_deg: 4010.7", "joint_3 turns from -180 to 4010.7 deg (limit 4 turns)", "lower_deg: -3.1416 and upper_deg: 70"),
     {"job.yaml", "direction: [1, 0, 0.45]", "direction: [90, 0, 45]", "job.yaml:11:15", "routing.base_clamp.direction is [90, 0, 45] (limit: numbers below 5). Likely cause: angles", "direction: [0.894, 0, 0.447] if it points there"},
-    {"job.yaml", "[-0.1, 0, 0.45]", "[0.45, 0, -0.1]", "job.yaml:11:15", "routing.base_clamp.position_m lies 0.271 m from all shapes of link_3 (limit 0.25). Likely cause: exchanged coordinates", "position_m: [-0.1, 0, 0.45] if so"},
-    {"job.yaml", "direction: [1, 0, -0.35]", "direction: [-1, 0, 0.35]", "", "smallest bend radius at rest: 52.2 mm", "direction"},
+    {"job.yaml", "[-0.1, 0, 0.45]", "[0.45, 0, -0.1]", "job.yaml:11:15", "routing.base_clamp.position_m lies 0.271 m from all shapes of link_3 (limit 0.15). Likely cause: exchanged coordinates", "position_m: [-0.1, 0, 0.45] if so"},
+    {"job.yaml", "direction: [1, 0, -0.35]", "direction: [-1, 0, 0.35]", "", "Likely cause: a wrong sign: routing.tool_clamp.direction points away from the other clamp", "routing.tool_clamp.direction: [1.00, 0.00, -0.35] if so"},
+    {"job.yaml", "direction: [1, 0, 0.45]", "direction: [-1, 0, -0.45]", "", "Likely cause: a wrong sign: routing.base_clamp.direction points away", "routing.base_clamp.direction: [1.00, 0.00, 0.45] if so"},
+    {"job.yaml", "2.035", "99.5", "job.yaml:11:3", "routing.free_length_m is 99.5 (limit 20). Likely cause: centimetres", "routing.free_length_m: 0.995 if"},
+    {"job.yaml", "segments: 24", "segments: 8", "job.yaml:11:3", "a segment is 0.254 m long (limit 0.15 m: 0.5 of the least bend radius)", "simulation.segments: 64"},
+    {"job.yaml", "speed_percent: 50", "speed_mm_per_s: 2.5", "job.yaml:7:7", "the tool's speed is 2.5 mm/s (limit 3 or more)", "10 or 100 times as much if the decimal point slipped"},
+    {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: air, radius_mm: 10, helix_radius_mm: 0, without_wires: {kind: hose, bore_mm: 8}}", "hose.yaml:19:67", "bore_mm of 'air' is 8, and it is 20 mm wide outside", "radius_mm: 5 if 10 is the outer diameter"},
+    {"cable.yaml", "wire 0.1 mm, outer diameter 8.2 mm, jacket 1.1 mm", "class 6, jacket PVC 3 mm", "cable.yaml:4:5", "the jacket of 'cable' is 3 mm thick (limit 2.45: 2 times a usual one)", "jacket 1.5 mm if that was both walls", "draw cable.yaml"},
+    setting("motion.override_percent: 1", "motion.override_percent is 1 (limit more than 1)", "motion.override_percent: 100"),
+    // Programs of KUKA
+    {"nod.src", "VEL_PTP,60", "VEL_PTP,350", "nod.src:2:1", "BAS(#vel_ptp, 350): more than 100 % (limit 100, which counts)", "a percentage up to 100", "check krl.yaml"},
+    {"nod.src", "ACC_PTP,80", "ACC_PTP,800", "nod.src:3:1", "BAS(#acc_ptp, 800): more than 100 %", "a percentage up to 100", "check krl.yaml"},
+    {"nod.src", "ACC_PTP,80", "ACC_PTP,0.8", "nod.src:8:1", "the acceleration is 1 % (limit more than 1)", "in per cent", "check krl.yaml"},
+    {"nod.src", "CP=0.25", "CP=0.0025", "nod.src:10:1", "the tool's speed is 2.5 mm/s (limit 3 or more)", "if the decimal point slipped", "check krl.yaml"},
+    {"nod.src", "CP=0.25", "CP=250", "nod.src:10:1", "the tool's speed is 250 m/s", "0.25 m/s if that was mm/s", "check krl.yaml"},
+    {"nod.src", "CDIS=20", "CDIS=3000", "nod.src:10:1", "the zone is 3000 mm (limit 500 or less)", "a zone of 30 mm if there are zeros too many", "check krl.yaml"},
+    {"nod.src", "Z 150", "Z -150", "krl.yaml:2:9", "the centre of tool '$TOOL' lies 150 mm behind the flange, in the arm", "[0, 0, 150] in its declaration", "check krl.yaml"},
 };
 
 }  // namespace
@@ -478,10 +508,12 @@ TEST_CASE("plausible mistakes that make a job are warned of, with place, limit a
     return run(scratch, "dresslife", one ? one->command : "check job.yaml");
   };
   CHECK(checked(nullptr).out.find("warning: ") == std::string::npos);
+  const Doubtful unchanged{"nod.src", "END", "END", "", "", "", "check krl.yaml"};
+  CHECK(checked(&unchanged).out.find("warning: ") == std::string::npos);
   for (const Doubtful& one : doubtful) {
     const Outcome outcome = checked(&one);
     CAPTURE(one.in, one.to, outcome.out, outcome.err);
-    CHECK_THAT(outcome.out, Contains(one.place + (one.place.empty() ? "" : ": ") + "warning: ") && Contains(one.problem) &&
+    CHECK_THAT(outcome.out + outcome.err, Contains(one.place + (one.place.empty() ? "" : ": ") + "warning: ") && Contains(one.problem) &&
                                 Contains("Remedy: ") && Contains(one.remedy));
   }
 }
@@ -494,6 +526,10 @@ TEST_CASE("waits of a program that take more than half of its cycle are named wi
     return run(scratch, "dresslife", "check module.yaml").out;
   };
   CHECK_THAT(answer_to("60"), Contains("note: The waits of the program take 60 s, 9") && Contains("the longest one is 60 s, at spot.mod:5:"));
+  // A long wait is named in a long program, too.
+  const std::string loop = ";\n  FOR i FROM 1 TO 100 DO\n  MoveAbsJ [[20,0,0,0,60,90],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n  MoveAbsJ a,v1000,fine,tool0;\n  ENDFOR\n  WaitTime 0.1";
+  CHECK_THAT(answer_to("30" + loop), Contains("note: The waits of the program take 30.1 s, 1") && Contains("the longest one is 30 s"));
+  CHECK_THAT(answer_to("10" + loop), !Contains("The waits of the program"));
   CHECK_THAT(answer_to("0.06"), !Contains("The waits of the program"));
 }
 

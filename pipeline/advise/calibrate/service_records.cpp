@@ -363,6 +363,7 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   std::size_t failed = 0, removed = 0, in_use = 0, before = 0, early = 0;
   std::vector<std::string> hoses;  // lines of failures whose reason names a hose
   Where first_hose;
+  const Row* short_week = nullptr;
   for (const Row& row : rows) {
     const auto [at, is_new] = known.try_emplace(row.job, read.tests.size());
     if (is_new) {
@@ -389,6 +390,8 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
       ++early;
       continue;
     }
+    constexpr double day = 24;  // [h]: robots of plants run 40 h a week and more
+    if (!short_week && row.hours_per_week.value_or(2 * day) <= day) short_week = &row;
     const double hours_per_day = row.hours_per_week.value_or(hours_per_week[row.job]) / 7;
     // Half a day for one that was removed on the day on which it was put in, or on which the records begin.
     const double entry_days = std::max(0.0, days_between(row.from, *since));
@@ -424,6 +427,13 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
         "{} removed {} do not count{}.\n", early, request.since ? "before" : "on that day",
         request.since ? ""
                       : ": --records-since DATE gives an earlier day from which the records are complete");
+  if (short_week)
+    read.words += warning_of(WarningKind::calibration, short_week->where.text(),
+                             fmt::format("hours_per_week of '{}' is {:g} (limit more than 24)", short_week->name, *short_week->hours_per_week),
+                             "hours of a day",
+                             fmt::format("hours_per_week: {:g} if that was per working day; leave it if the robot runs so little",
+                                         5 * *short_week->hours_per_week))
+                      .line() + "\n";
   if (!hoses.empty())
     read.words += warning_of(WarningKind::calibration, first_hose.text(),
                              fmt::format("the reason names a hose, sleeve or jacket and counts as broken wires (line {})",

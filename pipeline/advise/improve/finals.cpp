@@ -85,7 +85,8 @@ Finals finals_of(const Improvement& found, const ImproveRequest& request, const 
 }
 
 void judge(Finals& finals, const Improvement& found, const ImproveRequest& request,
-           const MountingTolerance& tolerance, const StudyPlaces& places, const MakeRows& make_rows) {
+           const MountingTolerance& tolerance, const StudyPlaces& places, const MakeRows& make_rows,
+           const ToleranceProgress& progress) {
   std::vector<Final*> best_first;
   for (std::size_t k = 1; k < finals.of.size(); ++k) best_first.push_back(&finals.of[k]);
   std::stable_sort(best_first.begin(), best_first.end(),
@@ -98,14 +99,15 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
     const std::vector<std::string>& sets = found.trials[of->trial].sets;
     Finalist finalist{
         found.trials[of->trial].worst, nudges_of(changed_jobs(request, sets, "place"), tolerance), {}};
-    finalist.run = [&, of, sets, nudges = finalist.nudges](std::size_t first, std::size_t count) {
+    finalist.run = [&, of, sets, nudges = finalist.nudges](const std::vector<std::size_t>& numbers) {
       Study study{found.name, {}, found.keep_trials};
-      std::vector<std::vector<std::string>> jobs(count);
-      for (std::size_t k = 0; k < count; ++k) {
+      std::vector<std::vector<std::string>> jobs(numbers.size());
+      for (std::size_t k = 0; k < numbers.size(); ++k) {
+        const std::vector<std::string>& off = nudges[numbers[k]].sets;
         std::vector<std::string> all = sets;
-        all.insert(all.end(), nudges[first + k].sets.begin(), nudges[first + k].sets.end());
+        all.insert(all.end(), off.begin(), off.end());
         for (StudyJob& job :
-             changed_jobs(request, all, fmt::format("off_{:04}_{:02}", of->trial, first + k + 1))) {
+             changed_jobs(request, all, fmt::format("off_{:04}_{:02}", of->trial, numbers[k] + 1))) {
           jobs[k].push_back(job.name);
           study.jobs.push_back(std::move(job));
         }
@@ -123,16 +125,16 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
     return finalist;
   };
   for (const Final* of : best_first) finalists.push_back(finalist_of(of));
-  const std::vector<WithinTolerance> judged = within_tolerance(finalists, as_it_is);
+  const std::vector<WithinTolerance> judged = within_tolerance(finalists, as_it_is, progress);
   for (std::size_t k = 0; k < judged.size(); ++k) best_first[k]->tolerance = judged[k];
   // The original jobs are compared within the tolerance, too, unless the best is better than they are as drawn.
   const Final* const best = finals.best();
   Final& original = finals.of.front();
   if (best && best->tolerance && best->tolerance->whole && as_it_is.feasible() &&
       original.merit > best->tolerance->worst)
-    original.tolerance = within_tolerance(finalist_of(&original), as_it_is, [&](const Merit& worst) {
-      return clearly_better(best->tolerance->worst, worst);
-    });
+    original.tolerance = within_tolerance(
+        finalist_of(&original), as_it_is,
+        [&](const Merit& worst) { return clearly_better(best->tolerance->worst, worst); }, judged, progress);
 }
 
 std::optional<double> share_longer(const Finals& finals, const Final& best, const StudyPlaces& places) {

@@ -20,7 +20,7 @@ struct Final {
   std::vector<std::string> jobs;  ///< names
   double hours = 0;               ///< of the worst, p10
   std::size_t trial = 0;
-  Merit merit{};  ///< as drawn
+  Merit merit{};                               ///< as drawn
   std::optional<WithinTolerance> tolerance{};  ///< absent: not evaluated
 };
 
@@ -44,7 +44,8 @@ Finals finals_of(const Improvement& found, const ImproveRequest& request, const 
 /// Evaluates the finalists within the mounting tolerance (T1), and the original jobs if they may be better there; with two objectives
 /// the best by merit only.
 void judge(Finals& finals, const Improvement& found, const ImproveRequest& request,
-           const MountingTolerance& tolerance, const StudyPlaces& places, const MakeRows& make_rows);
+           const MountingTolerance& tolerance, const StudyPlaces& places, const MakeRows& make_rows,
+           const ToleranceProgress& progress = {});
 
 /// Share of samples in which the wires of the worst job of `best` live longer than those of the worst original job; absent
 /// where nothing is uncertain.

@@ -148,11 +148,53 @@ const std::vector<std::string>& outcome_limit_names() {
   return names;
 }
 
-std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
-                                        const std::vector<double>& beyond) {
+std::string passed_text(std::size_t limit, double beyond) {
+  const auto percent = [](double share, const char* of = "") { return fmt::format("{} %{}", readable(100 * share, 2), of); };
+  switch (static_cast<Limit>(limit)) {
+    case too_short:
+    case too_long:
+      return percent(beyond, " of the length");
+    case bracket:
+      return percent(beyond, " of the diameter");
+    case twist:
+    case stroke:
+      return percent(beyond);
+    case pull:
+    case contact:
+    case believable:
+      return beyond < std::log(2.0) ? percent(std::expm1(beyond)) : readable(std::exp(beyond), 2) + " times the limit";
+    case bend:
+    case abrasion:
+    case wall:
+    case rating:
+    case jacket:
+    case corkscrew:
+    case kink:
+      return percent(-std::expm1(-beyond));
+  }
+  throw std::logic_error("a limit without a unit");
+}
+
+namespace {
+
+const std::map<std::string, Limit>& limit_of_screened() {
   static const std::map<std::string, Limit> limit_of{{"bent too tightly", bend}, {"twisted too far", twist},
                                                      {"too short", too_short},   {"too long", too_long},
                                                      {"pulled too hard", pull},  {"bracket", bracket}};
+  return limit_of;
+}
+
+}  // namespace
+
+std::string passed_text(const std::string& screened, double beyond) {
+  const auto found = limit_of_screened().find(screened);
+  // (V5), in the robot: a share of the diameter as (V7).
+  return passed_text(found == limit_of_screened().end() ? bracket : found->second, beyond);
+}
+
+std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
+                                        const std::vector<double>& beyond) {
+  const std::map<std::string, Limit>& limit_of = limit_of_screened();
   std::vector<double> of(outcome_limits, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < names.size(); ++k)
     if (const auto found = limit_of.find(names[k]); found != limit_of.end())
@@ -179,8 +221,8 @@ std::string Outcome::words() const {
   for (std::size_t k = 0; k < beyond.size(); ++k)
     if (beyond[k] > 0)
       text +=
-          fmt::format("{}{} passed by {:.2g}{}", text.empty() ? "" : ", ", outcome_limit_names()[k],
-                      beyond[k], k < reached.size() && !reached[k].empty() ? " (" + reached[k] + ")" : "");
+          fmt::format("{}{} passed by {}{}", text.empty() ? "" : ", ", outcome_limit_names()[k],
+                      passed_text(k, beyond[k]), k < reached.size() && !reached[k].empty() ? " (" + reached[k] + ")" : "");
   return text;
 }
 

@@ -34,6 +34,11 @@ const std::vector<std::string>& outcome_limit_names();
 
 inline constexpr std::size_t bracket_limit = outcome_limits - 1;
 
+/// How far a limit is passed, from Outcome::beyond: "3 %", of the least radius, life or slack, "0.4 % of the length", "3.2 times the
+/// limit". screened: its name in a short run.
+std::string passed_text(std::size_t limit, double beyond);
+std::string passed_text(const std::string& screened, double beyond);
+
 /// The same of a short run (screened.h), whose limits have the names of the geometric ones; NaN: unknown.
 std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
                                         const std::vector<double>& beyond);
@@ -58,7 +63,7 @@ struct Outcome {
   bool feasible() const;                                        ///< done, and every limit is satisfied
   double violation() const;                                     ///< sum of the violations
 
-  /// "bend radius passed by 0.12 (532 mm, at least 600 mm), ...": violated limits, or the failure; empty: feasible.
+  /// "bend radius passed by 11 % (532 mm, at least 600 mm), ...": violated limits, or the failure; empty: feasible.
   std::string words() const;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipeline/advise/improve/outcome.h"
 #include "pipeline/base/stage_failed.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/files/files.h"
@@ -22,7 +23,7 @@ std::string ScreenedList::words(const ScreenedCandidate& candidate) const {
   std::string text;
   for (std::size_t k = 0; k < limits.size(); ++k)
     if (candidate.beyond[k] > 0)
-      text += fmt::format("{}{} by {:.2f}", text.empty() ? "" : ", ", limits[k], candidate.beyond[k]);
+      text += fmt::format("{}{} by {}", text.empty() ? "" : ", ", limits[k], passed_text(limits[k], candidate.beyond[k]));
   return text;
 }
 

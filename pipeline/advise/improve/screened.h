@@ -24,7 +24,7 @@ struct ScreenedList {
   std::string motion;               ///< YAML of a generated motion; empty: the job's own
   std::vector<ScreenedCandidate> candidates;
 
-  /// "bent too tightly by 0.31, too short by 0.02": violated limits; empty: none.
+  /// "bent too tightly by 27 %, too short by 2 % of the length": violated limits; empty: none.
   std::string words(const ScreenedCandidate& candidate) const;
 };
 

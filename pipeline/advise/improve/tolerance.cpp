@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pipeline/base/readable.h"
 
@@ -11,51 +12,102 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr std::size_t usually_judged = 3;  // each 24 jobs
-constexpr std::size_t at_once =
-    4;  // the length and the turn of the end first, in which a narrow optimum shows soonest
+
+/// How much is lost by a nudge, as far as other finalists show it: 0, it does not run or passes a limit; else its share of the life.
+double kept_share(std::size_t number, const std::vector<WithinTolerance>& others) {
+  double least = 1;  // not seen: after all that lost something
+  for (const WithinTolerance& other : others)
+    for (std::size_t k = 0; k < other.numbers.size(); ++k)
+      if (const ImprovementStory::Nudge& nudge = other.nudges[k]; other.numbers[k] == number) {
+        const double share = std::isnan(nudge.share) ? 1 : nudge.share;  // no damage, off or not
+        least = std::min(least, nudge.words.empty() ? share : 0);
+      }
+  return least;
+}
+
+WithinTolerance none_evaluated(const Finalist& of, const Outcome& as_it_is) {
+  return {{}, {}, merit_of(of.drawn, as_it_is), of.drawn, of.nudges.empty()};
+}
+
+/// The next few of the nudges that are left.
+std::vector<std::size_t> next_of(const Finalist& of, const WithinTolerance& judged,
+                                 const std::vector<WithinTolerance>& others) {
+  std::vector<std::size_t> left;
+  for (std::size_t k = 0; k < of.nudges.size(); ++k)
+    if (!std::binary_search(judged.numbers.begin(), judged.numbers.end(), k)) left.push_back(k);
+  std::stable_sort(left.begin(), left.end(), [&](std::size_t a, std::size_t b) {
+    return kept_share(a, others) < kept_share(b, others);
+  });
+  left.resize(std::min(left.size(), tolerance_runs_at_once));
+  return left;
+}
+
+void evaluate(WithinTolerance& judged, const Finalist& of, const std::vector<std::size_t>& numbers,
+              const Outcome& as_it_is) {
+  const std::vector<Outcome> outcomes = of.run(numbers);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const Outcome& outcome = outcomes[k];
+    const bool ran = outcome.failure.empty();
+    const ModeLife mode = first_mode(outcome);
+    const auto at = std::lower_bound(judged.numbers.begin(), judged.numbers.end(), numbers[k]);
+    judged.nudges.insert(judged.nudges.begin() + (at - judged.numbers.begin()),
+                         {of.nudges[numbers[k]].what, ran, ran ? outcome.hours / of.drawn.hours : 0,
+                          outcome.words(), ran ? mode.mode : "", ran ? mode.hours : 0});
+    judged.numbers.insert(at, numbers[k]);
+    if (const Merit merit = merit_of(outcome, as_it_is); merit < judged.worst)
+      judged.worst = merit, judged.worst_outcome = outcome;
+  }
+  judged.whole = judged.numbers.size() == of.nudges.size();
+}
 
 }  // namespace
 
 WithinTolerance within_tolerance(const Finalist& of, const Outcome& as_it_is,
-                                 const std::function<bool(const Merit&)>& enough) {
-  WithinTolerance judged{{}, merit_of(of.drawn, as_it_is), of.drawn, false};
-  for (std::size_t first = 0; first < of.nudges.size() && !enough(judged.worst); first += at_once) {
-    const std::size_t count = std::min(at_once, of.nudges.size() - first);
-    const std::vector<Outcome> outcomes = of.run(first, count);
-    for (std::size_t k = 0; k < count; ++k) {
-      const Outcome& outcome = outcomes[k];
-      const bool ran = outcome.failure.empty();
-      const ModeLife mode = first_mode(outcome);
-      judged.nudges.push_back({of.nudges[first + k].what, ran, ran ? outcome.hours / of.drawn.hours : 0,
-                               outcome.words(), ran ? mode.mode : "", ran ? mode.hours : 0});
-      if (const Merit merit = merit_of(outcome, as_it_is); merit < judged.worst)
-        judged.worst = merit, judged.worst_outcome = outcome;
-    }
+                                 const std::function<bool(const Merit&)>& enough,
+                                 const std::vector<WithinTolerance>& others,
+                                 const ToleranceProgress& progress) {
+  WithinTolerance judged = none_evaluated(of, as_it_is);
+  while (!judged.whole && !enough(judged.worst)) {
+    if (progress) progress({judged.numbers.size(), of.nudges.size(), of.nudges.size()});
+    evaluate(judged, of, next_of(of, judged, others), as_it_is);
   }
-  judged.whole = judged.nudges.size() == of.nudges.size();
   return judged;
 }
 
 std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_first,
-                                              const Outcome& as_it_is) {
+                                              const Outcome& as_it_is, const ToleranceProgress& progress) {
   std::vector<WithinTolerance> all;
-  Merit to_beat;
-  for (const Finalist& finalist : best_first) {
-    const bool one_runs = to_beat.kept != Kept::nothing;
-    if ((all.size() >= usually_judged && one_runs) ||
-        (!all.empty() && merit_of(finalist.drawn, as_it_is) <= to_beat))
-      break;
-    all.push_back(within_tolerance(finalist, as_it_is, [&](const Merit& worst) { return worst < to_beat; }));
-    if (all.back().whole && all.back().worst > to_beat) to_beat = all.back().worst;
+  const auto admit_next = [&] { all.push_back(none_evaluated(best_first[all.size()], as_it_is)); };
+  while (all.size() < std::min(usually_judged, best_first.size())) admit_next();
+  while (true) {
+    const auto runs = [](const WithinTolerance& one) { return one.worst.kept != Kept::nothing; };
+    while (all.size() < best_first.size() && std::none_of(all.begin(), all.end(), runs)) admit_next();
+    const auto leader = std::max_element(
+        all.begin(), all.end(),
+        [](const WithinTolerance& a, const WithinTolerance& b) { return a.worst < b.worst; });
+    if (leader == all.end() || leader->whole) break;
+    const Finalist& of = best_first[static_cast<std::size_t>(leader - all.begin())];
+    ToleranceCount count;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      count.done += all[k].numbers.size();
+      count.most += best_first[k].nudges.size();
+    }
+    count.likely = count.done + of.nudges.size() - leader->numbers.size();
+    if (progress) progress(count);
+    std::vector<WithinTolerance> others = all;
+    others.erase(others.begin() + (leader - all.begin()));
+    evaluate(*leader, of, next_of(of, *leader, others), as_it_is);
   }
+  // Of equals the first leads, so those without a run are the last.
+  while (!all.empty() && all.back().numbers.empty() && !all.back().whole) all.pop_back();
   return all;
 }
 
 std::size_t best_within(const std::vector<WithinTolerance>& judged) {
-  std::size_t best = 0;
-  for (std::size_t k = 1; k < judged.size(); ++k)
-    if (judged[k].whole && judged[k].worst > judged[best].worst) best = k;
-  return best;
+  const auto best = std::max_element(judged.begin(), judged.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.whole, a.worst) < std::pair(b.whole, b.worst);
+  });
+  return static_cast<std::size_t>(best - judged.begin());
 }
 
 std::string tolerance_words(const std::vector<ImprovementStory::Nudge>& nudges,

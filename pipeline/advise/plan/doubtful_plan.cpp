@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 
 #include "pipeline/advise/plan/plan_words.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/life/planning.h"
 
@@ -172,7 +174,19 @@ std::vector<Warning> doubtful_fleet(const Fleet& fleet, Day today) {
 }
 
 std::vector<Warning> doubtful_ages(const Fleet& fleet, const Plan& plan) {
-  if (plan.reach_their_age >= usual_reach) return {};
+  if (plan.reach_their_age >= usual_reach) {
+    // The oldest of many places is older than most new dresspacks become: P(none of so many reaches its age) counts.
+    const auto oldest = std::ranges::min_element(plan.rows, {}, &RowPlan::reach_its_age);
+    const double limit = 1 - std::pow(1 - usual_reach, 1 / double(plan.rows.size()));
+    if (oldest->reach_its_age >= limit) return {};
+    const Installed& row = fleet.rows[static_cast<std::size_t>(oldest - plan.rows.begin())];
+    return {warning_of(WarningKind::motion, row.where.text(),
+                       fmt::format("'{}' has run {}, which by the model {} of new dresspacks reach (limit {}, with which one of {} is so old with a probability of {})",
+                                   row.name, hours_text(oldest->run_hours), percent_text(oldest->reach_its_age), percent_text(limit), plan.rows.size(),
+                                   percent_text(usual_reach)),
+                       "a wrong date or year, a replacement that is not in the table, or a duty or hours per week that are not its own",
+                       "the date on which the dresspack of today was installed")};
+  }
   return {warning_of(WarningKind::motion, fleet.rows.front().where.file,
                      fmt::format("by the model {} of new dresspacks reach the ages of these {} (limit {})", percent_text(plan.reach_their_age),
                                  fleet.rows.size(), percent_text(usual_reach)),

@@ -25,6 +25,11 @@ struct Installed {
   double planned_cost = 0, unplanned_cost = 0;
   std::optional<double> age_hours{};  ///< after other duties (add_histories(), keep_ages()): hours under its own; absent: the hours since then
   std::optional<double> run_hours{};  ///< of operation so far, under any duty; absent: at its hours per week since then
+  struct Change {
+    double day = 0;            ///< [days from today]
+    double hours_per_day = 0;  ///< until then: hours under its duty that wear as much as a day under the one before
+  };
+  std::optional<Change> change{};  ///< its duty begins later than today (keep_ages())
 };
 
 struct Fleet {

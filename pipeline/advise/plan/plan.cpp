@@ -65,11 +65,11 @@ class Worlds {
     if (all > 0) return sum / all;
     return from <= now && to > from ? 1 : 0;  // no world has a life of its age: it fails at once
   }
-  /// (interval) P(failure in it | it lives at `now`), of intervals of so many hours. Each life is spread evenly between the middles to its
+  /// (interval) P(failure in it | it lives at `now`), of intervals that end at these ages. Each life is spread evenly between the middles to its
   /// neighbours: an interval of few lives would otherwise show their chance.
-  std::vector<double> fails_in(const LifeTable& table, double now, double hours, std::size_t intervals) const {
-    std::vector<double> fails(intervals, 0.0);
-    const double last = now + hours * double(intervals);
+  std::vector<double> fails_in(const LifeTable& table, double now, const std::vector<double>& ends) const {
+    std::vector<double> fails(ends.size(), 0.0);
+    const auto interval_of = [&](double age) { return static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), age) - ends.begin()); };
     double all = 0;
     for (std::size_t w = 0; w < weight_.size(); ++w) {
       const float *const begin = table.hours.data() + w * table.draws, *const end = begin + table.draws, *const first = table.first_after(w, now);
@@ -88,12 +88,12 @@ class Worlds {
       };
       const float* life = first == begin ? first : first - 1;
       const double share = weight_[w] / (left(first) + double(end - first - 1) + (life == first ? 0 : left(life)));
-      for (; life != end && std::isfinite(*life) && below(life) < last; ++life) {
+      for (; life != end && std::isfinite(*life) && below(life) < ends.back(); ++life) {
         const double from = below(life), to = above(life), per_hour = to > from ? share / (to - from) : 0;
         double at = std::max(from, now);
-        if (per_hour == 0 && *life > now) fails[std::min(intervals - 1, static_cast<std::size_t>((*life - now) / hours))] += share;
-        for (auto k = static_cast<std::size_t>((at - now) / hours); per_hour > 0 && at < to && k < intervals; ++k) {
-          const double until = std::min(to, now + hours * double(k + 1));
+        if (per_hour == 0 && *life > now) fails[std::min(ends.size() - 1, interval_of(*life))] += share;
+        for (std::size_t k = interval_of(at); per_hour > 0 && at < to && k < ends.size(); ++k) {
+          const double until = std::min(to, ends[k]);
           fails[k] += per_hour * std::max(0.0, until - at);
           at = std::max(at, until);
         }
@@ -110,6 +110,24 @@ class Worlds {
 };
 
 double hours_in_day(const Installed& row, const LifeTable& table) { return row.hours_per_week.value_or(table.hours_per_week) / 7; }
+
+/// Hours of a dresspack under its duty, over the days from today.
+class Pace {
+ public:
+  Pace(const Installed& row, const LifeTable& table)
+      : after_(hours_in_day(row, table)), before_(row.change ? row.change->hours_per_day : after_), change_(row.change ? row.change->day : 0) {}
+  /// Until a day. Days before today have negative hours.
+  double hours(double day) const { return before_ * std::min(day, change_) + after_ * std::max(0.0, day - change_); }
+  /// The day of these hours.
+  double day(double hours) const {
+    const double until_change = before_ * change_;
+    return hours < until_change ? hours / before_ : change_ + (hours - until_change) / after_;
+  }
+
+ private:
+  double after_, before_;  ///< [hours per day]
+  double change_;          ///< [days from today]
+};
 
 double run_of(const Installed& row, const LifeTable& table, Day today) {
   return row.run_hours.value_or(days_between(row.since, today) * hours_in_day(row, table));
@@ -248,9 +266,9 @@ struct Outcome {
 
 class Simulation {
  public:
-  Simulation(const Fleet& fleet, const std::vector<const LifeTable*>& tables, const std::vector<double>& hours_per_day,
+  Simulation(const Fleet& fleet, const std::vector<const LifeTable*>& tables, const std::vector<Pace>& paces,
              const std::vector<RowPlan>& rows, const std::vector<double>& times, const Worlds& worlds)
-      : fleet_(fleet), tables_(tables), hours_per_day_(hours_per_day), rows_(rows), times_(times) {
+      : fleet_(fleet), tables_(tables), paces_(paces), rows_(rows), times_(times) {
     double sum = 0;
     for (const double weight : worlds.weights()) until_.push_back(sum += weight);
     years_ = static_cast<std::size_t>(std::ceil(times.back() / days_per_year));
@@ -275,29 +293,31 @@ class Simulation {
 
   void dresspack(std::size_t i, std::size_t world, RandomNumbers& random, Decision* decision, Outcome& outcome) const {
     const LifeTable& table = *tables_[i];
-    const double rate = hours_per_day_[i];
-    double begun = -rows_[i].age_hours / rate;  // [days from today]
-    double fails = begun + draw(table, world, rows_[i].age_hours, random) / rate;
+    const Pace& pace = paces_[i];
+    // All times are hours under its duty from today.
+    double begun = -rows_[i].age_hours, fails = begun + draw(table, world, rows_[i].age_hours, random);
     std::size_t window = 0;
     bool is_first = true;
-    const auto put_in = [&](double day, bool planned) {
+    const auto put_in = [&](double at, bool planned) {
+      const double day = pace.day(at);
       ++(planned ? outcome.planned : outcome.unplanned)[std::min(years_ - 1, static_cast<std::size_t>(day / days_per_year))];
       if (!planned && !is_first) ++outcome.failures[std::min(weeks_ - 1, static_cast<std::size_t>(day / 7))];
       outcome.cost += planned ? fleet_.rows[i].planned_cost : fleet_.rows[i].unplanned_cost;
-      begun = day, is_first = false;
-      fails = begun + std::max(shortest_life, draw(table, world, 0, random)) / rate;
+      begun = at, is_first = false;
+      fails = begun + std::max(shortest_life, draw(table, world, 0, random));
     };
+    const double end = pace.hours(times_.back());
     while (true) {
-      const bool at_window = decision && window + 1 < times_.size() && times_[window] < fails;
-      const double next = at_window ? times_[window] : fails;
-      if (!(next < times_.back())) return;
+      const double opens = pace.hours(times_[window]);
+      const bool at_window = decision && window + 1 < times_.size() && opens < fails;
+      const double next = at_window ? opens : fails;
+      if (!(next < end)) return;
       if (!at_window) {
         put_in(next, false);
         continue;
       }
-      const double hours = (times_[window + 1] - times_[window]) * rate;
-      const bool replaces =
-          is_first ? rows_[i].window == window : decision->replace_new(fleet_.rows[i], table, (next - begun) * rate, hours);
+      const double hours = pace.hours(times_[window + 1]) - opens;
+      const bool replaces = is_first ? rows_[i].window == window : decision->replace_new(fleet_.rows[i], table, next - begun, hours);
       if (replaces) put_in(next, true);
       ++window;
     }
@@ -305,7 +325,7 @@ class Simulation {
 
   const Fleet& fleet_;
   const std::vector<const LifeTable*>& tables_;
-  const std::vector<double>& hours_per_day_;
+  const std::vector<Pace>& paces_;
   const std::vector<RowPlan>& rows_;
   const std::vector<double>& times_;
   std::vector<double> until_;
@@ -377,7 +397,7 @@ std::vector<double> times_of(const std::vector<Window>& windows, Day today) {
   return times;
 }
 
-void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today) {
+void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today, Day from) {
   for (Installed& row : changed.rows) {
     const auto old = std::find_if(now.rows.begin(), now.rows.end(), [&](const Installed& one) { return one.name == row.name; });
     if (old == now.rows.end() || old->since != row.since) continue;
@@ -385,6 +405,11 @@ void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, Lif
     const double age = age_of(*old, before, today);
     row.age_hours = old->duty == row.duty ? age : age_under(after, age, before);
     row.run_hours = run_of(*old, before, today);
+    if (from <= today) continue;
+    if (std::isinf(after.median()) && old->duty != row.duty)
+      throw InputError(row.where, fmt::format("half of the dresspacks under duty '{}' never fail, so its hours count nothing of what wears before {}", row.duty, day_text(from)),
+                       "leave out --what-if-from");
+    row.change = {{double(days_between(today, from)), age_under(after, hours_in_day(*old, before), before)}};
   }
 }
 
@@ -445,20 +470,24 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   plan.effective_worlds = worlds.effective();
   plan.all_alive = worlds.all_alive();
   std::vector<const LifeTable*> of_row;
-  std::vector<double> hours_per_day;
+  std::vector<Pace> paces;
+  double most_hours = 0;  // within the plan
   for (const Installed& row : fleet.rows) {
     of_row.push_back(&tables.at(row.duty));
-    hours_per_day.push_back(hours_in_day(row, *of_row.back()));
+    most_hours = std::max(most_hours, paces.emplace_back(row, *of_row.back()).hours(times.back()));
     plan.rows.emplace_back().age_hours = age_of(row, *of_row.back(), today);
     plan.rows.back().run_hours = run_of(row, *of_row.back(), today);
-    plan.reach_their_age += worlds.reaches(*of_row.back(), plan.rows.back().age_hours) / double(fleet.rows.size());
+    plan.rows.back().reach_its_age = worlds.reaches(*of_row.back(), plan.rows.back().age_hours);
+    plan.reach_their_age += plan.rows.back().reach_its_age / double(fleet.rows.size());
   }
-  Decision decision(worlds, rule, times.back() * *std::max_element(hours_per_day.begin(), hours_per_day.end()));
+  Decision decision(worlds, rule, most_hours);
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
     RowPlan& row = plan.rows[i];
     const LifeTable& table = *of_row[i];
-    const auto age_at = [&](double day) { return row.age_hours + day * hours_per_day[i]; };
-    row.fails_in_week = worlds.fails_in(table, row.age_hours, 7 * hours_per_day[i], weeks_until(times.back()));
+    const auto age_at = [&](double day) { return row.age_hours + paces[i].hours(day); };
+    std::vector<double> weeks;
+    for (std::size_t week = 1; week <= weeks_until(times.back()); ++week) weeks.push_back(age_at(7.0 * double(week)));
+    row.fails_in_week = worlds.fails_in(table, row.age_hours, weeks);
     row.fails_before_first = worlds.fails(table, row.age_hours, row.age_hours, age_at(times.front()));
     double failed = row.fails_before_first;
     const LaterLife life = decision.later_life(fleet.rows[i], table, row.age_hours);
@@ -479,7 +508,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
       plan.failures_in_week[week] += std::clamp(until, 0.0, 1.0) * row.fails_in_week[week];
       plan.failures_in_week_without_windows[week] += row.fails_in_week[week];
     }
-  const Simulation simulation(fleet, of_row, hours_per_day, plan.rows, times, worlds);
+  const Simulation simulation(fleet, of_row, paces, plan.rows, times, worlds);
   std::vector<std::vector<double>> replaced;  // (year, plant)
   for (std::size_t p = 0; p < plants; ++p) {
     RandomNumbers random(mixed(seed + p)), same(mixed(seed + p));  // costs are compared plant by plant

@@ -73,6 +73,7 @@ struct RowPlan {
   std::vector<double> fails_until_next;  ///< (window) from it to the next one, if the dresspack lives then
   std::optional<std::size_t> window;     ///< in which it is replaced; absent: in none of them
   double fails_before = 0;               ///< before that window, or within the plan
+  double reach_its_age = 0;              ///< P(a new dresspack reaches the age of this one)
 };
 
 /// Replacements in one year from today: mean, and 5 and 95 % of simulated plants.
@@ -92,7 +93,7 @@ struct Plan {
   std::vector<double> weights;                ///< (world) (D3), their sum is 1
   double effective_worlds = 0;                ///< (sum of weights)^2 / sum of their squares
   double all_alive = 1;        ///< P(all have survived) before the weights of (D3); 1: they are not of this fleet
-  double reach_their_age = 0;  ///< P(a new dresspack reaches the age of one of these), mean
+  double reach_their_age = 0;  ///< mean of RowPlan::reach_its_age
 };
 
 /// Fewer are no sample: percentiles would rest on chance.
@@ -113,7 +114,9 @@ std::vector<double> times_of(const std::vector<Window>& windows, Day today);
 
 /// The dresspacks of a plant under other duties: one that is in `now`, too, under another duty or for other hours, keeps its damage. Its age
 /// are the hours under the new duty that wear it as much, by the median lives of both. A date of its own makes it a new dresspack.
-void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today);
+/// from: day on which the other duties and hours begin. The days until then count in the same way. Dresspacks of one table only come or go today.
+/// Errors: InputError where a duty that begins later than today ends no dresspack: its hours count nothing of what wears before.
+void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today, Day from);
 
 /// The ages of dresspacks whose duty has a history: hours under their duty of today that wear them as much, by the median lives of both.
 /// A history by dates counts from the day on which a dresspack was installed. One in hours has the first hours of each; a warning

@@ -20,6 +20,11 @@ namespace {
 
 constexpr std::size_t width = 118;
 
+/// "1 dresspack", "2.5 spare dresspacks".
+std::string dresspacks_text(const std::string& number, const char* kind = "") {
+  return fmt::format("{} {}dresspack{}", number, kind, number == "1" ? "" : "s");
+}
+
 /// Text of an iCalendar property in lines of at most 75 bytes.
 std::string folded(std::string line) {
   std::string text;
@@ -140,10 +145,10 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
   for (std::size_t y = 0; y < plan.years.size(); ++y) {
     const YearOfPlan& year = plan.years[y];
     text += fmt::format(
-        "Year {} from today{}: {} spare dresspacks ({:g} .. {:g} in 90 of 100 plants): {} planned, {} after failures, "
+        "Year {} from today{}: {} ({:g} .. {:g} in 90 of 100 plants): {} planned, {} after failures, "
         "also of their replacements.\n",
         y + 1, plan.end < plan.today + std::chrono::days(365 * static_cast<int>(y + 1)) ? ", until " + day_text(plan.end) + " only" : "",
-        readable(year.planned + year.unplanned, 2), std::floor(year.low), std::ceil(year.high),
+        dresspacks_text(readable(year.planned + year.unplanned, 2), "spare "), std::floor(year.low), std::ceil(year.high),
         readable(year.planned, 2), readable(year.unplanned, 2));
   }
   if (fleet.has_costs)
@@ -197,7 +202,7 @@ std::string check_words(const std::optional<std::vector<CheckValue>>& checks, co
     text += fmt::format("  {:>9}  {}\n", readable((*checks)[best[k]].today), fleet.rows[best[k]].name);
   if (best.size() > most) text += fmt::format("  {:>9}  more dresspacks in the table\n", best.size() - most);
   if (!(fails > 0)) return text;
-  text += fmt::format("Without checks abrasion wears through {} dresspacks until {}.\n", readable(fails, 2),
+  text += fmt::format("Without checks abrasion wears through {} until {}.\n", dresspacks_text(readable(fails, 2)),
                       day_text(plan.end));
   if (inspection.interval_weeks > 0)
     text += fmt::format("Checks every {:g} weeks find {} of these before and save {}.\n",
@@ -275,9 +280,8 @@ std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const F
   return rows;
 }
 
-std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
-  const auto name = [](const Fleet& of) { return std::filesystem::path(of.rows.front().where.file).stem().string(); };
-  std::string text = fmt::format("What if {} were the fleet\n{:<34}  {:>20}  {:>20}  {:>12}\n", name(changed), "", "today's fleet", "what if", "difference");
+std::string what_if_words(const std::string& name, const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
+  std::string text = fmt::format("What if {} were the fleet\n{:<34}  {:>20}  {:>20}  {:>12}\n", name, "", "today's fleet", "what if", "difference");
   for (const BesideRow& row : beside_rows(fleet, plan, changed, other))
     text += fmt::format("{:<34}  {:>20}  {:>20}  {:>12}\n", row.what, row.now, row.then, row.more);
   const auto when = [](const Plan& of, std::size_t i) {

@@ -49,8 +49,8 @@ struct BesideRow {
 };
 /// A plan beside the one of today's fleet: failures, windows, spare dresspacks, cost.
 std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
-/// The same as text, and the dresspacks with another window.
-std::string what_if_words(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
+/// The same as text, and the dresspacks with another window. name: of the changed fleet.
+std::string what_if_words(const std::string& name, const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
 
 /// One row per dresspack and one column per week from today: P(failure in it) of today's dresspack, if it is not replaced.
 std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan);

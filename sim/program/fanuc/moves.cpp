@@ -314,9 +314,10 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
     complain("has no speed above 0", "write one");
     return false;
   }
-  if (written.take_sign('%'))
+  if (written.take_sign('%')) {
+    if (*speed > 100) note(fmt::format("{:g}%: {}", *speed, above_all_speed), true);
     move.speed.axis_percent = std::min(*speed, 100.0) * *share;
-  else if (written.take("mm/sec"))
+  } else if (written.take("mm/sec"))
     move.speed.tool = *speed * millimetre * *share;
   else if (written.take("cm/min"))
     move.speed.tool = *speed * 0.01 / 60 * *share;

@@ -106,6 +106,9 @@ struct Skipped {
   bool may_move = false;  ///< whether it may move the robot or change its motion
 };
 
+/// Begin of the reason of such a line: a percentage that counts as 100.
+inline constexpr const char* above_all_speed = "more than 100 % (limit 100, which counts)";
+
 struct Program {
   std::string name;
   std::vector<Instruction> instructions;

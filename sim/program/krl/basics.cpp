@@ -439,6 +439,9 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
   const auto set_speed = [&](const Value& speed) {
     run.assign(field_at("$vel", "cp", place), path_speed(speed, run));
   };
+  if (number.is_number() && number.number > 100 &&
+      (what == "#vel_ptp" || what == "#acc_ptp" || what == "#acc_cp" || what == "#acc_glue" || what == "#ptp_params"))
+    run.note(place, fmt::format("BAS({}, {:g}): {}", what, number.number, above_all_speed), true);
   if (what == "#initmov") {
     initialise(place, run);
   } else if (what == "#vel_ptp") {

@@ -74,19 +74,19 @@ TEST_CASE("report: which joint and which clamp cost the life, and the hose besid
   CHECK(page.find("-10.0 %: moves against the others, relieves") != std::string::npos);
   CHECK(page.find("<td>joint_5 80 %, carrying 30 %</td>") != std::string::npos);
   CHECK(page.find(" By the nearest clamp: base clamp 25 %; tool clamp 75 %.") != std::string::npos);
-  CHECK(page.find("<td>hose&#39;s wall*</td><td class=\"number\">-</td><td class=\"number\">3,400</td>") != std::string::npos);
+  CHECK(page.find("<td>hose&#39;s wall†</td><td class=\"number\">-</td><td class=\"number\">3,400</td>") != std::string::npos);
   CHECK(page.find("<td>weld spot") != std::string::npos);
   CHECK(page.find("The strain of this wire follows joint_5 most. That is a correlation, no cause.") != std::string::npos);
   const std::string table = std::regex_replace(ranking_table(rows), std::regex("\n +"), " ");
   CHECK(table.find("The strain of this wire follows joint_5 most. That is a correlation, no cause.") != std::string::npos);
-  CHECK_THAT(table, Catch::Contains("hose's wall*") && Catch::Contains(" 3,400 "));
+  CHECK_THAT(table, Catch::Contains("hose's wall†") && Catch::Contains(" 3,400 "));
   CHECK(ranking_csv(rows).find(",joint_5,0.8,,,,,") != std::string::npos);
   life.causes = false;
   life.hose_hours = 0;
   write_sample_life(scratch / "old.h5", life);
   const std::string old = report_page("old", read_ranking({{"old", scratch / "old.h5", ""}}));
   CHECK(old.find("What moved") == std::string::npos);
-  CHECK(old.find("wall*") == std::string::npos);
+  CHECK(old.find("wall†") == std::string::npos);
 }
 
 TEST_CASE("report: a wall's life that is not credible has no number, and the legend of * names the modes that may come first") {
@@ -106,7 +106,7 @@ TEST_CASE("report: a wall's life that is not credible has no number, and the leg
   CHECK(table.find("157") == std::string::npos);
   CHECK(csv.find(",157.25,") == std::string::npos);
   for (const std::string& text : {page, table})
-    CHECK(text.find("wall*") != std::string::npos);
+    CHECK(text.find("wall†") != std::string::npos);
   CHECK(page.find("Not predicted: the only known law") != std::string::npos);
   CHECK(page.find("confirms their laws: jacket wear, hose") != std::string::npos);
   CHECK(page.find("* marks jobs in which one of them may come first: jacket wear in 1 job.") != std::string::npos);

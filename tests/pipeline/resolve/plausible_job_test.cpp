@@ -195,8 +195,9 @@ TEST_CASE("plausible jobs: a mounting pose in rounded radians, segments longer t
   CHECK(words_of({0, -10, 10, 0, 60, 0}, 64) == "");
   CHECK(words_of({0, -5, 5, 0, 2, 0}, 64) == "");       // whole degrees
   CHECK(words_of({0, -9.74, 9.74, 0, 60.16, 0}, 64) == "");
-  CHECK(words_of({}, 8) == "");                          // 0.25 m
-  CHECK_THAT(words_of({}, 4), Catch::Contains("simulation.segments is 4: a segment is 0.5 m long (limit 0.26 m") &&
+  CHECK(words_of({}, 16) == "");                         // 0.125 m
+  CHECK_THAT(words_of({}, 8), Catch::Contains("a segment is 0.25 m long"));
+  CHECK_THAT(words_of({}, 4), Catch::Contains("simulation.segments is 4: a segment is 0.5 m long (limit 0.13 m") &&
                                   Catch::Contains("Remedy: simulation.segments: 64"));
 }
 

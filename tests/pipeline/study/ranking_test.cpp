@@ -300,7 +300,7 @@ TEST_CASE("ranking: the hose's wall has columns and a line of its own and does n
   CHECK(std::stod(table[1][22]) == rows[0].unvalidated[0].position_from_tool);
   CHECK(table[2][20] == "inf");
   const std::string text = ranking_table(rows);
-  CHECK_THAT(text, Catch::Contains("hose's wall*") && Catch::Contains(" 2.50 ") && Catch::Contains(" no damage "));
+  CHECK_THAT(text, Catch::Contains("hose's wall†") && Catch::Contains(" 2.50 ") && Catch::Contains(" no damage "));
 }
 
 /// In a job of wires without damage on a robot that lasts 40,000 h.
@@ -375,13 +375,13 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   const std::vector<ModeLine> lines = mode_lines(rows[0]);
   REQUIRE(lines.size() == 2);
   CHECK(lines[0].hours[0] == "over 40,000");
-  CHECK(lines[1].mode == "abrasion* on link_4");
+  CHECK(lines[1].mode == "abrasion† on link_4");
   CHECK(lines[1].hours == std::array<std::string, 3>{"300", "2,400", "over 40,000"});
   CHECK(lines[1].before_wires == "43 %");
   CHECK(lines[1].with_it == "280");
   CHECK(lines[1].from_tool + " " + lines[1].time + " " + lines[1].step == "0.13 2.5 weld spot");
   CHECK_THAT(ranking_table({rows[0]}), Catch::Contains("abrasion: A check finds it.") && !Catch::Contains("Plan with this number"));
-  CHECK(mode_lines(rows[1])[1].mode == "abrasion*: nothing rubs");
+  CHECK(mode_lines(rows[1])[1].mode == "abrasion†: nothing rubs");
   const auto table = read_csv(ranking_csv(rows));
   const auto column = [&](const std::string& name) {
     return static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), name) - table[0].begin());
@@ -421,9 +421,9 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
                                                       "25,000 h. The wires last longer"));
   CHECK(unvalidated_note(listed) ==
         "* Plan with this number, and inspect for modes that are not validated. jacket wear: from 300 h, abrasion: from 25,000 h.");
-  CHECK(line_of(worn).mode == "jacket wear* of signal cable 3");
+  CHECK(line_of(worn).mode == "jacket wear† of signal cable 3");
   CHECK(line_of(worn).hours[0] == "300");
-  CHECK(line_of(still).mode == "jacket wear*: nothing rubs");
+  CHECK(line_of(still).mode == "jacket wear†: nothing rubs");
   const auto table = read_csv(ranking_csv(rows));
   const auto cell = [&](const std::string& name) {
     return table[1].at(static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), name) - table[0].begin()));
@@ -444,7 +444,7 @@ TEST_CASE("ranking: a corkscrew has words and columns, also if none occurs") {
   const auto rows = read_ranking({job_with(scratch, "coiled", life)});
   CHECK_THAT(action_words(rows[0]), Catch::Contains("Twist may wind signal cable 2 into a corkscrew in the hose, 0.40 m from the tool, "
                                                     "after 300 .. 1,200 h (not validated): inspect it there."));
-  CHECK(line_of(coil).mode == "corkscrew* of signal cable 2");
+  CHECK(line_of(coil).mode == "corkscrew† of signal cable 2");
   CHECK(line_of(coil).hours == std::array<std::string, 3>{"300", "600", "1,200"});
   CHECK(line_of(coil).note == "A repeat leaves 10 degrees of twist.");
   const auto table = read_csv(ranking_csv(rows));
@@ -452,7 +452,7 @@ TEST_CASE("ranking: a corkscrew has words and columns, also if none occurs") {
   REQUIRE(column != table[0].end());
   CHECK(table[1].at(static_cast<std::size_t>(column - table[0].begin())) == "300");
   coil.hours.fill(infinity), coil.note = "Forces and twist 10 times as large would wind it.";
-  CHECK(line_of(coil).mode == "corkscrew*, nearest: signal cable 2");
+  CHECK(line_of(coil).mode == "corkscrew†, nearest: signal cable 2");
   CHECK(line_of(coil).hours == std::array<std::string, 3>{"none", "none", "none"});
 }
 
@@ -466,17 +466,15 @@ TEST_CASE("ranking: a kink has words and columns, also if none occurs") {
   life.planned_hours = 1e5, life.robot_life_hours = 40000, life.unvalidated = unvalidated_text({kink});
   const auto rows = read_ranking({job_with(scratch, "kinked", life)});
   CHECK_THAT(action_words(rows[0]), Catch::Contains("air hose may kink in the hose, 0.40 m from the tool. Its tightest bend has"));
-  CHECK(line_of(kink).mode == "kink* of air hose");
+  CHECK(line_of(kink).mode == "kink† of air hose");
   CHECK(line_of(kink).hours == std::array<std::string, 3>{"0.0100", "0.0100", "none"});
-  CHECK(line_of(kink).note == "The tightest bend has 0.88 times the radius of a kink. " + kink.note);
+  CHECK(line_of(kink).note == kink.note);
   const auto table = read_csv(ranking_csv(rows));
   const auto column = std::find(table[0].begin(), table[0].end(), "kink_margin");
   REQUIRE(column != table[0].end());
   CHECK(table[1].at(static_cast<std::size_t>(column - table[0].begin())) == "0.88");
-  kink.first_share = 0, kink.margin = 8;
-  CHECK_THAT(line_of(kink).note, Catch::StartsWith("The tightest bend has 8.0 times the radius"));
   kink.margin = infinity, kink.note.clear();
-  CHECK(line_of(kink).mode == "kink*: nothing bends");
+  CHECK(line_of(kink).mode == "kink†: nothing bends");
   CHECK(line_of(kink).note.empty());
 }
 
@@ -493,7 +491,7 @@ TEST_CASE("ranking: ratings have words and columns, and the first action names a
   CHECK(action_words(rows[0]) ==
         "The maker's rating of power cable covers only 5,000 .. 16,000 h (10 .. 90 %, not validated): test or replace it by then. The "
         "wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
-  CHECK(mode_lines(rows[0])[1].mode == "maker's rating* of power cable");
+  CHECK(mode_lines(rows[0])[1].mode == "maker's rating† of power cable");
   CHECK(mode_lines(rows[0])[1].note == "A lower bound of its life. 20 % of that is twist.");
   const auto table = read_csv(ranking_csv(rows));
   const auto cell = [&](const std::string& name) {
@@ -820,13 +818,27 @@ TEST_CASE("ranking: the joint that a strain follows is no cause, and the words n
   for (const double share : {0.413, 1.29}) {
     row.worst_joint_share = share;
     CHECK(joint_words(row) ==
-          "The strain of this wire follows joint_4 most. That is a correlation, no cause. Try what an axis costs: dresslife run JOB "
+          "The strain of this wire follows joint_4 most. That is a correlation, no cause. Try what an axis costs. The tool then leaves its path: compare that life with this job's only. dresslife run JOB "
           "-o held --set motion.hold_joint=joint_4");
   }
   row.worst_joint = "carrying";
   CHECK(joint_words(row) ==
         "The damage follows the swing of the hose more than the position of any axis. That is a correlation, no cause. Try what an "
-        "axis costs: dresslife run JOB -o held --set motion.hold_joint=AXIS");
+        "axis costs. The tool then leaves its path: compare that life with this job's only. dresslife run JOB -o held --set motion.hold_joint=AXIS");
+  CHECK(held_words(row).empty());
+  row.held_joint = "joint_4";
+  CHECK(joint_words(row).empty());
+  CHECK_THAT(held_words(row), Catch::StartsWith("joint_4 is held") && Catch::Contains("not with other jobs"));
+}
+
+TEST_CASE("ranking: the legend explains none and - where a line has them") {
+  ModeLine line;
+  line.hours = {"300", "over 40,000", "over 40,000"};
+  CHECK(cell_legend({line}).empty());
+  line.hours[2] = "none";
+  CHECK(cell_legend({line}) == " none: it does not occur.");
+  line.hours[0] = "-";
+  CHECK(cell_legend({line}) == " none: it does not occur. -: not predicted.");
 }
 
 }  // namespace

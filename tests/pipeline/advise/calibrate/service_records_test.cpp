@@ -211,3 +211,13 @@ TEST_CASE("service records: a dresspack of several programs has their shares of 
                                     {name + " 70 % + " + name + " 0 %", "is no job with its share"}})
     CHECK_THAT(refusal(titles + cell + "\n", "2024-01-01"), Contains(words));
 }
+
+TEST_CASE("service records: hours of a day in the column of a week are doubted, hours of a week are not") {
+  const auto words_with = [](const std::string& hours) {
+    return read("robot,installed,replaced,reason,hours_per_week\nR1,2024-01-01,2024-12-30,failed," + hours + "\nR2,2024-02-01,,," + hours + "\n").words;
+  };
+  for (const char* hours : {"8", "16", "24"})
+    CHECK_THAT(words_with(hours), Contains("plant.csv:3:1: warning: hours_per_week of 'R2' is " + std::string(hours) + " (limit more than 24)") &&
+                                      Contains(fmt::format("hours_per_week: {} if that was per working day", 5 * std::stoi(hours))));
+  for (const char* hours : {"40", "120", "168"}) CHECK_THAT(words_with(hours), !Contains("hours_per_week of"));
+}

@@ -131,7 +131,7 @@ TEST_CASE("the worst of several jobs has the least life and the most of each lim
   CHECK(worst.hours == 100);
   CHECK(worst.violation() == 0.25);
   CHECK_FALSE(worst.feasible());
-  CHECK(worst.words() == "bend radius passed by 0.25 (467 mm, at least 600 mm)");
+  CHECK(worst.words() == "bend radius passed by 22 % (467 mm, at least 600 mm)");
   CHECK(worst.robot_life == 40000);
   CHECK(mode_words(worst) == "abrasion from 70.0 h, jacket wear from 500 h");
   CHECK(good.feasible());
@@ -167,7 +167,7 @@ TEST_CASE("pieces of the bend radius join those that are there, and other limits
 TEST_CASE("of a screened candidate the violated limits are named, each with its own share") {
   ScreenedList list;
   list.limits = {"too short", "bracket", "twisted too far"};
-  CHECK(list.words({"", "", true, {0.25, -1, 0.5}}) == "too short by 0.25, twisted too far by 0.50");
+  CHECK(list.words({"", "", true, {0.25, -1, 0.5}}) == "too short by 25 % of the length, twisted too far by 50 %");
   CHECK(list.words({"", "", false, {-0.25, 0, -0.5}}) == "");
   CHECK(ScreenedCandidate{"", "", true, {0.25, -1, 0.5}}.violation() == 0.75);
 }
@@ -238,15 +238,15 @@ TEST_CASE(
   row.unvalidated.pop_back();
   asked.jacket = 1200;
   CHECK(outcome_of(row, folder, asked).violation() == Approx(std::log(3.0)));
-  CHECK(outcome_of(row, folder, asked).words() == "jacket wear passed by 1.1 (400 h, at least 1,200 h)");
+  CHECK(outcome_of(row, folder, asked).words() == "jacket wear passed by 67 % (400 h, at least 1,200 h)");
   row.unvalidated.pop_back(), asked.jacket.reset();
   row.unvalidated.push_back(mode(UnvalidatedMode::corkscrew, 100, 200));
   asked.corkscrew = 200;
-  CHECK(outcome_of(row, folder, asked).words() == "corkscrew passed by 0.69 (100 h, at least 200 h)");
+  CHECK(outcome_of(row, folder, asked).words() == "corkscrew passed by 50 % (100 h, at least 200 h)");
   row.unvalidated.pop_back(), asked.corkscrew.reset();
   row.unvalidated.push_back(mode(UnvalidatedMode::kink, endless, endless));
   row.unvalidated.back().margin = 1.5, asked.kink = 3;
-  CHECK(outcome_of(row, folder, asked).words() == "kink passed by 0.69 (1.50 times, at least 3.00 times)");
+  CHECK(outcome_of(row, folder, asked).words() == "kink passed by 50 % (1.50 times, at least 3.00 times)");
   row.unvalidated.back().margin = endless;  // nothing bends
   CHECK(outcome_of(row, folder, asked).violation() == 0);
   row.unvalidated.pop_back(), asked.kink.reset();

@@ -108,6 +108,7 @@ TEST_CASE(
     outcome.hours = worst;
     searched.finals.of[k].tolerance =
         WithinTolerance{{{"length, + 10 mm", true, worst / searched.found.trials[k].worst.hours, "", "", 0}},
+                        {0},
                         merit_of(outcome, searched.found.trials.front().worst),
                         outcome,
                         true};
@@ -125,9 +126,11 @@ TEST_CASE(
   CHECK_THAT(searched.words(tolerance_of(10, 10)),
              Catch::Contains("Keep the job as it is") && !Catch::Contains("--set"));
   judge(0, 300);
-  CHECK_THAT(searched.words(tolerance_of(10, 10)),
-             Catch::Contains("\nTrial 2 of 3") && Catch::Contains("--set") &&
-                 Catch::Contains("As it is, within the same tolerance: 300 h, all limits kept in the worst case found\n"));
+  CHECK_THAT(
+      searched.words(tolerance_of(10, 10)),
+      Catch::Contains("\nTrial 2 of 3") && Catch::Contains("--set") &&
+          Catch::Contains(
+              "As it is, within the same tolerance: 300 h, all limits kept in the worst case found\n"));
 }
 
 }  // namespace

@@ -277,6 +277,16 @@ TEST_CASE("survivors that the model hardly expects are named, and an age that no
   CHECK(past.reach_their_age == 0);
   CHECK(doubtful_ages(fleet_of({300}), past).size() == 1);
   CHECK(doubtful_ages(eight, plan).empty());
+  // One of 400 that is as old as one in 4,500 becomes, and as one in 150 becomes.
+  const auto old_one = [&](int weeks) {
+    std::vector<int> ages = many(400, 1);
+    ages[7] = weeks;
+    const Fleet fleet = fleet_of(ages);
+    return doubtful_ages(fleet, plan_of(fleet, {{"d", weibull(1, {mean})}}, windows_in({10}), start, counted));
+  };
+  REQUIRE(old_one(120).size() == 1);
+  CHECK(old_one(120)[0].line().find("'r7' has run 8,400 h") != std::string::npos);
+  CHECK(old_one(72).empty());
   CHECK(past.rows[0].fails_before_first == 1);
   CHECK(past.rows[0].fails_in_week[0] == 1);
   CHECK(past.failures_in_week[0] == Approx(1).margin(0.1));  // and some of the new ones
@@ -326,7 +336,7 @@ TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and th
   Fleet changed = fleet;
   changed.rows[1].duty = "hard";
   changed.rows.push_back({{}, "one more", "hard", start, {}, 0, 0});
-  keep_ages(changed, fleet, tables, start);
+  keep_ages(changed, fleet, tables, start, start);
   const PlanRule rule{0.1, false};
   const Plan plan = plan_of(fleet, tables, windows_in({4, 14}), start, rule);
   PlanRule same = rule;
@@ -341,8 +351,8 @@ TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and th
   const Plan later = plan_of(fleet, tables, windows_in({8, 28}), start, rule);
   CHECK(other.rows[1].fails_before_first == Approx(later.rows[1].fails_before_first).margin(4e-4));  // 20,000 draws
   CHECK(other.weights == plan.weights);
-  const std::string words = what_if_words(fleet, plan, changed, other);
-  CHECK(words.starts_with("What if "));
+  const std::string words = what_if_words("other", fleet, plan, changed, other);
+  CHECK(words.starts_with("What if other were the fleet\n"));
   CHECK(words.find("dresspacks                                             3                     4           + 1\n") != std::string::npos);
   const std::vector<BesideRow> beside = beside_rows(fleet, plan, changed, other);
   const auto failures = [](const Plan& of) {
@@ -355,8 +365,34 @@ TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and th
   CHECK(words.find("one more: ") != std::string::npos);
   // The same fleet once more changes nothing.
   Fleet unchanged = fleet;
-  keep_ages(unchanged, fleet, tables, start);
-  CHECK(what_if_words(fleet, plan, unchanged, plan_of(unchanged, tables, windows_in({4, 14}), start, same)).find("(now): none") != std::string::npos);
+  keep_ages(unchanged, fleet, tables, start, start);
+  CHECK(what_if_words("other", fleet, plan, unchanged, plan_of(unchanged, tables, windows_in({4, 14}), start, same)).find("(now): none") != std::string::npos);
+}
+
+TEST_CASE("what if from a later day: until then a dresspack wears as before, then as under its new duty") {
+  constexpr double shape = 2.5, scale = 4000, hard_scale = 1000;
+  std::map<std::string, LifeTable> tables{{"d", weibull(shape, {scale})}, {"hard", weibull(shape, {hard_scale})}};
+  tables.at("hard").hours_per_week = 2 * week;
+  const Fleet fleet = fleet_of({20, 20});
+  Fleet changed = fleet;
+  changed.rows[1].duty = "hard";
+  keep_ages(changed, fleet, tables, start, start + std::chrono::days(7 * 6));
+  const Plan plan = plan_of(changed, tables, windows_in({4, 14}), start, {0.99, false});
+  // The law itself, in hours of the old duty. A week of the new one wears as eight of the old.
+  const auto alive = [&](double weeks) { return std::exp(-std::pow((20 + std::min(weeks, 6.0) + 8 * std::max(0.0, weeks - 6)) * week / scale, shape)); };
+  const double draws = 2e-4;  // of 20,000 lives, some on an edge
+  CHECK(plan.rows[1].fails_before_first == Approx(1 - alive(4) / alive(0)).margin(draws));
+  CHECK(plan.rows[1].fails_until_next[0] == Approx(1 - alive(14) / alive(4)).margin(draws));
+  CHECK(plan.rows[1].fails_before_first == Approx(plan.rows[0].fails_before_first).margin(draws));
+  for (const std::size_t of : {0, 5, 6, 12})
+    CHECK(plan.rows[1].fails_in_week[of] == Approx((alive(double(of)) - alive(double(of) + 1)) / alive(0)).margin(draws));
+  // Simulated plants: the failures of 24 weeks, of which the later dresspacks have but a few. 4 deviations of 1,000 plants.
+  double unplanned = 0;
+  for (const YearOfPlan& year : plan.years) unplanned += year.unplanned;
+  CHECK(std::accumulate(plan.failures_in_week.begin(), plan.failures_in_week.end(), 0.0) == Approx(unplanned).margin(4 * std::sqrt(unplanned / 1000)));
+  tables.emplace("never", weibull(shape, {INFINITY}));
+  changed.rows[1].duty = "never";
+  CHECK_THROWS_WITH(keep_ages(changed, fleet, tables, start, start + std::chrono::days(1)), Catch::Contains("leave out --what-if-from"));
 }
 
 TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it is named at its cell") {

@@ -1,0 +1,18 @@
+// Observed lives beside predicted ones, as complete SVG files: a row for each on a common axis.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/advise/calibrate/learning.h"
+#include "pipeline/advise/calibrate/observations.h"
+
+namespace dresslife::pipeline {
+
+/// Each observation beside its predictions.
+std::string validation_picture(const ValidationStudy& validation, const std::vector<RankingRow>& rows);
+
+/// Each parameter before and after a calibration, and each row's observed life with its predictions before and after.
+std::string calibration_picture(const Learned& learned);
+
+}  // namespace dresslife::pipeline
