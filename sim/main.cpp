@@ -34,7 +34,7 @@ struct Request {
 
 /// What is asked for without a run. Returns false when it is the run that is asked for.
 bool written_without_run(const Request& request, const pipeline::StageCall& call, pipeline::Job& job,
-                  pipeline::Progress& progress) {
+                         pipeline::Progress& progress) {
   if (!request.preview && request.screen.empty() && !request.propose) return false;
   if (job.motion.is_prescribed())
     throw pipeline::InputError(job.motion.where,
@@ -75,7 +75,7 @@ void prescribe(const pipeline::StageCall& call, const pipeline::Job& job, pipeli
 
 void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::Progress& progress) {
   const sim::Simulation simulation(job);
-  pipeline::require_memory(call, sim::memory_of(simulation), progress);
+  pipeline::require_memory(call, sim::memory_of(simulation, job.uncertainty), progress);
   std::optional<pipeline::FileWriter> file;
   std::optional<sim::MotionFile> motion;
   const auto begin = [&](int) {  // a repeat that does not count leaves nothing
@@ -91,7 +91,8 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
   const std::vector<pipeline::Warning> refused = sim::write_other_stiffnesses(job, summary.time_step, *file);
   for (const std::string& note : {sim::repeats_note(summary), simulation.program_note()})
     if (!note.empty()) progress.note(note);
-  pipeline::note_warnings(*file, call, progress, pipeline::joined(sim::warnings_of(simulation, summary), refused));
+  pipeline::note_warnings(*file, call, progress,
+                          pipeline::joined(sim::warnings_of(simulation, summary), refused));
   pipeline::stamp(*file, call, job, "");
   file->commit();
 }

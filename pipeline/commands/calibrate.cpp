@@ -26,11 +26,6 @@ struct CalibrateOptions : RunOptions {
   std::string job, since, today;
 };
 
-Day day_of(const std::string& option, const std::string& text) {
-  if (const std::optional<Day> day = exported_day(text)) return *day;
-  throw InputError({option}, fmt::format("'{}' is no date", text), day_remedy(text));
-}
-
 /// A table of a maintenance system, or observations.
 ServiceTests tests_of(const CalibrateOptions& options, const fs::path& file) {
   if (file.extension() != ".csv" && file.extension() != ".CSV") {

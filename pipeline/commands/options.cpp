@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/exported.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
@@ -125,6 +126,11 @@ fs::path input(fs::path file) {
 }
 
 }  // namespace
+
+Day day_of(const std::string& option, const std::string& text) {
+  if (const std::optional<Day> day = exported_day(text)) return *day;
+  throw InputError({option}, fmt::format("'{}' is no date", text), day_remedy(text));
+}
 
 fs::path named_file(const std::string& name, const std::string& shelf) { return input(file_or_entry(name, {shelf})); }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/days.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/stage/command_line.h"
 #include "pipeline/study/known_study.h"
@@ -41,6 +42,9 @@ std::vector<Option> study_options(StudyOptions& options);
 std::vector<Option> run_options(RunOptions& options);
 /// --launcher: of commands whose stages may run elsewhere.
 Option launcher_option(RunOptions& options);
+
+/// The date that an option has. Errors: InputError for a text that is no date.
+Day day_of(const std::string& option, const std::string& text);
 
 /// What a user names: a file, or an entry of the catalogue ("two_robots" or "studies/two_robots"). A name of both a job and
 /// a study means the job in every command, which a note says. shelf: folder of config/. Errors: InputError, neither, or a robot

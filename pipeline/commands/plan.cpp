@@ -38,12 +38,6 @@ struct PlanOptions : RunOptions {
   std::optional<double> risk_percent;
 };
 
-/// The date of an option.
-Day day_of(const std::string& option, const std::string& text) {
-  if (const std::optional<Day> day = exported_day(text)) return *day;
-  throw InputError({option}, fmt::format("'{}' is no date", text), day_remedy(text));
-}
-
 /// The day on which the duties of another table begin.
 Day change_day(const PlanOptions& options, Day today) {
   const char* const option = "--what-if-from";

@@ -7,7 +7,7 @@
 
 namespace dresslife::sim {
 
-pipeline::MemoryNeed memory_of(const Simulation& simulation) {
+pipeline::MemoryNeed memory_of(const Simulation& simulation, const pipeline::Uncertainty& uncertainty) {
   constexpr double program =
       24 << 20;  // itself, its libraries, the catalogue, robot and world of a small job
   constexpr double of_a_segment =
@@ -25,6 +25,12 @@ pipeline::MemoryNeed memory_of(const Simulation& simulation) {
   need.add(2 * steps * value + steps * compared * run.links * value,
            fmt::format("the error of {:.0f} steps", steps),
            "a longer simulation.time_step_ms, or a shorter motion");
+  constexpr double of_a_frame = 7 * value,
+                   grown = 1.5;  // place and orientation; a list that doubles is 1.5 times its size
+  if (other_stiffness(uncertainty) != 0)
+    need.add(grown * of_a_frame * run.samples * static_cast<double>(segments + run.clamp_segment.size()),
+             "a motion with another stiffness of the hose",
+             "uncertainty.hose_stiffness: 1, or a lower simulation.sample_rate_Hz");
   need.add(
       pipeline::file_buffers(pipeline::motion_format(), {{"sample", static_cast<std::size_t>(run.samples)},
                                                          {"segment", segments},

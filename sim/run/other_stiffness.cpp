@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
 #include "pipeline/base/warning_words.h"
@@ -46,8 +46,7 @@ pipeline::Setup setup_with(const pipeline::Job& job, double factor, double time_
   pipeline::SimulationSettings& settings = setup.simulation;
   settings.stiffness_factor *= factor;
   settings.choose_time_step = false;
-  const double steps = 1 / (settings.sample_rate * time_step);  // between samples
-  settings.time_step = std::lround(steps) % 2 == 0 ? 2 * time_step : time_step;
+  settings.time_step = time_step;
   settings.most_repeats = std::min(settings.most_repeats, 2);  // the first leads in
   return setup;
 }

@@ -47,7 +47,6 @@ Written written(const pipeline::Job& job) {
 /// Positions of a run by itself, as dresslife-sim has them for a job with these keys.
 std::vector<double> positions_with(pipeline::Job job, double factor) {
   job.simulation.stiffness_factor = factor;
-  job.simulation.time_step *= 2;
   std::vector<double> positions;
   const Simulation simulation(job);
   simulation.run({[&](const Sample& sample) {
