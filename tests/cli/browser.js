@@ -17,7 +17,8 @@ const browser = spawn(
       '--disable-dev-shm-usage', '--no-first-run', '--disable-background-networking', '--remote-debugging-pipe',
       `--user-data-dir=${profile}`, `--window-size=${width},${height}`, 'about:blank'
     ],
-    {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
+    {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'], detached: true});  // a group of processes of its own
+const end = () => process.kill(-browser.pid, 'SIGKILL');
 
 const waiting = new Map(), problems = [], requests = [];
 let count = 0, unread = '', session = '';
@@ -82,7 +83,7 @@ async function main() {
 }
 const watchdog = setTimeout(() => {
   console.error('the browser does not answer');
-  browser.kill('SIGKILL');
+  end();
   process.exit(1);
 }, 120000);
 main()
@@ -92,7 +93,12 @@ main()
     })
     .finally(() => {
       clearTimeout(watchdog);
-      // Its helper processes end a moment after it, and write into the profile until then.
-      browser.on('exit', () => fs.rmSync(profile, {recursive: true, force: true, maxRetries: 20, retryDelay: 100}));
-      browser.kill('SIGKILL');
+      browser.on('exit', () => {
+        try {  // a process of the group that is still ending may write into the profile for a moment
+          fs.rmSync(profile, {recursive: true, force: true, maxRetries: 20, retryDelay: 100});
+        } catch (problem) {
+          console.error(`${profile} could not be removed: ${problem.message}`);
+        }
+      });
+      end();
     });
