@@ -16,7 +16,7 @@ using pipeline::Uncertain;
 using pipeline::Warning;
 
 /// Of one motion, until it is known that its simulation reaches the end.
-struct Places {
+struct RecordedMotion {
   std::vector<double> position, orientation, clamp_position, clamp_orientation;
 
   void add(const Sample& sample) {
@@ -65,7 +65,7 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double ti
       factor = pipeline::uncertain_parameters()[index_of(Uncertain::hose_stiffness)].value(z);
       try {
         const Simulation simulation(setup_with(job, factor, time_step));
-        Places places;
+        RecordedMotion places;
         simulation.run({[&](const Sample& sample) { places.add(sample); }, [&](int) { places = {}; }});
         places.write(file, std::string("/") + name);
         file.attribute(std::string(name) + "_z", z);
