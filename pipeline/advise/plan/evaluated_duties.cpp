@@ -556,7 +556,7 @@ std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& prog
 
 std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study,
                                              const std::vector<RankingRow>& rows,
-                                             const std::set<std::string>& needed, std::size_t worlds) {
+                                             const std::set<std::string>& needed, bool keep_draws, std::size_t worlds) {
   Programs programs(study, rows);
   std::vector<const Duty*> duties;
   std::vector<std::vector<EvaluatedProgram>> all;
@@ -602,12 +602,13 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
   // From (draw, world) to (world, draw), rising.
   in_parallel(threads, [&](std::size_t part) {
     for (std::size_t k = tasks.size() * part / threads; k < tasks.size() * (part + 1) / threads; ++k) {
-      const std::vector<float> by_draw = tasks[k].table->hours;
+      std::vector<float> by_draw = tasks[k].table->hours;
       for (std::size_t w = 0; w < worlds; ++w) {
         float* const hours = tasks[k].table->hours.data() + w * draws;
         for (std::size_t d = 0; d < draws; ++d) hours[d] = by_draw[d * worlds + w];
         std::sort(hours, hours + draws);
       }
+      if (keep_draws) tasks[k].table->of_draw = std::move(by_draw);
     }
   });
   return tables;
