@@ -412,6 +412,17 @@ TEST_CASE("what if from a later day: until then a dresspack wears as before, the
   const Plan saved = plan_of(changed, tables, windows_in({6, 14}), start, {0.99, false});
   CHECK(saved.rows[1].fails_before_first == Approx(1 - alive(6) / alive(0)).margin(draws));
   CHECK(saved.rows[1].fails_until_next[0] == 0);
+  // Dresspacks that are put in before the change, too: with failures at constant rates, 1 in 10 weeks, then 4, the plants have as many.
+  std::map<std::string, LifeTable> constant{{"d", weibull(1, {10 * week})}, {"hard", weibull(1, {5 * week})}};
+  constant.at("hard").hours_per_week = 2 * week;
+  const Fleet young = fleet_of({0});
+  Fleet harder = young;
+  harder.rows[0].duty = "hard";
+  keep_ages(harder, young, constant, start, start + std::chrono::days(7 * 6));
+  double failures = 0;
+  for (const YearOfPlan& year : plan_of(harder, constant, windows_in({4, 14}), start, {1, false}).years) failures += year.unplanned;
+  const double expected = 6 * 0.1 + 18 * 0.4;
+  CHECK(failures == Approx(expected).margin(4 * std::sqrt(expected / 1000)));
 }
 
 TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it is named at its cell") {
