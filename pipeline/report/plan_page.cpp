@@ -226,7 +226,7 @@ std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& p
   if (!notes.values.empty()) body += "<p style=\"white-space: pre-line\">" + escaped(notes.values) + "</p>\n";
   for (const std::string& note : notes.paragraphs) body += "<p class=\"soft\">" + escaped(note) + "</p>\n";
   body += fmt::format(
-      "<h3>Calendar</h3>\n<p class=\"soft\">Above: expected failures of all dresspacks in a week; those of dresspacks that are put in later are counted in 1,000 simulated plants. Below: {}. Colour: the probability that today's dresspack "
+      "<h3>Calendar</h3>\n<p class=\"soft\">Above: expected failures of all dresspacks in a week; those of dresspacks that are put in later are counted in simulated plants. Below: {}. Colour: the probability that today's dresspack "
       "fails in a week. {}Rest the pointer on a cell for its number.</p>\n",
       plan.rows.size() > most_rows ? fmt::format("the {} dresspacks with the greatest risk", most_rows) : "each dresspack, the greatest risk first",
       calendar.weeks_per_cell() > 1 ? fmt::format("A cell is {} weeks, its colour their mean. ", calendar.weeks_per_cell()) : "");
