@@ -16,6 +16,10 @@
 // 3.6). Where failures grow more frequent with age, the next window decides (marginal cost analysis; Berg 1980). g_w: cost
 // per hour in the world w of the age replacement with the least mean cost (Barlow and Hunter 1960),
 //     g_w = (C_p S_w(T) + C_u (1 - S_w(T))) / integral of S_w from 0 to T, at the T with the least mean over w (D6)
+//
+// In each draw a dresspack lives, with h_j hours under the duty j before its own,
+//     sum over j of h_j + (1 - sum over j of h_j / L_j) L hours, where the second sum is below 1               (D10)
+// L_j, L: its lives under these duties alone. Where different modes end them, the damage of both counts as that of one mode.
 #pragma once
 
 #include <Eigen/Core>
@@ -116,10 +120,8 @@ AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned
 /// Times [days from today] of the windows, then the end of the plan.
 std::vector<double> times_of(const std::vector<Window>& windows, Day today);
 
-/// (row) Lives of today's dresspacks [h of operation, under all of their duties]. With h_j hours under the duty j and then its own duty, the
-/// dresspack of a draw lives
-///     sum over j of h_j + (1 - sum over j of h_j / L_j) L hours, where the second sum is below 1                (D10)
-/// L_j, L: its lives under these duties alone. Where different modes end them, the damage of both counts as that of one mode.
+/// (row) Lives of today's dresspacks (D10) [h of operation, under all of their duties]. Those of `tables`, which must outlive them, where
+/// a dresspack has had no other duty.
 std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet, const std::map<std::string, LifeTable>& tables);
 
 /// The dresspacks of a plant under other duties: one that is in `now`, too, under another duty or for other hours, keeps its damage (D10).
