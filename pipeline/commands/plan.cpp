@@ -176,14 +176,15 @@ int plan(const PlanOptions& options) {
   if (!fleet.unused.empty())
     tell(shown(fmt::format("note: {}: a plan does not use the columns {}\n", options.fleet, joined(fleet.unused, ", "))));
   const std::set<std::string> planned = needed;
+  bool has_changes = changed.has_value();  // of the duty of a dresspack
   for (const Duty& duty : file.duties)
     for (const PastDuty& past : duty.history)
-      if (planned.contains(duty.name)) needed.insert(past.duty);
+      if (planned.contains(duty.name)) needed.insert(past.duty), has_changes = true;
   for (const Warning& warning :
        joined(doubts_of(options.risk_percent), joined(doubtful_fleet(fleet, day), doubtful_duties(file))))
     tell(shown(warning.line() + "\n"));
   const DutiesRun made = run_duties(file, options);
-  std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed);
+  std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed, has_changes);
   for (const auto& [name, table] : tables)
     if (const double half = table.median(); planned.contains(name) && half < table.hours_per_week)
       throw InputError(
@@ -200,7 +201,7 @@ int plan(const PlanOptions& options) {
   if (const double effective = effective_worlds(fleet, tables, day, rule); effective < enough_worlds) {  // many survivors leave few worlds
     constexpr double spare = 1.2, most = 8;  // few worlds tell how many more are needed to a tenth; ten seconds for 500 dresspacks
     const auto times = static_cast<std::size_t>(std::clamp(std::ceil(spare * enough_worlds / effective), 2.0, most));
-    tables = life_tables(file, made.study, made.rows, needed, times * usual_worlds);
+    tables = life_tables(file, made.study, made.rows, needed, has_changes, times * usual_worlds);
   }
   const Plan found = plan_of(fleet, tables, windows, day, rule);
   if (found.effective_worlds < fewest_worlds)

@@ -204,7 +204,7 @@ std::string dresspacks_table(const Fleet& fleet, const Plan& plan, const std::st
     const auto percent = [](double share) { return number_cell(share, percent_text(share)); };
     std::string cells = fmt::format(
         "<tr data-rank=\"{0}\"><td class=\"number\" data-value=\"{0}\">{0}</td><td>{1}</td><td>{2}</td><td style=\"white-space: nowrap\">{3}</td>{4}{5}<td>{6}</td>{7}", rows.size() + 1,
-        escaped(fleet.rows[i].name), escaped(fleet.rows[i].duty), day_text(fleet.rows[i].since), number_cell(row.run_hours, printed(row.run_hours)),
+        escaped(fleet.rows[i].name), escaped(fleet.rows[i].duty), day_text(fleet.rows[i].since), number_cell(row.age_hours, printed(row.age_hours)),
         percent(row.fails_before_first), row.window ? day_text(plan.windows[*row.window].first) : "in no window", percent(row.fails_before));
     for (const double share : row.fails_until_next) cells += percent(share);
     rows.push_back(cells + "</tr>\n");
@@ -226,7 +226,7 @@ std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& p
   if (!notes.values.empty()) body += "<p style=\"white-space: pre-line\">" + escaped(notes.values) + "</p>\n";
   for (const std::string& note : notes.paragraphs) body += "<p class=\"soft\">" + escaped(note) + "</p>\n";
   body += fmt::format(
-      "<h3>Calendar</h3>\n<p class=\"soft\">Above: expected failures of all dresspacks in a week; those of dresspacks that are put in later are counted in 1,000 simulated plants. Below: {}. Colour: the probability that today's dresspack "
+      "<h3>Calendar</h3>\n<p class=\"soft\">Above: expected failures of all dresspacks in a week; those of dresspacks that are put in later are counted in simulated plants. Below: {}. Colour: the probability that today's dresspack "
       "fails in a week. {}Rest the pointer on a cell for its number.</p>\n",
       plan.rows.size() > most_rows ? fmt::format("the {} dresspacks with the greatest risk", most_rows) : "each dresspack, the greatest risk first",
       calendar.weeks_per_cell() > 1 ? fmt::format("A cell is {} weeks, its colour their mean. ", calendar.weeks_per_cell()) : "");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <numbers>
 
@@ -87,8 +88,10 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
     const ColumnName read = column_name(titles[k]);
     const bool date = words == std::vector<std::string>{"date"} || words == std::vector<std::string>{"datum"};
     if (date && !made.date) made.date = k;
-    const bool stamp = read.kind == ColumnName::Kind::time || words == std::vector<std::string>{"datetime"} ||
-                       (!words.empty() && (words.back() == "ts" || words.back() == "timestamp"));
+    const auto is_any_of = [](const std::string& word, std::initializer_list<std::string_view> known) { return std::find(known.begin(), known.end(), word) != known.end(); };
+    const bool stamp = read.kind == ColumnName::Kind::time ||
+                       (!words.empty() && is_any_of(words.back(), {"ts", "timestamp", "datetime", "zeitstempel", "uhrzeit"})) ||
+                       (words.size() == 2 && is_any_of(words[0], {"date", "datum", "time"}) && is_any_of(words[1], {"time", "zeit", "stamp"}));
     if (stamp && !date && !made.time) {
       made.time = k;
       if (read.unit_told) made.seconds = read.seconds;

@@ -182,7 +182,7 @@ std::vector<Warning> doubtful_ages(const Fleet& fleet, const Plan& plan) {
     const Installed& row = fleet.rows[static_cast<std::size_t>(oldest - plan.rows.begin())];
     return {warning_of(WarningKind::motion, row.where.text(),
                        fmt::format("'{}' has run {}, which by the model {} of new dresspacks reach (limit {}, with which one of {} is so old with a probability of {})",
-                                   row.name, hours_text(oldest->run_hours), percent_text(oldest->reach_its_age), percent_text(limit), plan.rows.size(),
+                                   row.name, hours_text(oldest->age_hours), percent_text(oldest->reach_its_age), percent_text(limit), plan.rows.size(),
                                    percent_text(usual_reach)),
                        "a wrong date or year, a replacement that is not in the table, or a duty or hours per week that are not its own",
                        "the date on which the dresspack of today was installed")};

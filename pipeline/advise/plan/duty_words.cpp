@@ -134,8 +134,8 @@ std::string mixture_words(const DutyResult& duty) {
                     118, "  ");
   // Measured pairs: README. Strain: damage grows with its power 1/0.112 (copper.yaml).
   if (duty.has_order)
-    text += wrapped(fmt::format("The order runs {} times per hour. For two pairs of programs its damage differed by 2 % from that of one long motion of both, "
-                                "which is 0.2 % of strain. Abrasion between the programs is not counted.{}",
+    text += wrapped(fmt::format("The order runs {} times per hour. For three pairs of programs its damage differed by 2 % from that of one long motion of both, "
+                                "which is 0.2 % of strain. For gentle programs, whose lives are far beyond the robot's, it differed by factors. Abrasion between the programs is not counted.{}",
                                 readable(duty.rounds_per_hour),
                                 duty.outside.empty() ? ""
                                                      : fmt::format(" The order has room for fewer repeats than the duty: these shares of them count without changes "

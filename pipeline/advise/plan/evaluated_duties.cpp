@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <limits>
 #include <map>
 #include <memory>
@@ -37,6 +36,11 @@ class Jobs {
   explicit Jobs(const Study& study) : study_(study) {
     for (const StudyJob& job : study.jobs) by_name_.emplace(job.name, &job);
   }
+  /// null: there is none, or it was not expanded.
+  const Job* find(const std::string& name) const {
+    const auto found = by_name_.find(name);
+    return found == by_name_.end() ? nullptr : found->second->job.get();
+  }
   /// Errors: InputError for a program that is none of them.
   const StudyJob& of(const DutyProgram& program) const {
     if (const auto found = by_name_.find(program.job); found != by_name_.end()) return *found->second;
@@ -68,10 +72,20 @@ std::string text_beside_motion(Job job) {
   return job_text(job);
 }
 
-void check_same_dresspack(const DutyFile& file, const Duty& duty, const Jobs& jobs) {
+/// A number for each text_beside_motion() of the programs in a file; jobs of one result are one Job.
+std::map<const Job*, std::size_t> texts_of(const DutyFile& file, const Jobs& jobs) {
+  std::map<const Job*, std::size_t> numbers;
+  std::map<std::string, std::size_t> known;
+  for (const Duty& duty : file.duties)
+    for (const DutyProgram& program : duty.programs)
+      if (const Job* const job = jobs.find(program.job); job && !numbers.contains(job))
+        numbers[job] = known.try_emplace(text_beside_motion(*job), known.size()).first->second;
+  return numbers;
+}
+
+void check_same_dresspack(const DutyFile& file, const Duty& duty, const Jobs& jobs, const std::map<const Job*, std::size_t>& texts) {
   const StudyJob& first = jobs.of(duty.programs.front());
   if (!first.job) return;
-  const std::string same = text_beside_motion(*first.job);
   std::set<const Job*> known{first.job.get()};
   std::vector<DutyProgram> programs = duty.programs;
   for (const PastDuty& past : duty.history) {
@@ -80,7 +94,7 @@ void check_same_dresspack(const DutyFile& file, const Duty& duty, const Jobs& jo
   }
   for (const DutyProgram& program : programs) {
     const StudyJob& job = jobs.of(program);
-    if (!job.job || !known.insert(job.job.get()).second || text_beside_motion(*job.job) == same) continue;
+    if (!job.job || !known.insert(job.job.get()).second || texts.at(job.job.get()) == texts.at(first.job.get())) continue;
     const auto expected = beside_motion(*first.job);
     for (const auto& [key, text] : beside_motion(*job.job)) {
       const auto found = expected.find(key);
@@ -263,52 +277,77 @@ class Programs {
 
 constexpr std::size_t draws = 64;  // dresspacks in each world: a probability of 10 % is known to 3.8 % in one world
 
+/// Which programs of duties have one result, and which are one job.
+struct Shares {
+  std::vector<std::vector<std::size_t>> result, job;  ///< (duty, program) number
+  std::vector<std::size_t> programs_of_result, programs_of_job;
+
+  explicit Shares(std::span<const std::vector<EvaluatedProgram>> duties) {
+    std::unordered_map<const FailureModes*, std::size_t> results;
+    std::unordered_map<std::string_view, std::size_t> jobs;
+    const auto number_in = [](auto& known, const auto& key, std::vector<std::size_t>& counts) {
+      const auto [found, is_new] = known.try_emplace(key, counts.size());
+      if (is_new) counts.push_back(0);
+      ++counts[found->second];
+      return found->second;
+    };
+    for (const std::vector<EvaluatedProgram>& duty : duties) {
+      result.emplace_back(), job.emplace_back();
+      for (const EvaluatedProgram& program : duty) {
+        result.back().push_back(number_in(results, program.modes.get(), programs_of_result));
+        job.back().push_back(number_in(jobs, std::string_view(program.job), programs_of_job));
+      }
+    }
+  }
+};
+
 /// Damage of one repeat for one dresspack in each world. Programs with one result share it while duties need it, and so do duties with
 /// one program.
 class DrawDamage {
  public:
-  DrawDamage(std::span<const std::vector<EvaluatedProgram>> duties, std::size_t draw, std::size_t worlds)
-      : dresspack_(fmt::format("dresspack {}", draw)), worlds_(worlds) {
-    for (const std::vector<EvaluatedProgram>& duty : duties)
-      for (const EvaluatedProgram& program : duty)
-        ++damage_[program.modes.get()].duties, ++factors_[program.job].duties;
+  DrawDamage(const Shares& shares, std::size_t draw, std::size_t worlds)
+      : dresspack_(fmt::format("dresspack {}", draw)), worlds_(worlds), shares_(shares), damage_(shares.programs_of_result.size()), factors_(shares.programs_of_job.size()) {
+    for (std::size_t k = 0; k < damage_.size(); ++k) damage_[k].programs = shares.programs_of_result[k];
+    for (std::size_t k = 0; k < factors_.size(); ++k) factors_[k].programs = shares.programs_of_job[k];
   }
   /// (world) of the mode that fails first. Each duty is asked for once.
-  std::vector<double> under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+  std::vector<double> under(std::size_t duty, const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                             const std::vector<double>& share) {
+    const auto number = [&](const EvaluatedProgram& program) { return static_cast<std::size_t>(&program - programs.data()); };
     std::vector<double> damage = first_mode_damage(
         programs, rates, share,
         [&](const EvaluatedProgram& program) -> const RepeatDamage& {
-          RepeatDamage& of_repeat = damage_[program.modes.get()].value;
+          RepeatDamage& of_repeat = damage_[shares_.result[duty][number(program)]].value;
           if (of_repeat.empty()) of_repeat = damage_of_repeat(*program.modes, dresspack_, worlds_);
           return of_repeat;
         },
         [&](const EvaluatedProgram& program, double deviation_percent) -> const std::vector<double>& {
-          auto& [deviation, factors] = factors_[program.job].value;
+          auto& [deviation, factors] = factors_[shares_.job[duty][number(program)]].value;
           if (factors.empty() || deviation != deviation_percent)
             deviation = deviation_percent,
             factors = repeat_factors(program.job, deviation_percent, dresspack_, worlds_);
           return factors;
         });
-    for (const EvaluatedProgram& program : programs)
-      damage_[program.modes.get()].release(), factors_[program.job].release();
+    for (const std::size_t result : shares_.result[duty]) damage_[result].release();
+    for (const std::size_t job : shares_.job[duty]) factors_[job].release();
     return damage;
   }
 
  private:
   template <class Value>
   struct Shared {
-    std::size_t duties = 0;  ///< that still need it
-    Value value;
+    std::size_t programs = 0;  ///< that still need it
+    Value value{};
 
     void release() {
-      if (--duties == 0) value = {};
+      if (--programs == 0) value = {};
     }
   };
   std::string dresspack_;
   std::size_t worlds_;
-  std::unordered_map<const FailureModes*, Shared<RepeatDamage>> damage_;
-  std::unordered_map<std::string_view, Shared<std::pair<double, std::vector<double>>>> factors_;  ///< by job
+  const Shares& shares_;
+  std::vector<Shared<RepeatDamage>> damage_;
+  std::vector<Shared<std::pair<double, std::vector<double>>>> factors_;
 };
 
 /// (program) per hour.
@@ -399,18 +438,12 @@ void check_programs(const DutyFile& file, const Study& study) {
                      "keep: histories, or all, in the study");
   Problems problems;
   const Jobs jobs(study);
-  std::vector<std::exception_ptr> refused(file.duties.size());  // texts of thousands of jobs take a second
-  const std::size_t threads = std::min(thread_count(), refused.size());
-  in_parallel(threads, [&](std::size_t part) {
-    for (std::size_t d = part; d < refused.size(); d += threads) try {
-        for (const DutyProgram& program : file.duties[d].programs) jobs.of(program);
-        check_same_dresspack(file, file.duties[d], jobs);
-      } catch (const InputError&) {
-        refused[d] = std::current_exception();
-      }
-  });
-  for (std::size_t d = 0; d < refused.size(); ++d)
-    if (refused[d]) problems.attempt("", file.duties[d].where, [&] { std::rethrow_exception(refused[d]); });
+  const std::map<const Job*, std::size_t> texts = texts_of(file, jobs);
+  for (const Duty& duty : file.duties)
+    problems.attempt("", duty.where, [&] {
+      for (const DutyProgram& program : duty.programs) jobs.of(program);
+      check_same_dresspack(file, duty, jobs, texts);
+    });
   problems.finish(file.where.file);
 }
 
@@ -556,7 +589,7 @@ std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& prog
 
 std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study,
                                              const std::vector<RankingRow>& rows,
-                                             const std::set<std::string>& needed, std::size_t worlds) {
+                                             const std::set<std::string>& needed, bool keep_draws, std::size_t worlds) {
   Programs programs(study, rows);
   std::vector<const Duty*> duties;
   std::vector<std::vector<EvaluatedProgram>> all;
@@ -587,12 +620,13 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
   }
   // The lives of a draw depend on no other one, so any number of threads gives the same. Draw after draw, and not duty after duty: what
   // the programs of one draw need stays in the processor's cache.
+  const Shares shares(all);
   const std::size_t threads = std::min(thread_count(), draws);
   in_parallel(threads, [&](std::size_t part) {
     for (std::size_t d = draws * part / threads; d < draws * (part + 1) / threads; ++d) {
-      DrawDamage plant(all, d, worlds);
+      DrawDamage plant(shares, d, worlds);
       for (std::size_t k = 0; k < tasks.size(); ++k) {
-        const std::vector<double> damage = plant.under(all[k], tasks[k].rates, tasks[k].share);
+        const std::vector<double> damage = plant.under(k, all[k], tasks[k].rates, tasks[k].share);
         float* const hours = tasks[k].table->hours.data() + d * worlds;
         for (std::size_t w = 0; w < worlds; ++w)
           hours[w] = damage[w] > 0 ? static_cast<float>(1 / damage[w]) : std::numeric_limits<float>::infinity();
@@ -602,12 +636,13 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
   // From (draw, world) to (world, draw), rising.
   in_parallel(threads, [&](std::size_t part) {
     for (std::size_t k = tasks.size() * part / threads; k < tasks.size() * (part + 1) / threads; ++k) {
-      const std::vector<float> by_draw = tasks[k].table->hours;
+      std::vector<float> by_draw = tasks[k].table->hours;
       for (std::size_t w = 0; w < worlds; ++w) {
         float* const hours = tasks[k].table->hours.data() + w * draws;
         for (std::size_t d = 0; d < draws; ++d) hours[d] = by_draw[d * worlds + w];
         std::sort(hours, hours + draws);
       }
+      if (keep_draws) tasks[k].table->of_draw = std::move(by_draw);
     }
   });
   return tables;

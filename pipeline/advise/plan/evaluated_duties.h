@@ -86,8 +86,8 @@ std::vector<DutyResult> outlines(const DutyFile& file, const Study& study, const
 /// 500 worlds: a probability of 10 % is known to 1.3 %.
 constexpr std::size_t usual_worlds = 500;
 
-/// Lives of the dresspacks of a plant under each of the `needed` duties (plan.h). Errors: as evaluated(), without histories.
+/// Lives of the dresspacks of a plant under each of the `needed` duties (plan.h). keep_draws: with LifeTable::of_draw. Errors: as evaluated(), without histories.
 std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
-                                             const std::set<std::string>& needed, std::size_t worlds = usual_worlds);
+                                             const std::set<std::string>& needed, bool keep_draws = false, std::size_t worlds = usual_worlds);
 
 }  // namespace dresslife::pipeline

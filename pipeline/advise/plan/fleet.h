@@ -23,11 +23,15 @@ struct Installed {
   Day since{};
   std::optional<double> hours_per_week;
   double planned_cost = 0, unplanned_cost = 0;
-  std::optional<double> age_hours{};  ///< after other duties (add_histories(), keep_ages()): hours under its own; absent: the hours since then
   std::optional<double> run_hours{};  ///< of operation so far, under any duty; absent: at its hours per week since then
+  struct Spell {
+    std::string duty;
+    double hours = 0;  ///< of operation
+  };
+  std::vector<Spell> before{};  ///< under other duties, past or still to come, until its own counts (add_histories(), keep_ages())
   struct Change {
     double day = 0;            ///< [days from today]
-    double hours_per_day = 0;  ///< until then: hours under its duty that wear as much as a day under the one before
+    double hours_per_day = 0;  ///< of operation until then, under the duty of the last spell
   };
   std::optional<Change> change{};  ///< its duty begins later than today (keep_ages())
 };

@@ -5,18 +5,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
+#include "pipeline/base/threads.h"
 #include "pipeline/base/warning_words.h"
 
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t plants = 1000;  // simulated: a mean of counts is known to 3 % of their deviation
+/// Simulated plants: a mean of counts is known to 3 % of their deviation, and better where a plant takes little time, because few dresspacks
+/// seldom fail. Of one dresspack that fails in 1 of 1,000 plants, 100,000 have 100 failures.
+std::size_t plant_count(std::size_t dresspacks, std::size_t windows) {
+  constexpr std::size_t fewest = 1000, most = 100'000, decisions = 200'000;  // the last: a tenth of a second
+  return std::clamp(decisions / (std::max<std::size_t>(1, dresspacks) * (windows + 1)), fewest, most);
+}
 constexpr double shortest_life = 1;   // [h] of a new dresspack in a simulated plant, so that each plant ends
 constexpr double days_per_year = 365.2425;
 constexpr std::size_t ages = 400;  // of (D6), between a tenth of the shortest life and the robot's: 2 % steps
@@ -111,7 +118,7 @@ class Worlds {
 
 double hours_in_day(const Installed& row, const LifeTable& table) { return row.hours_per_week.value_or(table.hours_per_week) / 7; }
 
-/// Hours of a dresspack under its duty, over the days from today.
+/// Hours of operation of a dresspack, over the days from today.
 class Pace {
  public:
   Pace(const Installed& row, const LifeTable& table)
@@ -133,21 +140,37 @@ double run_of(const Installed& row, const LifeTable& table, Day today) {
   return row.run_hours.value_or(days_between(row.since, today) * hours_in_day(row, table));
 }
 
-double age_of(const Installed& row, const LifeTable& table, Day today) {
-  return row.age_hours.value_or(run_of(row, table, today));
+/// Life of a dresspack that has spells of (D10), in hours of operation. spells: {hours, life under that duty alone}.
+double life_after(std::span<const std::array<double, 2>> spells, double own_life) {
+  double used = 0, hours = 0;
+  for (const auto& [spell, life] : spells) {
+    if (used + spell / life >= 1) return hours + (1 - used) * life;
+    used += spell / life, hours += spell;
+  }
+  return hours + (1 - used) * own_life;
 }
 
-/// Hours under a duty that wear as much as these under another one, by the median lives of both.
-double age_under(const LifeTable& duty, double hours, const LifeTable& before) {
-  const double life = before.median(), new_life = duty.median();
-  if (&duty == &before || std::isinf(new_life)) return hours;
-  return hours / life * new_life;
+LifeTable lives_after(const std::vector<Installed::Spell>& before, const LifeTable& own, const std::map<std::string, LifeTable>& tables) {
+  LifeTable lives{own.worlds, own.draws, std::vector<float>(own.hours.size()), own.robot_life_hours, own.hours_per_week};
+  std::vector<const LifeTable*> of_spell;
+  std::vector<std::array<double, 2>> spells;
+  for (const Installed::Spell& spell : before) of_spell.push_back(&tables.at(spell.duty)), spells.push_back({spell.hours, 0});
+  for (std::size_t w = 0; w < own.worlds; ++w) {
+    float* const hours = lives.hours.data() + w * own.draws;
+    for (std::size_t d = 0; d < own.draws; ++d) {
+      for (std::size_t k = 0; k < spells.size(); ++k) spells[k][1] = of_spell[k]->life(w, d);
+      hours[d] = static_cast<float>(life_after(spells, own.life(w, d)));
+    }
+    std::sort(hours, hours + own.draws);
+  }
+  return lives;
 }
 
-Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, Day today, const PlanRule& rule) {
+Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<std::shared_ptr<const LifeTable>>& first, Day today,
+                 const PlanRule& rule) {
   Worlds worlds(tables.begin()->second.worlds, rule.weights);
   if (!rule.knows_survivors)
-    for (const Installed& row : fleet.rows) worlds.survived(tables.at(row.duty), age_of(row, tables.at(row.duty), today));
+    for (std::size_t i = 0; i < first.size(); ++i) worlds.survived(*first[i], run_of(fleet.rows[i], *first[i], today));
   if (rule.weights.empty()) worlds.weigh();
   return worlds;
 }
@@ -204,8 +227,8 @@ class Decision {
   /// hours: of operation within the plan, at most.
   Decision(const Worlds& worlds, const PlanRule& rule, double hours) : worlds_(worlds), rule_(rule), hours_(hours) {}
 
-  /// What follows for a dresspack that lives at this age, until the ages at which replace() asks.
-  LaterLife later_life(const Installed& row, const LifeTable& table, double age) { return later_life(table, policy(row, table).rate, age); }
+  /// What follows for a dresspack with these lives that lives at this age, until the ages at which replace() asks. table: of its duty.
+  LaterLife later_life(const Installed& row, const LifeTable& table, const LifeTable& lives, double age) { return later_life(lives, policy(row, table).rate, age); }
   /// Whether a dresspack is replaced at the age `from`, of which `life` is known. interval: to the next window [h]. Both
   /// ages of a window lie within the plan.
   bool replace(const Installed& row, const LifeTable& table, const LaterLife& life, double from, double interval) {
@@ -266,9 +289,10 @@ struct Outcome {
 
 class Simulation {
  public:
-  Simulation(const Fleet& fleet, const std::vector<const LifeTable*>& tables, const std::vector<Pace>& paces,
+  /// tables, earlier: (row) of its duty, and of that until its change.
+  Simulation(const Fleet& fleet, const std::vector<const LifeTable*>& tables, const std::vector<const LifeTable*>& earlier, const std::vector<Pace>& paces,
              const std::vector<RowPlan>& rows, const std::vector<double>& times, const Worlds& worlds)
-      : fleet_(fleet), tables_(tables), paces_(paces), rows_(rows), times_(times) {
+      : fleet_(fleet), tables_(tables), earlier_(earlier), paces_(paces), rows_(rows), times_(times) {
     double sum = 0;
     for (const double weight : worlds.weights()) until_.push_back(sum += weight);
     years_ = static_cast<std::size_t>(std::ceil(times.back() / days_per_year));
@@ -291,11 +315,20 @@ class Simulation {
     return first == end ? age : first[static_cast<std::size_t>(random.uniform() * double(end - first))];
   }
 
+  /// Of a dresspack that is put in at these hours from today.
+  double draw_new(std::size_t i, std::size_t world, double begun, RandomNumbers& random) const {
+    const LifeTable& table = *tables_[i];
+    const double until_change = fleet_.rows[i].change ? paces_[i].hours(fleet_.rows[i].change->day) - begun : 0;
+    if (!(until_change > 0)) return draw(table, world, 0, random);
+    const auto d = static_cast<std::size_t>(random.uniform() * double(table.draws));
+    return life_after({{{until_change, earlier_[i]->life(world, d)}}}, table.life(world, d));
+  }
+
   void dresspack(std::size_t i, std::size_t world, RandomNumbers& random, Decision* decision, Outcome& outcome) const {
     const LifeTable& table = *tables_[i];
     const Pace& pace = paces_[i];
-    // All times are hours under its duty from today.
-    double begun = -rows_[i].age_hours, fails = begun + draw(table, world, rows_[i].age_hours, random);
+    // All times are hours of operation from today.
+    double begun = -rows_[i].age_hours, fails = begun + draw(*rows_[i].lives, world, rows_[i].age_hours, random);
     std::size_t window = 0;
     bool is_first = true;
     const auto put_in = [&](double at, bool planned) {
@@ -304,7 +337,7 @@ class Simulation {
       if (!planned && !is_first) ++outcome.failures[std::min(weeks_ - 1, static_cast<std::size_t>(day / 7))];
       outcome.cost += planned ? fleet_.rows[i].planned_cost : fleet_.rows[i].unplanned_cost;
       begun = at, is_first = false;
-      fails = begun + std::max(shortest_life, draw(table, world, 0, random));
+      fails = begun + std::max(shortest_life, draw_new(i, world, begun, random));
     };
     const double end = pace.hours(times_.back());
     while (true) {
@@ -324,7 +357,7 @@ class Simulation {
   }
 
   const Fleet& fleet_;
-  const std::vector<const LifeTable*>& tables_;
+  const std::vector<const LifeTable*>&tables_, &earlier_;
   const std::vector<Pace>& paces_;
   const std::vector<RowPlan>& rows_;
   const std::vector<double>& times_;
@@ -401,15 +434,15 @@ void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, Lif
   for (Installed& row : changed.rows) {
     const auto old = std::find_if(now.rows.begin(), now.rows.end(), [&](const Installed& one) { return one.name == row.name; });
     if (old == now.rows.end() || old->since != row.since) continue;
-    const LifeTable &before = tables.at(old->duty), &after = tables.at(row.duty);
-    const double age = age_of(*old, before, today);
-    row.age_hours = old->duty == row.duty ? age : age_under(after, age, before);
+    const LifeTable& before = tables.at(old->duty);
     row.run_hours = run_of(*old, before, today);
-    if (from <= today) continue;
-    if (std::isinf(after.median()) && old->duty != row.duty)
-      throw InputError(row.where, fmt::format("half of the dresspacks under duty '{}' never fail, so its hours count nothing of what wears before {}", row.duty, day_text(from)),
-                       "leave out --what-if-from");
-    row.change = {{double(days_between(today, from)), age_under(after, hours_in_day(*old, before), before)}};
+    row.before = old->before;
+    if (old->duty == row.duty && from <= today) continue;
+    double own = *row.run_hours;
+    for (const Installed::Spell& spell : old->before) own -= spell.hours;
+    const double days = std::max<double>(0, days_between(today, from));
+    row.before.push_back({old->duty, own + days * hours_in_day(*old, before)});
+    if (days > 0) row.change = {{days, hours_in_day(*old, before)}};
   }
 }
 
@@ -420,7 +453,6 @@ std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std
   for (Installed& row : fleet.rows) {
     const Duty& duty = duty_named(file, row.duty, row.where);
     if (duty.history.empty()) continue;
-    const LifeTable& table = tables.at(row.duty);
     const auto hours_in = [&](double days, const std::string& of) { return days * hours_in_day(row, tables.at(of)); };
     double days = days_between(row.since, today), given = 0;
     std::vector<double> past_hours;
@@ -436,13 +468,13 @@ std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std
       past_hours.back() = hours_in(under, past.duty);
     }
     const double all = hours_in(std::max(0.0, days), row.duty), counted = given > all ? all / given : 1;
-    double age = all - counted * given, run = age;
+    double run = all - counted * given;
     for (std::size_t k = 0; k < past_hours.size(); ++k) {
       const PastDuty& past = duty.history[k];
-      const double hours = past_hours[k] * (past.from.empty() ? counted : 1);
-      run += hours, age += age_under(table, hours, tables.at(past.duty));
+      row.before.push_back({past.duty, past_hours[k] * (past.from.empty() ? counted : 1)});
+      run += row.before.back().hours;
     }
-    row.age_hours = age, row.run_hours = run;
+    row.run_hours = run;
     if (days > 0 && given > all + hours_in(7, row.duty) && count++ == 0)  // a week: dates are seldom exact to the day
       younger = &row, words = fmt::format("{}, and its history by hours has more: {}", hours_text(all), hours_text(given));
   }
@@ -454,8 +486,23 @@ std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std
                      "a history by dates (from, to), which counts from the day on which each dresspack was installed")};
 }
 
+std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet, const std::map<std::string, LifeTable>& tables) {
+  std::vector<std::shared_ptr<const LifeTable>> lives(fleet.rows.size());
+  const std::size_t threads = std::min(thread_count(), lives.size());
+  in_parallel(threads, [&](std::size_t part) {
+    for (std::size_t i = part; i < lives.size(); i += threads) {
+      const LifeTable& own = tables.at(fleet.rows[i].duty);
+      if (fleet.rows[i].before.empty())
+        lives[i] = {std::shared_ptr<const LifeTable>(), &own};  // owned by `tables`
+      else
+        lives[i] = std::make_shared<const LifeTable>(lives_after(fleet.rows[i].before, own, tables));
+    }
+  });
+  return lives;
+}
+
 double effective_worlds(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, Day today, const PlanRule& rule) {
-  return worlds_of(fleet, tables, today, rule).effective();
+  return worlds_of(fleet, tables, first_lives(fleet, tables), today, rule).effective();
 }
 
 Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,
@@ -465,36 +512,38 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   plan.risk = rule.risk, plan.by_cost = rule.by_cost;
   const std::vector<double> times = times_of(windows, today);
   plan.end = today + std::chrono::days(std::llround(times.back()));
-  const Worlds worlds = worlds_of(fleet, tables, today, rule);
+  const std::vector<std::shared_ptr<const LifeTable>> first = first_lives(fleet, tables);
+  const Worlds worlds = worlds_of(fleet, tables, first, today, rule);
   plan.weights = worlds.weights();
   plan.effective_worlds = worlds.effective();
   plan.all_alive = worlds.all_alive();
-  std::vector<const LifeTable*> of_row;
+  std::vector<const LifeTable*> of_row, earlier;
   std::vector<Pace> paces;
   double most_hours = 0;  // within the plan
   for (const Installed& row : fleet.rows) {
     of_row.push_back(&tables.at(row.duty));
+    earlier.push_back(row.change ? &tables.at(row.before.back().duty) : of_row.back());
     most_hours = std::max(most_hours, paces.emplace_back(row, *of_row.back()).hours(times.back()));
-    plan.rows.emplace_back().age_hours = age_of(row, *of_row.back(), today);
-    plan.rows.back().run_hours = run_of(row, *of_row.back(), today);
-    plan.rows.back().reach_its_age = worlds.reaches(*of_row.back(), plan.rows.back().age_hours);
+    plan.rows.emplace_back().age_hours = run_of(row, *of_row.back(), today);
+    plan.rows.back().lives = first[plan.rows.size() - 1];
+    plan.rows.back().reach_its_age = worlds.reaches(*plan.rows.back().lives, plan.rows.back().age_hours);
     plan.reach_their_age += plan.rows.back().reach_its_age / double(fleet.rows.size());
   }
   Decision decision(worlds, rule, most_hours);
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
     RowPlan& row = plan.rows[i];
-    const LifeTable& table = *of_row[i];
+    const LifeTable &table = *of_row[i], &lives = *row.lives;
     const auto age_at = [&](double day) { return row.age_hours + paces[i].hours(day); };
     std::vector<double> weeks;
     for (std::size_t week = 1; week <= weeks_until(times.back()); ++week) weeks.push_back(age_at(7.0 * double(week)));
-    row.fails_in_week = worlds.fails_in(table, row.age_hours, weeks);
-    row.fails_before_first = worlds.fails(table, row.age_hours, row.age_hours, age_at(times.front()));
+    row.fails_in_week = worlds.fails_in(lives, row.age_hours, weeks);
+    row.fails_before_first = worlds.fails(lives, row.age_hours, row.age_hours, age_at(times.front()));
     double failed = row.fails_before_first;
-    const LaterLife life = decision.later_life(fleet.rows[i], table, row.age_hours);
+    const LaterLife life = decision.later_life(fleet.rows[i], table, lives, row.age_hours);
     for (std::size_t n = 0; n < windows.size(); ++n) {
-      const double lives = 1 - failed, from = age_at(times[n]), to = age_at(times[n + 1]);
-      const double fails = worlds.fails(table, row.age_hours, from, to);
-      row.fails_until_next.push_back(lives > 0 ? fails / lives : 1);
+      const double left = 1 - failed, from = age_at(times[n]), to = age_at(times[n + 1]);
+      const double fails = worlds.fails(lives, row.age_hours, from, to);
+      row.fails_until_next.push_back(left > 0 ? fails / left : 1);
       if (!row.window && decision.replace(fleet.rows[i], table, life, from, to - from)) row.window = n, row.fails_before = failed;
       failed += fails;
     }
@@ -508,7 +557,9 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
       plan.failures_in_week[week] += std::clamp(until, 0.0, 1.0) * row.fails_in_week[week];
       plan.failures_in_week_without_windows[week] += row.fails_in_week[week];
     }
-  const Simulation simulation(fleet, of_row, paces, plan.rows, times, worlds);
+  const Simulation simulation(fleet, of_row, earlier, paces, plan.rows, times, worlds);
+  const std::size_t plants = plant_count(fleet.rows.size(), windows.size());
+  const auto share = 1 / static_cast<double>(plants);
   std::vector<std::vector<double>> replaced;  // (year, plant)
   for (std::size_t p = 0; p < plants; ++p) {
     RandomNumbers random(mixed(seed + p)), same(mixed(seed + p));  // costs are compared plant by plant
@@ -516,22 +567,22 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     plan.years.resize(outcome.planned.size());
     replaced.resize(outcome.planned.size());
     for (std::size_t y = 0; y < plan.years.size(); ++y) {
-      plan.years[y].planned += double(outcome.planned[y]) / plants;
-      plan.years[y].unplanned += double(outcome.unplanned[y]) / plants;
+      plan.years[y].planned += outcome.planned[y] * share;
+      plan.years[y].unplanned += outcome.unplanned[y] * share;
       replaced[y].push_back(outcome.planned[y] + outcome.unplanned[y]);
     }
     const Outcome without = simulation.plant(same, nullptr);
     for (std::size_t week = 0; week < plan.failures_in_week.size(); ++week) {
-      plan.failures_in_week[week] += double(outcome.failures[week]) / plants;
-      plan.failures_in_week_without_windows[week] += double(without.failures[week]) / plants;
+      plan.failures_in_week[week] += outcome.failures[week] * share;
+      plan.failures_in_week_without_windows[week] += without.failures[week] * share;
     }
-    plan.cost += outcome.cost / plants;
-    plan.cost_without_windows += without.cost / plants;
+    plan.cost += outcome.cost * share;
+    plan.cost_without_windows += without.cost * share;
   }
   for (std::size_t y = 0; y < plan.years.size(); ++y) {
     std::sort(replaced[y].begin(), replaced[y].end());
-    plan.years[y].low = number_at(replaced[y], 0.05 * (plants - 1));
-    plan.years[y].high = number_at(replaced[y], 0.95 * (plants - 1));
+    plan.years[y].low = number_at(replaced[y], 0.05 * double(plants - 1));
+    plan.years[y].high = number_at(replaced[y], 0.95 * double(plants - 1));
   }
   return plan;
 }

@@ -16,11 +16,16 @@
 // 3.6). Where failures grow more frequent with age, the next window decides (marginal cost analysis; Berg 1980). g_w: cost
 // per hour in the world w of the age replacement with the least mean cost (Barlow and Hunter 1960),
 //     g_w = (C_p S_w(T) + C_u (1 - S_w(T))) / integral of S_w from 0 to T, at the T with the least mean over w (D6)
+//
+// In each draw a dresspack lives, with h_j hours under the duty j before its own,
+//     sum over j of h_j + (1 - sum over j of h_j / L_j) L hours, where the second sum is below 1               (D10)
+// L_j, L: its lives under these duties alone. Where different modes end them, the damage of both counts as that of one mode.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,7 +49,10 @@ struct LifeTable {
   double robot_life_hours = 0;
   double hours_per_week = 0;
   std::vector<SharedValue> shared{};  ///< what its lives depend on
+  std::vector<float> of_draw{};       ///< (draw, world) the same lives. A draw is one dresspack under all duties. Empty: the draws rise in each world
 
+  /// [h] of one dresspack
+  double life(std::size_t world, std::size_t draw) const { return of_draw.empty() ? hours[world * draws + draw] : of_draw[draw * worlds + world]; }
   /// Ages [h] beyond it decide nothing.
   double horizon() const;
   /// The first life of a world that is longer than an age; the end of the world's lives if none is.
@@ -66,8 +74,8 @@ struct PlanRule {
 };
 
 struct RowPlan {
-  double age_hours = 0;                  ///< under its duty
-  double run_hours = 0;                  ///< under any duty
+  double age_hours = 0;                  ///< of operation so far, under any duty
+  std::shared_ptr<const LifeTable> lives{};  ///< of today's dresspack, by its age_hours (first_lives())
   double fails_before_first = 0;         ///< before the first window
   std::vector<double> fails_in_week;     ///< (week from today) P(failure in it) of today's dresspack, if it is not replaced
   std::vector<double> fails_until_next;  ///< (window) from it to the next one, if the dresspack lives then
@@ -112,14 +120,16 @@ AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned
 /// Times [days from today] of the windows, then the end of the plan.
 std::vector<double> times_of(const std::vector<Window>& windows, Day today);
 
-/// The dresspacks of a plant under other duties: one that is in `now`, too, under another duty or for other hours, keeps its damage. Its age
-/// are the hours under the new duty that wear it as much, by the median lives of both. A date of its own makes it a new dresspack.
-/// from: day on which the other duties and hours begin. The days until then count in the same way. Dresspacks of one table only come or go today.
-/// Errors: InputError where a duty that begins later than today ends no dresspack: its hours count nothing of what wears before.
+/// (row) Lives of today's dresspacks (D10) [h of operation, under all of their duties]. Those of `tables`, which must outlive them, where
+/// a dresspack has had no other duty.
+std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet, const std::map<std::string, LifeTable>& tables);
+
+/// The dresspacks of a plant under other duties: one that is in `now`, too, under another duty or for other hours, keeps its damage (D10).
+/// A date of its own makes it a new dresspack. from: day on which the other duties and hours begin; the old ones count until then.
+/// Dresspacks of one table only come or go today.
 void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today, Day from);
 
-/// The ages of dresspacks whose duty has a history: hours under their duty of today that wear them as much, by the median lives of both.
-/// A history by dates counts from the day on which a dresspack was installed. One in hours has the first hours of each; a warning
+/// The spells of dresspacks whose duty has a history. A history by dates counts from the day on which a dresspack was installed. One in hours has the first hours of each; a warning
 /// names a dresspack that has run less. tables: also of the duties in histories.
 std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std::map<std::string, LifeTable>& tables, Day today);
 

@@ -137,7 +137,7 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
   for (const std::size_t i : risky) {
     const RowPlan& row = plan.rows[i];
     text +=
-        fmt::format("{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", fleet.rows[i].name, wide, readable(row.run_hours),
+        fmt::format("{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", fleet.rows[i].name, wide, readable(row.age_hours),
                     percent_text(row.fails_before_first), percent_text(row.fails_before),
                     row.window ? day_text(plan.windows[*row.window].first) : "in no window");
   }
@@ -223,7 +223,7 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
     if (known == limits.end() || (!row.hours_per_week && usual == week_hours.end())) continue;
     const std::optional<std::size_t> window = plan.rows[i].window;
     const Day last = window ? plan.windows[*window].first : plan.end;
-    const double weeks = static_cast<double>((last - plan.today).count()) / 7, age = plan.rows[i].run_hours,
+    const double weeks = static_cast<double>((last - plan.today).count()) / 7, age = plan.rows[i].age_hours,
                  then = age + weeks * row.hours_per_week.value_or(usual == week_hours.end() ? 0 : usual->second);
     for (const AgeLimit& limit : known->second) {
       if (!(limit.hours <= then)) continue;
@@ -307,18 +307,17 @@ std::string plan_csv(const Fleet& fleet, const Plan& plan,
   std::string text =
       "name,duty,installed,age_hours,fails_before_first_window,replace_in,fails_before_replacement";
   for (const Window& window : plan.windows) text += fmt::format(",fails_after_{}", day_text(window.first));
-  text += ",check_today_saves,checks_save,age_under_duty_hours\n";
+  text += ",check_today_saves,checks_save\n";
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
     const RowPlan& row = plan.rows[i];
     std::vector<std::string> cells{
         csv_cell(fleet.rows[i].name),          csv_cell(fleet.rows[i].duty),
-        day_text(fleet.rows[i].since),         shortest_text(row.run_hours),
+        day_text(fleet.rows[i].since),         shortest_text(row.age_hours),
         shortest_text(row.fails_before_first), row.window ? day_text(plan.windows[*row.window].first) : "",
         shortest_text(row.fails_before)};
     for (const double share : row.fails_until_next) cells.push_back(shortest_text(share));
     cells.push_back(checks ? shortest_text((*checks)[i].today) : "");
     cells.push_back(checks ? shortest_text((*checks)[i].regular) : "");
-    cells.push_back(shortest_text(row.age_hours));
     text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return text;

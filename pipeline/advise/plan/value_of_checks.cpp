@@ -61,9 +61,9 @@ std::optional<std::vector<CheckValue>> values_of_checks(const Fleet& fleet,
   };
   double survived = 0;  // share of z below that of all that live
   for (std::size_t i = 0; i < fleet.rows.size(); ++i)
-    if (const AbrasionLife* const life = life_of(fleet.rows[i]); life && plan.rows[i].run_hours > 0)
+    if (const AbrasionLife* const life = life_of(fleet.rows[i]); life && plan.rows[i].age_hours > 0)
       survived = std::max(
-          survived, normal_share(std::log10(plan.rows[i].run_hours / life->median) / log10_spread(*life)));
+          survived, normal_share(std::log10(plan.rows[i].age_hours / life->median) / log10_spread(*life)));
   if (1 - survived < fewest_plants) return std::nullopt;
   std::vector<double> z;
   for (std::size_t k = 0; k < values_of_z; ++k)
@@ -76,7 +76,7 @@ std::optional<std::vector<CheckValue>> values_of_checks(const Fleet& fleet,
     if (!abrasion) continue;
     const RowPlan& planned = plan.rows[i];
     const double week = row.hours_per_week.value_or(tables.at(row.duty).hours_per_week),
-                 age = planned.run_hours;  // the rubbing of other duties counts as that of its own
+                 age = planned.age_hours;  // the rubbing of other duties counts as that of its own
     const double end = times.back() / 7 * week, spread = log10_spread(*abrasion),
                  saves = row.unplanned_cost - row.planned_cost;
     std::optional<double> replaced;

@@ -94,7 +94,7 @@ class Values {
       const double hours_per_day = row.hours_per_week.value_or(table.hours_per_week) / 7;
       const Policies& policies = policies_of(row, table, results);
       const Costs costs =
-          costs_of(row, table, plan_.rows[i].age_hours, hours_per_day, times, plan_.weights, policies.best);
+          costs_of(row, *plan_.rows[i].lives, plan_.rows[i].age_hours, hours_per_day, times, plan_.weights, policies.best);
       const VectorXd& now = policies.now;
       const double before =
           (costs.fixed * costs.weights + costs.hours * now.cwiseProduct(costs.weights)).minCoeff();

@@ -124,6 +124,8 @@ TEST_CASE(
   CHECK(log.same_stamp == 2);
   CHECK(log.left_out == 1);
   CHECK(log.first_left_out == 8);
+  for (const char* const stamp : {"Datum Zeit", "Date/Time", "Zeitstempel", "Time stamp", "Datum/Uhrzeit"})
+    CHECK(read(std::string(stamp) + ";Achse_1 [deg];Achse_2 [deg]\n01.03.2027 23:59:59,8;0,0;0\n02.03.2027 00:00:00,0;2,5;0\n").times[1] == Approx(0.2).margin(1e-6));
 }
 
 TEST_CASE("log: a logger that was off, a wrong time and times in milliseconds are named") {
