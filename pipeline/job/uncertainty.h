@@ -97,7 +97,7 @@ struct ParameterKnowledge {
   Eigen::VectorXd mean;        ///< (parameter), in the order of uncertain_parameters()
   Eigen::MatrixXd covariance;  ///< (parameter, parameter)
 };
-/// z of the two other stiffnesses that dresslife-sim and dresslife-strain evaluate, -z and z: by default half and twice the
+/// z of the two other stiffnesses that dresslife-sim and dresslife-strain evaluate, -z and z: by default 0.4 and 2.5 times the
 /// hose's. 0: none, where the stiffness is known or moves nothing.
 double other_stiffness(const Uncertainty& uncertainty);
 /// Independent, mean 0, of the spreads that the job gives.

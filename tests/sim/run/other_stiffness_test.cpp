@@ -71,7 +71,7 @@ pipeline::Job sagging() {
 
 }  // namespace
 
-TEST_CASE("other stiffnesses: the places are those of jobs whose hose is half and twice as stiff") {
+TEST_CASE("other stiffnesses: the places are those of jobs whose hose is softer and stiffer") {
   const pipeline::Job job = sagging();
   const Written both = written(job);
   CHECK(both.warnings.empty());
