@@ -115,7 +115,7 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
     }
     const std::string where = !row.damaged()
                                   ? "no wire is damaged"
-                                  : fmt::format("{}<br>{}", escaped(row.worst_component), place_words(row));
+                                  : fmt::format("<span class=\"soft\">worst wire:</span> {}<br>{}", escaped(row.worst_component), place_words(row));
     const std::string moved =
         !row.damaged()
             ? ""
