@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "pipeline/base/readable.h"
 #include "pipeline/report/chart_style.h"
@@ -47,8 +48,11 @@ std::string lives_section(const ImprovementStory& story) {
       table(
           "<th></th><th class=\"number\">p10 [h]</th><th class=\"number\">p50 [h]</th><th class=\"number\">p90 [h]</th><th>limits</th><th>modes that are not validated</th>",
           (story.before ? row("before", *story.before) : "") +
-              (story.after ? row("after", *story.after) : ""));
+              (story.after ? row(story.keep.empty() ? "after" : "best of the trials", *story.after) : ""));
+  if (!story.keep.empty()) text += fmt::format("<p><b>{}</b></p>\n", escaped(story.keep));
   if (!story.gain.empty()) text += fmt::format("<p>{}</p>\n", escaped(story.gain));
+  std::istringstream lines(story.choice);
+  for (std::string line; std::getline(lines, line);) text += fmt::format("<p>{}</p>\n", escaped(line));
   return text;
 }
 

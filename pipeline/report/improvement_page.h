@@ -36,6 +36,8 @@ struct ImprovementStory {
   std::string name;
   std::vector<Change> changes;
   std::optional<Lives> before, after;
+  std::string keep;                 ///< why the jobs should stay as they are; empty: the best is a gain
+  std::string choice;               ///< lines: by what the best was chosen, and why another was not
   std::string gain;                 ///< sentences; empty: the jobs before do not run
   std::optional<double> longer_in;  ///< share of samples in which the wires live longer than before
   std::vector<Nudge> nudges;

@@ -115,7 +115,7 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
     }
     const std::string where = !row.damaged()
                                   ? "no wire is damaged"
-                                  : fmt::format("{}<br>{}", escaped(row.worst_component), place_words(row));
+                                  : fmt::format("<span class=\"soft\">worst wire:</span> {}<br>{}", escaped(row.worst_component), place_words(row));
     const std::string moved =
         !row.damaged()
             ? ""
@@ -140,7 +140,7 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
         number_cell(static_cast<double>(i + 1), row.rank ? std::to_string(row.rank) : "-"),
         name + stale_note(row),
         number_cell(row.headline_hours(),
-                    "<b>" + std::string(earlier_unvalidated(row) ? "*" : "") + shown_life(row, row.headline_hours()) + "</b>" + certainty_cell(row)),
+                    "<b>" + plan_mark(row) + shown_life(row, row.headline_hours()) + "</b>" + certainty_cell(row)),
         number_cell(bounds.first, shown_range(row, bounds.first, bounds.second)),
         number_cell(row.first_wire_hours[0], first_break_cell(row)),
         number_cell(row.headline_months(), shown_calendar(row)), fails_first + where + unvalidated, moved,
@@ -216,8 +216,11 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "share a rank unless one outlives the other in 90 of 100 samples. "
       "Parts inside a cable rub on each other. Glued .. free: the same p10 if they could not slip, and if they slipped "
       "without friction. First wire: by then a first single wire has broken, by the scatter of wires alone, in 10 .. 90 % "
-      "of such dresspacks. {}</p>\n",
+      "of such dresspacks. {}{}</p>\n",
       sorted_table(heads, ranking_rows(rows, detailed), "jobs", "ranking.csv"), matrix, escaped(unvalidated_legend(rows)),
+      std::any_of(rows.begin(), rows.end(), [](const RankingRow& row) { return plan_mark(row) == "!"; })
+          ? " ! marks jobs whose warnings forbid a plan with these hours."
+          : "",
       chart.empty()
           ? ""
           : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: replace after. Blue bar: the median of the worst wire, glued to "

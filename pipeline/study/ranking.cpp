@@ -437,7 +437,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     const std::array<std::string, 7> cells =
         row.has_result() ? std::array<std::string, 7>{row.rank ? std::to_string(row.rank) : "-",
                                                       one_line(row.job),
-                                                      std::string(row.stale ? "stale " : "") + (earlier_unvalidated(row) ? "*" : "") +
+                                                      std::string(row.stale ? "stale " : "") + plan_mark(row) +
                                                           shown_life(row, row.headline_hours()),
                                                       shown_calendar(row),
                                                       planned_text(row, 1),
@@ -476,7 +476,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     for (const std::string& paragraph : paragraphs(row)) words += below(paragraph);
     if (!words.empty()) details += '\n' + (rows.size() > 1 ? one_line(row.job) + '\n' : "") + words;
   }
-  if (const std::string note = rows.size() > 1 ? unvalidated_note(rows) : ""; !note.empty()) text += wrapped(one_line(note), width, indent);
+  if (const std::string note = rows.size() > 1 ? marks_note(rows) : ""; !note.empty()) text += wrapped(one_line(note), width, indent);
   text += wrapped("h: hours of motion. glued .. free: 'replace after' if the parts inside the cables cannot slide, and if they slide "
                   "without friction.", width, indent);
   text += details;

@@ -140,7 +140,7 @@ std::string unvalidated_legend(const std::vector<RankingRow>& rows) {
   std::map<std::string, int> first;  // jobs in which this mode may come first
   for (const RankingRow& row : rows) {
     if (!row.has_result()) continue;
-    if (const UnvalidatedMode* const mode = earlier_unvalidated(row)) ++first[mode->mode];
+    if (plan_mark(row) == "*") ++first[earlier_unvalidated(row)->mode];
     for (const UnvalidatedMode& mode : row.unvalidated)
       if (std::find(modes.begin(), modes.end(), mode.mode) == modes.end()) modes.push_back(mode.mode);
   }
@@ -156,12 +156,19 @@ std::string earlier_words(const RankingRow& row) {
   return mode ? fmt::format("{}: from {}{}", mode->mode, hours_text(mode->early_hours()), further_unvalidated(row)) : "";
 }
 
-std::string unvalidated_note(const std::vector<RankingRow>& rows) {
-  std::vector<std::string> jobs;
+std::string plan_mark(const RankingRow& row) {
+  if (!row.has_result()) return "";
+  return !is_believable(row) ? "!" : earlier_unvalidated(row) ? "*" : "";
+}
+
+std::string marks_note(const std::vector<RankingRow>& rows) {
+  std::map<std::string, std::vector<std::string>> jobs;  // by their mark
   for (const RankingRow& row : rows)
-    if (const std::string words = row.has_result() ? earlier_words(row) : ""; !words.empty())
-      jobs.push_back((rows.size() > 1 ? row.job + ", " : "") + words);
-  return jobs.empty() ? "" : fmt::format("* Plan with this number, and inspect for modes that are not validated. {}.", joined(jobs, "; "));
+    if (const std::string mark = plan_mark(row); !mark.empty())
+      jobs[mark].push_back((rows.size() > 1 ? row.job + ", " : "") + (mark == "!" ? warning_kinds(row) : earlier_words(row)));
+  return joined_words(
+      {jobs["*"].empty() ? "" : fmt::format("* Plan with this number, and inspect for modes that are not validated. {}.", joined(jobs["*"], "; ")),
+       jobs["!"].empty() ? "" : fmt::format("! Do not plan with this number before its warnings are cured. {}.", joined(jobs["!"], "; "))});
 }
 
 bool is_believable(const RankingRow& row) {

@@ -21,9 +21,11 @@ std::string action_words(const RankingRow& row);
 const UnvalidatedMode* earlier_unvalidated(const RankingRow& row);
 /// "abrasion: from 1,080 h, jacket wear: from 6,870 h": these modes, the earliest first. Empty: none.
 std::string earlier_words(const RankingRow& row);
-/// "* Plan with this number, and inspect for modes that are not validated. hard, abrasion: from 1,080 h." Of the rows that are marked with * in a
-/// table. Empty: none.
-std::string unvalidated_note(const std::vector<RankingRow>& rows);
+/// Of a row in a table: "!" where a warning forbids to plan with its hours, "*" where one of these modes may come first. Empty: neither.
+std::string plan_mark(const RankingRow& row);
+/// "* Plan with this number, and inspect for modes that are not validated. easy, jacket wear: from 12,100 h. ! Do not plan with
+/// this number before its warnings are cured. hard, bend radius." Empty: no row is marked.
+std::string marks_note(const std::vector<RankingRow>& rows);
 /// Below a table of many jobs: the modes that are not in its hours, and in how many jobs which of them may come first, as
 /// their * says. Empty: none was evaluated.
 std::string unvalidated_legend(const std::vector<RankingRow>& rows);

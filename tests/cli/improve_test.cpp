@@ -161,6 +161,38 @@ TEST_CASE("a search that is killed ends where it would have ended") {
         content(scratch / "whole/better_improve/improve.csv"));
 }
 
+TEST_CASE("improve writes the best as drawn before it is verified, and a killed search replaces it when it goes on") {
+  Scratch scratch;
+  write_turned_study(scratch);
+  std::string job = content(scratch / "job.yaml");
+  scratch.write("job.yaml", job + "dresspack.least_bend_radius_mm: 30\ndresspack.most_twist_deg_per_m: 300\nstrain: {slip: free}\n"
+                                  "fatigue: {robot_life_hours: 10000000}\n");
+  const std::string line =
+      "improve job.yaml --free 'routing.pre_twist_deg=-40 .. 60' --trials 3 --rehearsals 0 --off 0 --off-deg 10 --quiet -j 1";
+  const Outcome killed = run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' " + line + " & pid=$!\n"
+                                            "for k in $(seq 3000); do\n"
+                                            "  grep -qs 'Not yet verified within the mounting tolerance' job_improved.yaml && break\n"
+                                            "  kill -0 $pid || break\n"
+                                            "  sleep 0.1\n"
+                                            "done\n"
+                                            "kill -9 $pid; wait $pid; echo $?");
+  INFO(killed.out << killed.err);
+  REQUIRE(killed.out.ends_with("137\n"));
+  const std::string early = content(scratch / "job_improved.yaml");
+  CHECK_THAT(early, Catch::Contains("# Not yet verified within the mounting tolerance. The command replaces this file at its end.\n"));
+  CHECK_THAT(must_run(scratch, "dresslife", "show job_improved.yaml").out, Catch::Contains("pre_twist_deg: "));  // a whole job
+  const auto notes = notes_of(scratch / "runs/job_improve");
+  const Outcome ended = must_run(scratch, "dresslife", line);
+  CHECK_THAT(ended.out, Catch::Contains("\nShort job: job_improved.yaml\n"));
+  const std::string last = content(scratch / "job_improved.yaml");
+  CHECK_THAT(last, !Catch::Contains("Not yet verified") && Catch::Contains("pre_twist_deg: "));
+  // The trials that were done are not run again.
+  const auto after = notes_of(scratch / "runs/job_improve");
+  CHECK_FALSE(notes.empty());
+  for (const auto& [stage, time] : notes)
+    if (stage.string().find("trial_") != std::string::npos) CHECK((after.contains(stage) && after.at(stage) == time));
+}
+
 TEST_CASE("a search whose file changes ends with what it found, and names the file") {
   Scratch scratch;
   write_small_study(scratch);

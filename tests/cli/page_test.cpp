@@ -187,7 +187,7 @@ TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws")
     holds(page, fmt::format("<p><b>Do not plan with {}: ", dresslife::pipeline::hours_text(hours)));
     holds(page, fmt::format("Half have failed after {}, ", printed_hours(life.number_attribute("life_hours_p50"))));
     holds(page, fmt::format("The median of the worst wire is {} h.", printed(life.number_attribute("life_hours"))));
-    holds(report, fmt::format("data-value=\"{}\"><b>{}</b>", dresslife::pipeline::shortest_text(hours),
+    holds(report, fmt::format("data-value=\"{}\"><b>!{}</b>", dresslife::pipeline::shortest_text(hours),
                               printed(hours)));
     // Shares of what clamps and layers have of the damage.
     const auto clamps = life.read<double>("/clamp/damage"), layers = life.read<double>("/layer/damage");

@@ -68,6 +68,30 @@ std::string refused_words(const Improvement& found, const Outcome& best) {
                      hours_text(of.hours), modes);
 }
 
+/// That the jobs should stay as they are, and why; empty: the best is a gain.
+std::string keep_words(const Finals& finals) {
+  const Final& best = *finals.best();
+  if (finals.is_gain(best)) return "";
+  return clearly_better(best.merit, finals.of.front().merit)
+             ? "Keep the job as it is. Nothing that was tried is clearly better within the mounting tolerance."
+             : "Keep the job as it is. Nothing that was tried is clearly better.";
+}
+
+/// The worst results within the mounting tolerance, by which the best was chosen, and why others were not, as lines; empty: none.
+std::string choice_words(const Improvement& found, const Finals& finals) {
+  const Final& best = *finals.best();
+  std::string text;
+  const auto add_worst = [&](const char* of, const Final& judged) {
+    if (judged.tolerance)
+      text += fmt::format("{}, within the mounting tolerance: {} in the worst case found\n", of,
+                          outcome_words(judged.tolerance->worst_outcome, judged.tolerance->worst_outcome.hours));
+  };
+  if (finals.of.front().tolerance) add_worst("The proposed job", best);
+  add_worst("The job as it is", finals.of.front());
+  return text + other_words(found, finals) +
+         refused_words(found, finals.is_gain(best) ? found.trials[best.trial].worst : found.trials.front().worst);
+}
+
 std::string change_lines(const Trial& trial) {
   std::string text;
   for (const std::string& set : trial.sets) text += fmt::format("    --set '{}'\n", set);
@@ -128,6 +152,8 @@ ImprovementStory story_of(const Improvement& found, const Finals& finals, Second
     story.changes.push_back(
         {found.freed[k], found.own[k], trial.sets[k].substr(trial.sets[k].find('=') + 1)});
   if (best->tolerance) story.nudges = best->tolerance->nudges;
+  story.keep = keep_words(finals);
+  story.choice = choice_words(found, finals);
   story.gain = gain_words(best->merit, trial.worst, finals.of.front().merit, found.trials.front().worst,
                           story.longer_in);
   return story;
@@ -172,27 +198,13 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   if (found.front.size() > 1) return text + front_words(found, finals, story, second, tolerance);
   const Final& best = *finals.best();
   const Trial& trial = found.trials[best.trial];
-  const std::string judged = best.tolerance ? tolerance_words(story.nudges, tolerance) +
-                                                  other_words(found, finals) + unjudged_words(found)
-                                            : "";
-  const std::string of_best = fmt::format("rial {} of {}: {}\n", best.trial, found.trials.size(),
-                                          outcome_words(trial.worst, best.hours));
-  const Final& original = finals.of.front();
-  const std::string worst =
-      original.tolerance ? fmt::format("As it is, within the same tolerance: {} in the worst case found\n",
-                                       outcome_words(original.tolerance->worst_outcome, original.tolerance->worst_outcome.hours))
-                         : "";
-  if (!finals.is_gain(best)) {
-    const bool as_drawn = clearly_better(best.merit, original.merit);
-    return text + "Keep the job as it is. " +
-           (as_drawn
-                ? "Nothing that was tried is clearly better within the mounting tolerance. As drawn the best of it is t"
-                : "Nothing that was tried is clearly better. The nearest is t") +
-           of_best + story.gain + (story.gain.empty() ? "" : "\n") + judged + worst +
-           refused_words(found, was);
-  }
-  text += "T" + of_best + story.gain + (story.gain.empty() ? "" : "\n") + judged + worst +
-          refused_words(found, trial.worst);
+  const std::string judged =
+      best.tolerance ? tolerance_words(story.nudges, tolerance) + unjudged_words(found) : "";
+  const bool gain = finals.is_gain(best);
+  text += fmt::format("{}{} {} of {}: {}\n{}{}{}{}", story.keep, gain ? "Trial" : " The best of it is trial", best.trial,
+                      found.trials.size(), outcome_words(trial.worst, best.hours), story.gain,
+                      story.gain.empty() ? "" : "\n", judged, story.choice);
+  if (!gain) return text;
   if (const RankingRow* const row = finals.worst_row(best)) {
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");

@@ -419,8 +419,20 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   const auto listed = read_ranking({job_with(scratch, "both", both)});
   CHECK_THAT(action_words(listed[0]), Catch::Contains("51,000 h (10 .. 90 %, not validated): inspect it there. Inspect also for: abrasion: from "
                                                       "25,000 h. The wires last longer"));
-  CHECK(unvalidated_note(listed) ==
+  CHECK(marks_note(listed) ==
         "* Plan with this number, and inspect for modes that are not validated. jacket wear: from 300 h, abrasion: from 25,000 h.");
+  // A job with which nobody may plan is not marked as one to plan with.
+  auto marked = read_ranking({job_with(scratch, "both", both), job_with(scratch, "bent", both)});
+  marked[1].warnings = std::vector<Warning>{{WarningKind::bend_radius, "", "smallest bend radius"}};
+  CHECK(plan_mark(marked[0]) == "*");
+  CHECK(plan_mark(marked[1]) == "!");
+  CHECK(marks_note(marked) ==
+        fmt::format("* Plan with this number, and inspect for modes that are not validated. {}, jacket wear: from 300 h, abrasion: from "
+                    "25,000 h. ! Do not plan with this number before its warnings are cured. {}, bend radius.",
+                    marked[0].job, marked[1].job));
+  const std::string printed = ranking_table(marked);
+  CHECK_THAT(printed, Catch::Contains("*over 40,000") && Catch::Contains("!over 40,000"));
+  CHECK_THAT(unvalidated_legend(marked), Catch::Contains("* marks jobs in which one of them may come first: jacket wear in 1 job."));
   CHECK(line_of(worn).mode == "jacket wear† of signal cable 3");
   CHECK(line_of(worn).hours[0] == "300");
   CHECK(line_of(still).mode == "jacket wear†: nothing rubs");

@@ -234,6 +234,9 @@ TEST_CASE("urdf: what is wrong is told with its line") {
   refused("rpy=\"0 0 1.5707963267948966\"", "rpy=\"0 0 90\"", "<origin xyz=\"0.3 0 0.1\"",
           "rpy=\"0 0 90\" turns by more than 6.3 rad; write rpy=\"0 0 1.5708\" if those were degrees");
   CHECK_NOTHROW(robot_of(changed("rpy=\"0 0 1.5707963267948966\"", "rpy=\"0 0 -6.2832\"")));
+  // A joint that turns about x by a forgotten axis is a wrong robot without a sign of it.
+  refused("<origin xyz=\"0 0 1\"/>\n    <axis xyz=\"0 1 0\"/>", "<origin xyz=\"0 0 1\"/>", "<joint name=\"j3\"",
+          "joint 'j3' has no <axis> (by the URDF standard it turns about x); write <axis xyz=\"1 0 0\"/> into it");
   // Millimetres. A floor beside the base may be large.
   refused(
       "<origin xyz=\"0 0 1\"/>\n    <axis", "<origin xyz=\"0 0 -1000\"/>\n    <axis", "<joint name=\"j3\"",

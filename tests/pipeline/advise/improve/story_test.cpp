@@ -54,7 +54,7 @@ Searched searched_of(const std::vector<Life>& lives, std::optional<double> longe
 TEST_CASE("improve: the changes of a trial are listed only if it is clearly better") {
   CHECK(
       searched_of({{1000}, {800}}).words() ==
-      "As it is: 1,000 h, all limits kept\nKeep the job as it is. Nothing that was tried is clearly better. The nearest is trial 1 of 2: "
+      "As it is: 1,000 h, all limits kept\nKeep the job as it is. Nothing that was tried is clearly better. The best of it is trial 1 of 2: "
       "800 h, all limits kept\nThe wires live 0.8 times as long. First of the modes that are not validated: none in the robot's life "
       "(as it is: none in the robot's life).\n");
   CHECK_THAT(searched_of({{1000}, {1050}}).words(),
@@ -130,7 +130,17 @@ TEST_CASE(
       searched.words(tolerance_of(10, 10)),
       Catch::Contains("\nTrial 2 of 3") && Catch::Contains("--set") &&
           Catch::Contains(
-              "As it is, within the same tolerance: 300 h, all limits kept in the worst case found\n"));
+              "The proposed job, within the mounting tolerance: 700 h, all limits kept in the worst case found\n"
+              "The job as it is, within the mounting tolerance: 300 h, all limits kept in the worst case found\n"));
+  // The page says the same, also where both lives of the proposed job are shorter as drawn.
+  searched.found.trials[2].worst.hours = searched.finals.of[2].hours = 900;
+  const std::string chosen = improvement_page(searched.story());
+  CHECK_THAT(chosen, Catch::Contains("<p>The wires live 0.9 times as long.") &&
+                         Catch::Contains("<p>The proposed job, within the mounting tolerance: 700 h, all limits kept in the worst case found</p>") &&
+                         Catch::Contains("<p>The job as it is, within the mounting tolerance: 300 h, all limits kept in the worst case found</p>"));
+  judge(0, 900);
+  CHECK_THAT(improvement_page(searched.story()),
+             Catch::Contains("<p><b>Keep the job as it is. Nothing that was tried is clearly better") && Catch::Contains("<td>best of the trials</td>"));
 }
 
 }  // namespace
