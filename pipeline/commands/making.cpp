@@ -128,9 +128,8 @@ int make_rest(const StudyRequest& request, StudyState& standing, const RunOption
   int started = 0;
   if (!remembered && left > 1) {
     started = make_first_of_likes(study, places, options, standing.states, digests, progress);
-    left = static_cast<std::size_t>(std::count_if(states.begin(), states.end(), [&](const JobState& state) {
-      return study.jobs[static_cast<std::size_t>(&state - states.data())].failure.empty() && !state.done();
-    }));
+    left = 0;
+    for (std::size_t k = 0; k < states.size(); ++k) left += study.jobs[k].failure.empty() && !states[k].done();
   }
   if (remembered)
     renew_receipts(study, places, states);
