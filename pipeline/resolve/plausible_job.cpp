@@ -851,7 +851,7 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
 
 /// Up to the fourth segment the parabola that gives the bend at a clamp (W39) contains links outside the relief.
 void doubt_bend_reliefs(const Routing& routing, int segments, std::vector<Warning>& warnings) {
-  constexpr int fewest = 4;
+  constexpr int fewest = fewest_relief_segments;
   std::vector<const Clamp*> clamps;
   for (const std::optional<Clamp>* end : {&routing.base_clamp, &routing.tool_clamp})
     if (*end) clamps.push_back(&**end);

@@ -68,6 +68,15 @@ std::string refused_words(const Improvement& found, const Outcome& best) {
                      hours_text(of.hours), modes);
 }
 
+/// Of the bend reliefs that keep all limits, but make something fail earlier.
+std::string relief_words(const Improvement& found) {
+  std::string text;
+  for (std::size_t k = 0; k < found.trials.size(); ++k)
+    if (const Trial& trial = found.trials[k]; !trial.relief_refusal.empty() && trial.worst.violation() == 0)
+      text += fmt::format("Trial {} keeps all limits by a bend relief, but was refused: {}.\n", k, trial.relief_refusal);
+  return text;
+}
+
 std::string change_lines(const Trial& trial) {
   std::string text;
   for (const std::string& set : trial.sets) text += fmt::format("    --set '{}'\n", set);
@@ -93,10 +102,10 @@ std::string front_words(const Improvement& found, const Finals& finals, const Im
 }
 
 /// The freed keys whose errors nothing judged, as a line; empty: none.
-std::string unjudged_words(const Improvement& found) {
+std::string unjudged_words(const Improvement& found, const Trial& best) {
   std::string keys;
   for (const std::string& key : found.freed)
-    if (!has_mounting_tolerance(key)) keys += (keys.empty() ? "" : ", ") + key;
+    if (!value_in(best, key).empty() && !has_mounting_tolerance(key)) keys += (keys.empty() ? "" : ", ") + key;
   return keys.empty() ? "" : fmt::format("Without a mounting tolerance: {}\n", keys);
 }
 
@@ -124,9 +133,9 @@ ImprovementStory story_of(const Improvement& found, const Finals& finals, Second
   const Trial& trial = found.trials[best->trial];
   story.after = lives_of(finals, *best, trial.worst, places);
   story.longer_in = share_longer(finals, *best, places);
-  for (std::size_t k = 0; k < trial.sets.size(); ++k)
-    story.changes.push_back(
-        {found.freed[k], found.own[k], trial.sets[k].substr(trial.sets[k].find('=') + 1)});
+  for (std::size_t k = 0; k < found.freed.size(); ++k)
+    if (const std::string value = value_in(trial, found.freed[k]); !value.empty())
+      story.changes.push_back({found.freed[k], found.own[k], value});
   if (best->tolerance) story.nudges = best->tolerance->nudges;
   story.gain = gain_words(best->merit, trial.worst, finals.of.front().merit, found.trials.front().worst,
                           story.longer_in);
@@ -167,13 +176,13 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
     text += fmt::format("No feasible job was found in {} trial{} and {} short runs.\n", found.trials.size(),
                         found.trials.size() == 1 ? "" : "s", found.rehearsals);
     for (const std::string& line : found.obstacle) text += line + "\n";
-    return text;
+    return text + relief_words(found);
   }
   if (found.front.size() > 1) return text + front_words(found, finals, story, second, tolerance);
   const Final& best = *finals.best();
   const Trial& trial = found.trials[best.trial];
   const std::string judged = best.tolerance ? tolerance_words(story.nudges, tolerance) +
-                                                  other_words(found, finals) + unjudged_words(found)
+                                                  other_words(found, finals) + unjudged_words(found, trial)
                                             : "";
   const std::string of_best = fmt::format("rial {} of {}: {}\n", best.trial, found.trials.size(),
                                           outcome_words(trial.worst, best.hours));
@@ -189,10 +198,10 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
                 ? "Nothing that was tried is clearly better within the mounting tolerance. As drawn the best of it is t"
                 : "Nothing that was tried is clearly better. The nearest is t") +
            of_best + story.gain + (story.gain.empty() ? "" : "\n") + judged + worst +
-           refused_words(found, was);
+           refused_words(found, was) + relief_words(found);
   }
   text += "T" + of_best + story.gain + (story.gain.empty() ? "" : "\n") + judged + worst +
-          refused_words(found, trial.worst);
+          refused_words(found, trial.worst) + relief_words(found);
   if (const RankingRow* const row = finals.worst_row(best)) {
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");
