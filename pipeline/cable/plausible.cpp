@@ -52,6 +52,8 @@ constexpr double least_slack = 5e-4;  // half a millimetre in a metre: nobody la
 constexpr double least_grip = 1;                       // [N]: a cable's weight in half a metre of hose
 constexpr double largest_construction_curvature = 50;  // [1/m]: a radius of 20 mm
 constexpr double thinnest_sleeve = 0.05e-3, thickest_sleeve = 0.25;  // [m], and of the diameter
+/// [m3/(N m)]: a tenth of the least rate of polymers that slide (1e-7 mm3/(N m)); above abrasive cloth on polyurethane (0.075).
+constexpr double least_wear = 1e-17, most_wear = 1e-10;
 constexpr double strongest_part =
     200e6;  // [Pa] over the whole section of a part: a cable is half metal and tears at 400 MPa
 constexpr double fewest_rated = 100;                          // cycles
@@ -462,6 +464,15 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
             : "hose_material and inner_diameter_mm of the hose, or axial_stiffness_N as measured");
   plausible_size(dresspack, judge);
   plausible_limits(dresspack, judge);
+  for (const Material& of : dresspack.materials)
+    for (const WearRate& wear : of.wear)
+      if (wear.rate < least_wear || wear.rate > most_wear)
+        judge.add(of.where,
+                  fmt::format("rate_mm3_per_Nm of '{}' is {:.3g} (limits {:g} .. {:g})", of.name, 1e9 * wear.rate, 1e9 * least_wear,
+                              1e9 * most_wear),
+                  wear.rate < least_wear ? "m3/(N m) instead of mm3/(N m)" : "more than abrasive cloth takes off: another unit",
+                  wear.rate < least_wear ? fmt::format("rate_mm3_per_Nm: {:.3g} if that was m3/(N m)", 1e18 * wear.rate)
+                                         : "rate_mm3_per_Nm as measured; polymers that slide: 1e-7 .. 1e-3");
   for (const Material& of : dresspack.materials)
     if (has_wire_of(dresspack.components, of.name)) plausible_metal(of, judge);
   for (const Component& of : dresspack.components)

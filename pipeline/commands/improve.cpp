@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -37,6 +38,7 @@ void show(Progress& progress, const Improvement& so_far, int trials) {
   const std::string best_words =
       best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits";
   const std::size_t done = so_far.trials.size();
+  trials = std::max(trials, static_cast<int>(done));  // bend reliefs come after those that were asked for
   if (done <= 1 && so_far.rehearsals < so_far.most_rehearsals)
     progress.show(static_cast<double>(so_far.rehearsals) / so_far.most_rehearsals,
                   fmt::format("short run {} of about {} before the first of {} trials", so_far.rehearsals,
@@ -169,7 +171,7 @@ Command improve_command() {
              &request.frees},
             {"--trials",
              "COUNT",
-             "jobs to try, or sets of all the study's jobs",
+             "jobs to try, or sets of all the study's jobs; then a few with bend reliefs, where a bend at a clamp decides",
              &request.trials,
              {.range = {{2, 100'000}}}},
             {"--at-a-time",

@@ -1,6 +1,9 @@
 #include "pipeline/job/routing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/base/joined.h"
 #include "pipeline/settings/fields.h"
@@ -240,6 +243,16 @@ void place_clamps(Routing& routing, const Robot& robot) {
     if (*clamp) place(**clamp);
   for (IntermediateClamp& between : routing.clamps) place(between.clamp);
   problems.finish();
+}
+
+BendRelief first_relief(double diameter, double stiffness, double segment) {
+  constexpr double diameters = 3, rounding = 1e-9;
+  const double length = std::max(diameters * diameter, fewest_relief_segments * segment);
+  return {std::ceil(1e3 * length - rounding) / 1e3, std::stod(fmt::format("{:.3g}", stiffness))};
+}
+
+std::string relief_text(const BendRelief& relief) {
+  return fmt::format("{{length_mm: {:.6g}, bending_stiffness_Nm2: {:.6g}}}", 1e3 * relief.length, relief.stiffness);
 }
 
 std::vector<std::array<BendRelief, 2>> bend_reliefs(const Routing& routing) {

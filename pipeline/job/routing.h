@@ -98,6 +98,15 @@ void describe(Fields& f, Routing& routing);
 /// with the names of the robot's mounting points.
 void place_clamps(Routing& routing, const Robot& robot);
 
+/// The bend at a clamp is computed from its first four links (W39), which must all lie in a relief.
+inline constexpr int fewest_relief_segments = 4;
+/// A relief to try first: three diameters long, so that it bends as a beam, and at least fewest_relief_segments; as stiff as the
+/// dresspack, which halves the curvature at the clamp. Stiffer ones move the bend to their end (fatigue/measurements.md). Rounded
+/// up to mm, and to three digits. diameter, segment [m], stiffness [N m2] of the dresspack.
+BendRelief first_relief(double diameter, double stiffness, double segment);
+/// "{length_mm: 180, bending_stiffness_Nm2: 6.7}"
+std::string relief_text(const BendRelief& relief);
+
 /// (piece between two clamps) at its base and at its tool end.
 std::vector<std::array<BendRelief, 2>> bend_reliefs(const Routing& routing);
 

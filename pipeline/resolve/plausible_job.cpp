@@ -850,14 +850,24 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
 }
 
 /// Up to the fourth segment the parabola that gives the bend at a clamp (W39) contains links outside the relief.
-void doubt_bend_reliefs(const Routing& routing, int segments, std::vector<Warning>& warnings) {
-  constexpr int fewest = 4;
+/// In a relief of ten times the dresspack's stiffness the dresspack bends less than a tenth as much as beside it: it is a longer clamp.
+void doubt_bend_reliefs(const MountedDresspack& mounted, int segments, std::vector<Warning>& warnings) {
+  constexpr int fewest = fewest_relief_segments;
+  constexpr double rigid = 10;
+  const Routing& routing = mounted.routing;
   std::vector<const Clamp*> clamps;
   for (const std::optional<Clamp>* end : {&routing.base_clamp, &routing.tool_clamp})
     if (*end) clamps.push_back(&**end);
   for (const IntermediateClamp& between : routing.clamps) clamps.push_back(&between.clamp);
   for (const Clamp* const clamp : clamps) {
     if (!clamp->bend_relief || clamp->bend_relief->length == 0 || clamp->bend_relief->stiffness == 0) continue;
+    if (const double own = mounted.dresspack.bending_stiffness, stiffness = clamp->bend_relief->stiffness;
+        own > 0 && stiffness > rigid * own)
+      warnings.push_back(warning_of(
+          WarningKind::material, clamp->where.text(),
+          fmt::format("bend_relief.bending_stiffness_Nm2 is {:.4g} (limit {:.2g}, {:g} times the dresspack's)", stiffness, rigid * own, rigid),
+          "N mm2 instead of N m2, or a tube: the dresspack bends at its end as at a clamp",
+          fmt::format("bending_stiffness_Nm2: {:.2g}, as the dresspack", own)));
     const double length = clamp->bend_relief->length, within = length * segments / routing.free_length;
     if (within >= fewest) continue;
     warnings.push_back(warning_of(
@@ -882,7 +892,7 @@ std::vector<Warning> plausibility_warnings(const Job& job) {
                                   "seconds instead of 1/s; the samples miss the hose's swing",
                                   "simulation.sample_rate_Hz: 25"));
   if (!motion.is_prescribed())
-    for (const MountedDresspack& mounted : job.dresspacks) doubt_bend_reliefs(mounted.routing, job.simulation.segments, warnings);
+    for (const MountedDresspack& mounted : job.dresspacks) doubt_bend_reliefs(mounted, job.simulation.segments, warnings);
   if (job.strain.gate > largest_gate)
     warnings.push_back(
         warning_of(WarningKind::strain, "",

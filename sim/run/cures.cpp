@@ -343,8 +343,10 @@ std::string relief_remark(const CheckedMotion& motion, const Check& broken) {
     add(routing.clamps[k].clamp, routing.clamps[k].at_length, fmt::format("routing.clamps.{}", k + 1));
   add(routing.tool_clamp, routing.free_length, "routing.tool_clamp");
   if (broken.position < 0 || bare.empty()) return "";
-  return fmt::format("; beside the clamp a sleeve or spring may spread the bend, not tried: {}.bend_relief",
-                     key_of(motion.setup, broken.dresspack, std::min_element(bare.begin(), bare.end())->second));
+  const pipeline::Dresspack& dresspack = mounted_of(motion, broken).dresspack;
+  return fmt::format("; a sleeve or spring beside the clamp may spread the bend, which dresslife improve tries: {}.bend_relief={}",
+                     key_of(motion.setup, broken.dresspack, std::min_element(bare.begin(), bare.end())->second),
+                     pipeline::relief_text(pipeline::first_relief(dresspack.diameter, dresspack.bending_stiffness, routing.free_length / motion.setup.simulation.segments)));
 }
 
 /// The acceleration that keeps the limit, if one is found; 0: none.

@@ -9,6 +9,7 @@
 
 #include "pipeline/advise/improve/faults.h"
 #include "pipeline/advise/improve/obstacle.h"
+#include "pipeline/advise/improve/reliefs.h"
 #include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
 #include "pipeline/base/csv_rows.h"
@@ -114,14 +115,17 @@ class Improver {
     }
     done_.trials.push_back(std::move(as_it_is));
     makers_.tell(done_);
+    bool stopped_early = false;
     try {
       try_others(*search);
+      stopped_early = static_cast<int>(done_.trials.size()) < request_.trials;
+      try_reliefs();
     } catch (const FilesChanged& change) {
       done_.ended = change.what();
     }
     done_.front = best_trials();
     if (done_.front.empty()) done_.obstacle = obstacle_words(done_.trials, freedom_);
-    if (done_.ended.empty() && static_cast<int>(done_.trials.size()) < request_.trials)
+    if (done_.ended.empty() && stopped_early)
       done_.obstacle.insert(
           done_.obstacle.begin(),
           fmt::format("The search stopped early: of {} short runs the nearest to the limits: {}",
@@ -146,6 +150,31 @@ class Improver {
       search.tell(looks);
       makers_.tell(done_);
     }
+  }
+
+  /// On the best trial, where its wires break beside a clamp, or on the nearest to the limits, where a bend passes its limit. Those by
+  /// which something fails earlier are refused, and the order of trials decides about the others.
+  void try_reliefs() {
+    const std::optional<std::size_t> best = done_.best();
+    const std::size_t of = best ? *best : nearest_trial(done_.trials);
+    if (of == done_.trials.size()) return;
+    const Trial bare = done_.trials[of];
+    if (best ? !bare.breaks_beside_clamp : !(bare.worst.beyond[bend_limit] > 0)) return;
+    std::vector<std::vector<std::string>> sets;
+    for (const std::vector<std::string>& relief : reliefs_of(*changed_jobs(request_, bare.sets, "bare").front().job)) {
+      sets.push_back(bare.sets);
+      sets.back().insert(sets.back().end(), relief.begin(), relief.end());
+      for (const std::string& set : relief)
+        if (const std::string key = set.substr(0, set.find('='));
+            std::find(done_.freed.begin(), done_.freed.end(), key) == done_.freed.end())
+          done_.freed.push_back(key), done_.own.emplace_back();
+    }
+    for (Trial& trial : tried(sets)) {
+      if (trial.worst.failure.empty()) trial.relief_refusal = earlier_failures(trial.worst, bare.worst);
+      if (!trial.relief_refusal.empty()) trial.worst.failure = "its bend relief makes fail earlier: " + trial.relief_refusal;
+      done_.trials.push_back(std::move(trial));
+    }
+    makers_.tell(done_);
   }
 
   std::size_t aims() const { return request_.second == SecondAim::none ? 1 : 2; }
@@ -285,6 +314,7 @@ class Improver {
     std::vector<Trial> trials(sets.size());
     Study study{done_.name, {}, done_.keep_trials};
     std::map<std::string, std::pair<std::size_t, std::size_t>> trial_of;  // job: trial, and which of its jobs
+    std::map<std::string, std::shared_ptr<const Job>> study_job_of;
     for (std::size_t k = 0; k < sets.size(); ++k) {
       Trial& trial = trials[k];
       trial.sets = sets[k];
@@ -295,6 +325,7 @@ class Improver {
       for (std::size_t j = 0; j < jobs.size(); ++j) {
         trial.jobs.push_back(jobs[j].name);
         trial_of[jobs[j].name] = {k, j};
+        study_job_of[jobs[j].name] = jobs[j].job;
         study.jobs.push_back(jobs[j]);
       }
     }
@@ -303,6 +334,7 @@ class Improver {
       const auto [k, j] = trial_of.at(row.job);
       trials[k].outcomes[j] = outcome_of(row, places_.job(row.job), done_.limits);
       trials[k].cycle_seconds += row.repeat_seconds;
+      if (breaks_beside_clamp(*study_job_of.at(row.job), row)) trials[k].breaks_beside_clamp = true;
     }
     for (Trial& trial : trials) trial.worst = worst_of(trial.outcomes);
     add_geometry(trials);
@@ -371,6 +403,12 @@ std::optional<std::size_t> Improvement::best() const {
   return found;
 }
 
+std::string value_in(const Trial& trial, const std::string& key) {
+  for (const std::string& set : trial.sets)
+    if (set.starts_with(key + "=")) return set.substr(key.size() + 1);
+  return "";
+}
+
 std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vector<std::string>& sets,
                                    const std::string& prefix) {
   std::vector<std::string> all = request.sets;
@@ -404,15 +442,14 @@ std::string improvement_csv(const Improvement& improvement) {
   for (std::size_t k = 0; k < improvement.trials.size(); ++k) {
     const Trial& trial = improvement.trials[k];
     const bool ran = trial.worst.failure.empty();
-    const std::string words = ran ? trial.worst.words() : trial.worst.failure + "; " + trial.screened;
+    const std::string words = ran ? trial.worst.words() : trial.worst.failure + (trial.screened.empty() ? "" : "; ") + trial.screened;
     text += fmt::format("{},{},{},{},{},{}", k, trial.worst.feasible() ? 1 : 0,
                         ran ? shortest_text(trial.worst.hours) : "", csv_cell(words),
                         shortest_text(trial.hose_length), ran ? shortest_text(trial.cycle_seconds) : "");
     const ModeLife first = first_mode(trial.worst);
     text += fmt::format(",{},{}", csv_cell(first.mode),
                         ran && !first.mode.empty() ? shortest_text(first.hours) : "");
-    for (std::size_t j = 0; j < improvement.freed.size(); ++j)
-      text += "," + (trial.sets.empty() ? "" : csv_cell(trial.sets[j].substr(trial.sets[j].find('=') + 1)));
+    for (const std::string& freed : improvement.freed) text += "," + csv_cell(value_in(trial, freed));
     text += "\n";
   }
   return text;

@@ -56,6 +56,8 @@ struct Trial {
   Outcome worst;                  ///< of all jobs
   double hose_length = 0;         ///< of the longest dresspack [m]
   double cycle_seconds = 0;       ///< of all jobs together [s]
+  std::string relief_refusal;     ///< what its bend relief makes fail earlier, which is also its failure; empty: nothing
+  bool breaks_beside_clamp = false;  ///< of some job (reliefs.h)
   std::string screened;           ///< limits that geometry rejects it for; empty: none, or not screened
 };
 
@@ -86,6 +88,9 @@ struct TrialMakers {
 /// places: of the study of trials. Errors: InputError for a key that cannot be free; a study whose jobs cannot be
 /// read.
 Improvement improve(const ImproveRequest& request, const StudyPlaces& places, const TrialMakers& makers);
+
+/// The value of a key in a trial's changes; empty: it has none.
+std::string value_in(const Trial& trial, const std::string& key);
 
 /// The study's jobs with changes, named PREFIX, or PREFIX_JOB of several.
 std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vector<std::string>& sets,

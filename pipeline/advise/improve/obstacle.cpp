@@ -7,10 +7,8 @@
 #include <limits>
 
 namespace dresslife::pipeline {
-namespace {
 
-/// That ran and is least beyond its limits; trials.size(): none ran.
-std::size_t nearest_of(const std::vector<Trial>& trials) {
+std::size_t nearest_trial(const std::vector<Trial>& trials) {
   double least = std::numeric_limits<double>::infinity();
   std::size_t nearest = trials.size();
   for (std::size_t k = 0; k < trials.size(); ++k)
@@ -18,6 +16,8 @@ std::size_t nearest_of(const std::vector<Trial>& trials) {
       least = trials[k].worst.violation(), nearest = k;
   return nearest;
 }
+
+namespace {
 
 /// Limits that stand against the trials: those that none keeps; if each is kept by some, those that the
 /// nearest passes.
@@ -54,7 +54,7 @@ std::string life_words(const Trial& nearest, const Trial& as_they_are) {
 }  // namespace
 
 std::vector<std::string> obstacle_words(const std::vector<Trial>& trials, const Freedom& freedom) {
-  const std::size_t k = nearest_of(trials);
+  const std::size_t k = nearest_trial(trials);
   if (k == trials.size()) return {fmt::format("No trial runs; the last: {}", trials.back().worst.failure)};
   const Trial& nearest = trials[k];
   std::vector<std::string> lines{

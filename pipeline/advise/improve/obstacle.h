@@ -10,6 +10,9 @@
 
 namespace dresslife::pipeline {
 
+/// The trial that ran with the smallest violation; trials.size(): none ran.
+std::size_t nearest_trial(const std::vector<Trial>& trials);
+
 /// A line each: the trial with the smallest violation, its violated limits and its life beside the original jobs (the
 /// first trial); each limit that no trial satisfies; ends of ranges at which that trial is. Precondition: no trial is
 /// feasible.

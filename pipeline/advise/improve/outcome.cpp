@@ -41,7 +41,7 @@ enum Limit {
   kink,
   bracket
 };
-static_assert(bracket == bracket_limit);
+static_assert(bracket == bracket_limit && bend == bend_limit);
 
 /// reached: value and limit in words.
 void see(Outcome& outcome, Limit limit, double g, const std::string& reached = "") {

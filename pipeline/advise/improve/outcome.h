@@ -32,6 +32,7 @@ void check_evaluated(const AskedLimits& asked, const RankingRow& row);
 inline constexpr int outcome_limits = 15;
 const std::vector<std::string>& outcome_limit_names();
 
+inline constexpr std::size_t bend_limit = 0;
 inline constexpr std::size_t bracket_limit = outcome_limits - 1;
 
 /// How far a limit is passed, from Outcome::beyond: "3 %", of the least radius, life or slack, "0.4 % of the length", "3.2 times the

@@ -68,6 +68,16 @@ std::string refused_words(const Improvement& found, const Outcome& best) {
                      hours_text(of.hours), modes);
 }
 
+/// Of the bend reliefs that keep all limits, but make something fail earlier.
+std::string relief_words(const Improvement& found) {
+  std::string text;
+  for (std::size_t k = 0; k < found.trials.size(); ++k)
+    if (const Trial& trial = found.trials[k]; !trial.relief_refusal.empty() && trial.worst.violation() == 0)
+      text += fmt::format("Trial {} keeps all limits by a bend relief, but was refused: {}.\n", k,
+                          trial.relief_refusal);
+  return text;
+}
+
 /// That the jobs should stay as they are, and why; empty: the best is a gain.
 std::string keep_words(const Finals& finals) {
   const Final& best = *finals.best();
@@ -83,13 +93,16 @@ std::string choice_words(const Improvement& found, const Finals& finals) {
   std::string text;
   const auto add_worst = [&](const char* of, const Final& judged) {
     if (judged.tolerance)
-      text += fmt::format("{}, within the mounting tolerance: {} in the worst case found\n", of,
-                          outcome_words(judged.tolerance->worst_outcome, judged.tolerance->worst_outcome.hours));
+      text +=
+          fmt::format("{}, within the mounting tolerance: {} in the worst case found\n", of,
+                      outcome_words(judged.tolerance->worst_outcome, judged.tolerance->worst_outcome.hours));
   };
   if (finals.of.front().tolerance) add_worst("The proposed job", best);
   add_worst("The job as it is", finals.of.front());
   return text + other_words(found, finals) +
-         refused_words(found, finals.is_gain(best) ? found.trials[best.trial].worst : found.trials.front().worst);
+         refused_words(found,
+                       finals.is_gain(best) ? found.trials[best.trial].worst : found.trials.front().worst) +
+         relief_words(found);
 }
 
 std::string change_lines(const Trial& trial) {
@@ -117,10 +130,11 @@ std::string front_words(const Improvement& found, const Finals& finals, const Im
 }
 
 /// The freed keys whose errors nothing judged, as a line; empty: none.
-std::string unjudged_words(const Improvement& found) {
+std::string unjudged_words(const Improvement& found, const Trial& best) {
   std::string keys;
   for (const std::string& key : found.freed)
-    if (!has_mounting_tolerance(key)) keys += (keys.empty() ? "" : ", ") + key;
+    if (!value_in(best, key).empty() && !has_mounting_tolerance(key))
+      keys += (keys.empty() ? "" : ", ") + key;
   return keys.empty() ? "" : fmt::format("Without a mounting tolerance: {}\n", keys);
 }
 
@@ -148,9 +162,9 @@ ImprovementStory story_of(const Improvement& found, const Finals& finals, Second
   const Trial& trial = found.trials[best->trial];
   story.after = lives_of(finals, *best, trial.worst, places);
   story.longer_in = share_longer(finals, *best, places);
-  for (std::size_t k = 0; k < trial.sets.size(); ++k)
-    story.changes.push_back(
-        {found.freed[k], found.own[k], trial.sets[k].substr(trial.sets[k].find('=') + 1)});
+  for (std::size_t k = 0; k < found.freed.size(); ++k)
+    if (const std::string value = value_in(trial, found.freed[k]); !value.empty())
+      story.changes.push_back({found.freed[k], found.own[k], value});
   if (best->tolerance) story.nudges = best->tolerance->nudges;
   story.keep = keep_words(finals);
   story.choice = choice_words(found, finals);
@@ -193,16 +207,16 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
     text += fmt::format("No feasible job was found in {} trial{} and {} short runs.\n", found.trials.size(),
                         found.trials.size() == 1 ? "" : "s", found.rehearsals);
     for (const std::string& line : found.obstacle) text += line + "\n";
-    return text;
+    return text + relief_words(found);
   }
   if (found.front.size() > 1) return text + front_words(found, finals, story, second, tolerance);
   const Final& best = *finals.best();
   const Trial& trial = found.trials[best.trial];
   const std::string judged =
-      best.tolerance ? tolerance_words(story.nudges, tolerance) + unjudged_words(found) : "";
+      best.tolerance ? tolerance_words(story.nudges, tolerance) + unjudged_words(found, trial) : "";
   const bool gain = finals.is_gain(best);
-  text += fmt::format("{}{} {} of {}: {}\n{}{}{}{}", story.keep, gain ? "Trial" : " The best of it is trial", best.trial,
-                      found.trials.size(), outcome_words(trial.worst, best.hours), story.gain,
+  text += fmt::format("{}{} {} of {}: {}\n{}{}{}{}", story.keep, gain ? "Trial" : " The best of it is trial",
+                      best.trial, found.trials.size(), outcome_words(trial.worst, best.hours), story.gain,
                       story.gain.empty() ? "" : "\n", judged, story.choice);
   if (!gain) return text;
   if (const RankingRow* const row = finals.worst_row(best)) {

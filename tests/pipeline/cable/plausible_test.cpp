@@ -96,6 +96,20 @@ TEST_CASE("plausible: friction of the hose and of a part, up to the limit that i
   }
 }
 
+TEST_CASE("plausible: wear rates between a tenth of the least that slides and more than abrasive cloth takes off") {
+  Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/spot_welding.yaml");
+  const auto words = [&](double rate) {
+    for (Material& of : dresspack.materials)
+      if (of.name == "hose_polyamide") of.wear.at(0).rate = 1e-9 * rate;
+    std::string text;
+    for (const Warning& warning : plausibility_warnings(dresspack)) text += warning.words + "\n";
+    return text;
+  };
+  CHECK((words(1.01e-8).empty() && words(0.099).empty()));
+  CHECK_THAT(words(3e-15), Catch::Contains("rate_mm3_per_Nm: 3e-06 if that was m3/(N m)"));
+  CHECK_THAT(words(0.11), Catch::Contains("rate_mm3_per_Nm of 'hose_polyamide' is 0.11 (limits 1e-08 .. 0.1)"));
+}
+
 TEST_CASE("plausible: slack as a share") {
   Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/handling.yaml");
   for (const auto& [percent, doubts] : {std::pair{0.0, 0u}, {0.01, 1u}, {0.049, 1u}, {0.051, 0u}, {1.0, 0u}}) {

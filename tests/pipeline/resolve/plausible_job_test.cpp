@@ -157,9 +157,10 @@ TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hide
   CHECK(doubts_of(1, 0.1, false) == 2);
 }
 
-TEST_CASE("plausible jobs: a bend relief of fewer than four segments") {
+TEST_CASE("plausible jobs: a bend relief of fewer than four segments, or that is a tube") {
   const auto words_of = [](double length, double stiffness) {
     Job job;
+    job.dresspacks[0].dresspack.bending_stiffness = 7;
     Routing& routing = job.dresspacks[0].routing;
     routing.free_length = 2;
     routing.base_clamp.emplace().bend_relief = {length, stiffness};
@@ -174,6 +175,9 @@ TEST_CASE("plausible jobs: a bend relief of fewer than four segments") {
   CHECK_THAT(words_of(0.0002, 15), Catch::Contains("bend_relief.length_mm: 200 if that was metres"));
   CHECK(words_of(0.05, 0) == "");
   CHECK(words_of(0, 15) == "");
+  CHECK(words_of(0.2, 70) == "");
+  CHECK_THAT(words_of(0.2, 71), Catch::Contains("bend_relief.bending_stiffness_Nm2 is 71 (limit 70, 10 times the dresspack's)") &&
+                                    Catch::Contains("bending_stiffness_Nm2: 7, as the dresspack"));
 }
 
 TEST_CASE("plausible jobs: a mounting pose in rounded radians, segments longer than a bend") {
