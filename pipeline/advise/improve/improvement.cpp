@@ -155,6 +155,7 @@ class Improver {
   /// On the best trial, where its wires break beside a clamp, or on the nearest to the limits, where a bend passes its limit. Those by
   /// which something fails earlier are refused, and the order of trials decides about the others.
   void try_reliefs() {
+    if (aims() > 1) return;  // a relief has a price of its own, which no second aim knows
     const std::optional<std::size_t> best = done_.best();
     const std::size_t of = best ? *best : nearest_trial(done_.trials);
     if (of == done_.trials.size()) return;
@@ -169,6 +170,7 @@ class Improver {
             std::find(done_.freed.begin(), done_.freed.end(), key) == done_.freed.end())
           done_.freed.push_back(key), done_.own.emplace_back();
     }
+    if (sets.empty()) return;
     for (Trial& trial : tried(sets)) {
       if (trial.worst.failure.empty()) trial.relief_refusal = earlier_failures(trial.worst, bare.worst);
       if (!trial.relief_refusal.empty()) trial.worst.failure = "its bend relief makes fail earlier: " + trial.relief_refusal;
