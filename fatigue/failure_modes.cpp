@@ -136,8 +136,7 @@ class Modes {
     };
     const auto here = list_.size() == 1 ? logs_of(in_.planned) : with(0);
     response.planned = {here};
-    if (!in_.job.uncertainty.enabled) return;
-    if (!settings.load_sharing && here[0] < LifeResponse::undamaged) {
+    if (in_.job.uncertainty.enabled && !settings.load_sharing && here[0] < LifeResponse::undamaged) {
       constexpr double reach = 1.5;
       response.scatter = {-reach, 0, reach};
       response.planned = {with(-reach), here, with(reach)};

@@ -939,6 +939,16 @@ TEST_CASE("uncertainty: one wire strained far above its neighbours leaves a cond
   const auto [far, far_by_scatter] = ahead(0.002f);
   CHECK(far == Approx(1).margin(digits));
   CHECK(far_by_scatter > 2);
+
+  // Without uncertain parameters the bounds go by the same decade.
+  job.uncertainty.enabled = false;
+  StrainFile f = example();
+  for (Site& site : f.sites)
+    for (float& strain : site.strain) strain *= 0.008f;  // damage beyond 1e15 reversals
+  f.stick = {swing(2, "cable 2/layer 1/wire 7", 0.01f)};
+  const FileReader life(run(folder, f, job).file, pipeline::life_format());
+  CHECK(std::isinf(life.number_attribute("life_hours_p50")));
+  CHECK(life.number_attribute("life_hours_p50_all_glued") < 10.01 * life.number_attribute("life_hours_all_stick"));
 }
 
 TEST_CASE("uncertainty: the response is what the stage tells with the keys that it stands for") {
