@@ -1,11 +1,11 @@
 #include "pipeline/base/statistics.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "pipeline/base/random.h"
+#include "tests/catch.h"
 
 using namespace dresslife::pipeline;
 

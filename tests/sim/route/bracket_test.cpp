@@ -1,8 +1,8 @@
 #include "sim/route/bracket.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/catch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {
