@@ -49,9 +49,10 @@ std::string test_words(const RankingRow& row) {
 
 std::string error_words(const RankingRow& row) {
   constexpr std::array shares{10, 50, 90};
+  constexpr double none = 1.05;  // would be printed as 1
   std::string words;
   for (std::size_t i = 0; i < shares.size(); ++i)
-    if (std::isfinite(row.planned_errors[i]))
+    if (std::isfinite(row.planned_errors[i]) && row.planned_errors[i] >= none)
       words += fmt::format("{}the {} % value by a factor of {:.2g}", words.empty() ? "" : ", ", shares[i], row.planned_errors[i]);
   if (words.empty()) return "";
   return fmt::format("Few samples and lives between computed ones make these hours uncertain, too: {}.", words);
