@@ -90,6 +90,10 @@ herr_t cut_file(H5FD_t* file, hid_t, hbool_t) {
 
 H5FD_class_t driver_table() {
   H5FD_class_t table{};
+#ifdef H5FD_CLASS_VERSION  // of HDF5 1.14, not of 1.10
+  table.version = H5FD_CLASS_VERSION;
+  table.value = 256;  // the first that the library leaves to programs: no file names it
+#endif
   table.name = "dresslife";
   table.maxaddr = HADDR_MAX;
   table.fc_degree = H5F_CLOSE_WEAK;

@@ -389,8 +389,7 @@ void World::Parts::collide(dGeomID a, dGeomID b) {
   for (const double side : {-1.0, 1.0}) {
     const Vector3 end = state.position[segment] + side * arm;
     dGeomSetPosition(end_sphere, end.x(), end.y(), end.z());
-    const int more = dCollide(end_sphere, b, 1, points, sizeof(dContactGeom));
-    for (int k = 0; k < more; ++k) add_contact(segment, shape, points[k]);
+    if (dCollide(end_sphere, b, 1, points, sizeof(dContactGeom)) > 0) add_contact(segment, shape, points[0]);
   }
 }
 

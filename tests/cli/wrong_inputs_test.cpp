@@ -7,7 +7,7 @@
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

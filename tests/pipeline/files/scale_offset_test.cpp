@@ -1,6 +1,7 @@
 #include "pipeline/files/scale_offset.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -108,6 +109,11 @@ TEST_CASE("scale-offset: a chunk that is cut off or claims impossible bits is re
     CHECK_FALSE(unpack_chunk(chunk, 0, std::span(back)));
   }
   CHECK_FALSE(unpack_chunk(std::span(chunk).first(20), 0, std::span(back)));
+  chunk.resize(1000);  // long enough for any bits
+  for (const int bits : {33, -1}) {
+    std::memcpy(chunk.data(), &bits, sizeof(bits));
+    CHECK_FALSE(unpack_chunk(chunk, 0, std::span(back)));
+  }
 }
 
 }  // namespace dresslife::pipeline

@@ -9,7 +9,7 @@
 #include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

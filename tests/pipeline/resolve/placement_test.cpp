@@ -16,7 +16,7 @@
 
 using namespace dresslife;
 using namespace dresslife::pipeline;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 
