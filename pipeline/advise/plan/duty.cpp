@@ -49,7 +49,7 @@ void check(const Duty& duty, const std::string& key, Problems& problems) {
   if (batch != duty.programs.end() && !duty.order.empty())
     problems.add(batch->where, fmt::format("'{}' has a batch_size, and duty '{}' an order", batch->job, duty.name),
                  "remove batch_size and give repeats in the order, or remove the order");
-  else if (std::count_if(duty.programs.begin(), duty.programs.end(), in_batches) == 1)
+  else if (std::count_if(duty.programs.begin(), duty.programs.end(), in_batches) == 1 && !problems.touch(key + ".programs"))
     problems.add(batch->where, fmt::format("'{}' alone has a batch_size, so it changes to no other program", batch->job),
                  "give the batch_size of the other programs, too");
   for (const OrderedProgram& program : duty.order)

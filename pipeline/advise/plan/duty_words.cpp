@@ -142,7 +142,7 @@ std::string mixture_words(const DutyResult& duty) {
                                                                    "to another program: {}.",
                                                                    fmt::join(duty.outside, ", "))),
                     118, "  ");
-  else if (duty.parts.size() > 1)
+  else if (std::ranges::count_if(duty.parts, [](const DutyPart& part) { return part.repeats_per_hour > 0; }) > 1)
     text += wrapped("Cycles that begin in one program and end in another are not counted. With `order` or `batch_size` they are. For one measured pair "
                     "they were 11 % of the damage, or 1.2 % of strain. Where two programs bend a cable to opposite sides they can be most of the damage.",
                     118, "  ");

@@ -490,7 +490,9 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
   }
   result.others = other_modes(result.parts, programs.rows(duty));
   result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
-  std::vector<DutyProgram> all = duty.programs;
+  std::vector<DutyProgram> all;  // that run
+  for (std::size_t k = 0; k < duty.programs.size(); ++k)
+    if (result.parts[k].repeats_per_hour > 0) all.push_back(duty.programs[k]);
   if (!duty.order.empty()) all.push_back(program_of_round(duty));
   for (const DutyProgram& program : all)
     if (const RankingRow& row = programs.row(program); !is_believable(row))

@@ -115,6 +115,9 @@ TEST_CASE("a duty of several programs without an order names the cycles that it 
   duty.parts.resize(1);
   CHECK(mixture_words(duty).empty());
   duty.parts.resize(2);
+  duty.parts[0].repeats_per_hour = 5;
+  CHECK(mixture_words(duty).empty());  // the other one never runs
+  duty.parts[1].repeats_per_hour = 5;
   CHECK_THAT(in_one_line(mixture_words(duty)), Catch::StartsWith(" Cycles that begin in one program and end in another are not counted. ") &&
                                                    Catch::Contains("With `order` or `batch_size` they are. "));
   duty.has_order = true, duty.rounds_per_hour = 0.3;
