@@ -109,6 +109,15 @@ TEST_CASE("a duty names the mode beside the wires that comes first, and all that
   CHECK_THAT(in_one_line(caution_words(duty)), Catch::Contains("1 of 10 dresspacks has a corkscrew after 10,000 h"));
 }
 
+TEST_CASE("a duty states how much the damages of a cycle's recordings differ") {
+  DutyResult duty;
+  duty.modes = {"wires"}, duty.changes = {1}, duty.damage.same_place = {1}, duty.has_order = true;
+  duty.parts = {{"a", 2, 0.1, "cycle"}, {"b", 1, 0.1, "cycle"}, {"c", 1, 0.1, "cycle"}, {"d", 1, 0.1, ""}, {"e", 0, 0, "cycle"}};
+  duty.lives.share = {0.2, 0.2, 0.2, 0.4, 0};
+  // A repeat does 0.1, 0.2 and 0.2; the mean over the repeats is 0.15. Deviations -1/3, 1/3, 1/3: sqrt(3/9 / 2 / 3) = 0.236.
+  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("The 3 recordings of cycle do 0.67 to 1.33 times its mean damage: the standard error of the mean is 24 %."));
+}
+
 TEST_CASE("a duty of several programs without an order names the cycles that it leaves out") {
   DutyResult duty;
   duty.modes = {"wires"}, duty.changes = {1}, duty.damage.same_place = {1};
