@@ -16,7 +16,8 @@ constexpr double near_knots = 1e-3;                     // [s] closer ones would
 constexpr double ramp = 0.3;                            // [s] of motion that a robot needs to start or stop
 constexpr double slow = std::numbers::pi / 180;         // [rad/s] needs no ramp
 constexpr double settling = 1;                          // [s]
-constexpr double long_rest = 600, longest_rest = 1200;  // [s]
+// [s] The strain of a motion takes 3.4 MB for each second (ten loose cables, 64 segments): two of 300 s at a time take 2 GB.
+constexpr double long_rest = 200, longest_rest = 300;
 constexpr std::size_t most_rows_of_a_motion = 50'000;               // half of what a motion may have
 constexpr double damage_exponent = 5;
 constexpr std::size_t least_parts = 3;  // of a recording: where a cycle is rare, one is enough

@@ -29,7 +29,7 @@ struct LogMotion {
 /// behind its longest stand, else at its slowest moment, and closed: the difference of its ends, within the bound, is
 /// spread over its motion. Its longest stand is shortened if the cycle takes longer than the mean of those alike. The
 /// rest has the cycles taken out. Where they were, a difference of poses vanishes within 1 s. It is cut at stands
-/// after 10 min, or anywhere after 20 min or 50,000 rows. A motion that begins or ends in motion gets a ramp
+/// after 200 s, or anywhere after 300 s or 50,000 rows. A motion that begins or ends in motion gets a ramp
 /// of 0.3 s.
 std::vector<LogMotion> motions_of(const Course& course, const Cycles& cycles, double bound, int recordings);
 
