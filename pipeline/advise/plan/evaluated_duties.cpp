@@ -365,7 +365,7 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
     const double seconds = programs.row(program).repeat_seconds;
     const double rate = program.rate(seconds, duty.shift_hours, duty.repeats_per_hour);
     rates.push_back({rate, program.deviation_percent});
-    parts.push_back({program.job, rate, rate * seconds / 3600, program.recording_of});
+    parts.push_back({.job = program.job, .repeats_per_hour = rate, .share_of_time = rate * seconds / 3600, .recording_of = program.recording_of});
     time += parts.back().share_of_time;
     words += fmt::format("{}{} x {:.1f} s of '{}'", words.empty() ? "" : ", ", readable(rate), seconds,
                          program.job);
