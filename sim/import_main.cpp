@@ -37,6 +37,7 @@ struct Request {
   int lines = 4;
   std::string log;  ///< job whose robot the log is of; empty: not a log
   double smooth_deg = 0.1, alike_deg = 2, warp_percent = 10;
+  int recordings = 3;
 };
 
 constexpr double shortest_cycle = 5;  // [s] of motion: shorter cycles count as several together
@@ -204,7 +205,7 @@ void note_log(const Request& request, const pipeline::StageCall& call, pipeline:
   const sim::Cycles cycles =
       sim::cycles_of(course, {request.alike_deg * degree, request.warp_percent / 100, shortest_cycle},
                      [&](double share) { progress.show(share, "finds cycles"); });
-  const std::vector<sim::LogMotion> motions = sim::motions_of(course, cycles, options.still);
+  const std::vector<sim::LogMotion> motions = sim::motions_of(course, cycles, options.still, request.recordings);
   progress.clear();
   if (!call.quiet)
     for (const std::string& line : sim::read_words(log, course)) fmt::print("{}\n", line);
@@ -281,7 +282,9 @@ int main(int argc, char** argv) {
           {"--alike", "DEG", "with --log: largest difference of cycles that count as one", &request.alike_deg,
            {.range = {{1e-3, 20}}, .needs = "--log"}},
           {"--warp", "PERCENT", "with --log: largest difference of their times", &request.warp_percent,
-           {.range = {{0, 50}}, .needs = "--log"}}}};
+           {.range = {{0, 50}}, .needs = "--log"}},
+          {"--recordings", "COUNT", "with --log: motions of one cycle that are simulated, at most; their damages show how well its damage is known",
+           &request.recordings, {.range = {{1, 20}}, .needs = "--log"}}}};
   return pipeline::run_stage(
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
         if (!request.ways.empty()) return note_ways(request, call);

@@ -91,8 +91,10 @@ int submit(const SubmitOptions& options) {
   write_text_if_changed(script, with_mark(script_of(options, cluster, standing), Mark::script));
   const std::string array = shards > 1 ? fmt::format(" --array=1-{}", shards) : "";
   if (options.only_write) {
-    print(shown(fmt::format("{} is written; submit it: {}{} {}\n", script.string(), cluster.submit, array,
-                            script.string())));
+    print(shown(fmt::format("{0} is written; submit it: {1}{2} {0}{3}\n", script.string(), cluster.submit, array,
+                            shards > 1 ? fmt::format("\nThen the rest and the ranking, with the number that this prints: {} --dependency=afterany:NUMBER {}",
+                                                     cluster.submit, script.string())
+                                       : "")));
     return 0;
   }
   std::string last = submitted(cluster, array, script);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace dresslife::sim {
 namespace {
@@ -15,9 +16,11 @@ constexpr double near_knots = 1e-3;                     // [s] closer ones would
 constexpr double ramp = 0.3;                            // [s] of motion that a robot needs to start or stop
 constexpr double slow = std::numbers::pi / 180;         // [rad/s] needs no ramp
 constexpr double settling = 1;                          // [s]
-constexpr double long_rest = 600, longest_rest = 1200;  // [s]
+// [s] The strain of a motion takes 3.4 MB for each second (ten loose cables, 64 segments): two of 300 s at a time take 2 GB.
+constexpr double long_rest = 200, longest_rest = 300;
 constexpr std::size_t most_rows_of_a_motion = 50'000;               // half of what a motion may have
 constexpr double damage_exponent = 5;
+constexpr std::size_t least_parts = 3;  // of a recording: where a cycle is rare, one is enough
 
 struct StretchRows {
   std::vector<double> times;
@@ -105,20 +108,19 @@ std::size_t best_begin(const StretchRows& rows) {
   return best;
 }
 
-LogMotion cycle_of(const Course& course, const Cycles& cycles, std::size_t cycle, double bound) {
+/// Damage of a part of Cycles::parts, and its index.
+using DamagedPart = std::pair<double, std::size_t>;
+
+/// The motion that stands for these parts.
+LogMotion motion_for(const Course& course, const Cycles& cycles, std::span<const DamagedPart> damages) {
   LogMotion made;
-  made.name = fmt::format("cycle_{}", cycle + 1);
-  made.count = 0;
-  std::vector<std::pair<double, std::size_t>> damages;
+  made.count = damages.size();
   double sum = 0, seconds = 0;
-  for (std::size_t k = 0; k < cycles.parts.size(); ++k) {
+  for (const auto& [damage, k] : damages) {
     const CyclePart& part = cycles.parts[k];
-    if (part.cycle != cycle) continue;
-    ++made.count;
     seconds += part.end - part.begin;
     made.difference = std::max(made.difference, part.difference);
-    damages.emplace_back(damage_of(rows_between(course, part.begin, part.end), bound), k);
-    sum += damages.back().first;
+    sum += damage;
   }
   const double mean = sum / static_cast<double>(made.count);
   made.part = std::min_element(damages.begin(), damages.end(), [&](const auto& a, const auto& b) {
@@ -137,6 +139,22 @@ LogMotion cycle_of(const Course& course, const Cycles& cycles, std::size_t cycle
   made.times = std::move(rows.times);
   made.rows = std::move(rows.values);
   return made;
+}
+
+void add_cycle(const Course& course, const Cycles& cycles, std::size_t cycle, double bound, int recordings, std::vector<LogMotion>& made) {
+  std::vector<DamagedPart> damages;
+  for (std::size_t k = 0; k < cycles.parts.size(); ++k)
+    if (const CyclePart& part = cycles.parts[k]; part.cycle == cycle)
+      damages.emplace_back(damage_of(rows_between(course, part.begin, part.end), bound), k);
+  std::sort(damages.begin(), damages.end());
+  const std::size_t count = std::clamp<std::size_t>(damages.size() / least_parts, 1, static_cast<std::size_t>(recordings));
+  const std::string name = fmt::format("cycle_{}", cycle + 1);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t begin = k * damages.size() / count, end = (k + 1) * damages.size() / count;
+    LogMotion& motion = made.emplace_back(motion_for(course, cycles, std::span(damages).subspan(begin, end - begin)));
+    motion.name = k == 0 ? name : fmt::format("{}_{}", name, static_cast<char>('a' + k));
+    if (count > 1) motion.recording_of = name;
+  }
 }
 
 /// Largest distance of a row from the first.
@@ -197,10 +215,9 @@ class Rest {
 
 }  // namespace
 
-std::vector<LogMotion> motions_of(const Course& course, const Cycles& cycles, double bound) {
+std::vector<LogMotion> motions_of(const Course& course, const Cycles& cycles, double bound, int recordings) {
   std::vector<LogMotion> made;
-  for (std::size_t cycle = 0; cycle < cycles.count; ++cycle)
-    made.push_back(cycle_of(course, cycles, cycle, bound));
+  for (std::size_t cycle = 0; cycle < cycles.count; ++cycle) add_cycle(course, cycles, cycle, bound, recordings, made);
   Rest rest(made, bound);
   double begin = 0;
   const auto add = [&](double end) {

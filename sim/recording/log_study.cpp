@@ -62,8 +62,9 @@ std::string duty_text(const std::string& name, const std::string& study, const C
       "study: {}\nduties:\n  - name: {}\n    hours_per_week: 80\n    programs:\n",
       time_words(course.log_seconds), study, name);
   for (const LogMotion& motion : motions)
-    text += fmt::format("      - {{job: {}, repeats_per_hour: {:.6g}}}\n", motion.name,
-                        static_cast<double>(motion.count) * 3600 / seconds);
+    text += fmt::format("      - {{job: {}, repeats_per_hour: {:.6g}{}}}\n", motion.name,
+                        static_cast<double>(motion.count) * 3600 / seconds,
+                        motion.recording_of.empty() ? "" : ", recording_of: " + motion.recording_of);
   return text;
 }
 

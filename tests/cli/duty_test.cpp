@@ -100,6 +100,7 @@ TEST_CASE("a duty of one program in all of the time has the life of its job, and
   scratch.write("duties.yaml", R"(study: study.yaml
 duties:
   - {name: alone, programs: [{job: one, percent_of_time: 100}]}
+  - {name: beside none, programs: [{job: one, percent_of_time: 100}, {job: other, percent_of_time: 0}]}
   - name: halves
     programs: [{job: one, percent_of_time: 50}, {job: other, percent_of_time: 50}]
     history: [{duty: alone, hours: 0.0001}]
@@ -113,6 +114,7 @@ duties:
     const double life = number(cell(ranking, "one,", std::string("life_hours_") + p));
     REQUIRE(std::isfinite(life));
     CHECK(number(cell(duty, "alone,one", std::string("life_hours_") + p)) == Approx(life).epsilon(kept_digits));
+    CHECK(cell(duty, "beside none,one", std::string("life_hours_") + p) == cell(duty, "alone,one", std::string("life_hours_") + p));
     CHECK(number(cell(duty, "halves,other", std::string("life_hours_") + p)) == Approx(life).epsilon(kept_digits));
   }
   CHECK(number(cell(duty, "halves,one", "share_of_damage")) == Approx(0.5).epsilon(1e-9));

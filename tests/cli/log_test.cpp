@@ -1,8 +1,10 @@
 // A log of joint angles as a study and a file of duties, and the life of its dresspack.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "tests/catch.h"
 #include "tests/cli/process.h"
@@ -57,6 +59,64 @@ TEST_CASE("log: the life of a log of one cycle is that of the cycle") {
   INFO(life.err);
   CHECK(life.status == 0);
   CHECK_THAT(life.out, Catch::Contains("shift"));
+}
+
+TEST_CASE("log: cycles with product changes, a stop and jogging have the damage of one motion of all") {
+  const Scratch scratch;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-1, 1);
+  std::string text = "t,J1_deg,J2_deg,J3_deg,J4_deg,J5_deg,J6_deg\n";
+  int row = 0;
+  /// Axes 4 to 6 go so far [deg] and back.
+  const auto swing = [&](double seconds, const std::array<double, 3>& to) {
+    for (int k = 0, rows = static_cast<int>(10 * seconds); k < rows; ++k, ++row) {
+      const double wave = (1 - std::cos(2 * std::numbers::pi * k / rows)) / 2;
+      text += fmt::format("{:.1f},0,-10,10", 0.1 * row);
+      for (int axis = 0; axis < 3; ++axis) text += fmt::format(",{:.4f}", (axis == 1 ? 35 : 0) + to[axis] * wave + 0.02 * any(random));
+      text += '\n';
+    }
+  };
+  const auto product = [&](int cycles, const std::array<double, 3>& to) {
+    for (int k = 0; k < cycles; ++k) {
+      const double off = 0.2 * any(random);
+      swing(8 + 0.2 * any(random), {to[0] + off, to[1], to[2] + off});
+      swing(1.5 + any(random), {});
+    }
+  };
+  const std::array<double, 3> first{20, -10, 60}, second{-15, 5, 40};
+  product(5, first), swing(12, {}), product(4, second);
+  swing(6, {7, 0, 0}), swing(2, {}), swing(5, {0, 0, -6});  // by hand
+  product(4, first);
+  scratch.write("log.csv", text);
+  scratch.write("hose.yaml", edited(thin_hose, "    count: 2\n", "    count: 2\n    position: held\n"));
+  scratch.write("job.yaml", R"(robot: abb_irb6640_185_280
+motion: easy
+dresspack: hose.yaml
+routing:
+  mounting_pose_deg: [0, -10, 10, 0, 35, 0]
+  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}
+  tool_clamp: {link: link_6, position_m: [0.144, 0, 0.174], direction: [1, 0, -0.45]}
+  free_length_m: 2.035
+simulation: {segments: 12, time_step_ms: 10, sample_rate_Hz: 25}
+strain: {slip: stick}
+fatigue: {robot_life_hours: 1.0e+7}
+uncertainty: {friction_inside: 1, friction_hose: 1, slack: 1, play: 1, grip: 1, rest: 0, hose_stiffness: 1, ratings: none}
+)");
+  const auto life = [&](const std::string& name, const std::string& options) {
+    must_run(scratch, "dresslife", "import log.csv --log job.yaml -o " + name + ".yaml --quiet " + options);
+    must_run(scratch, "dresslife", "duty " + name + ".yaml --quiet");
+    std::istringstream table(content(scratch / "runs" / name / ("duty_" + name + ".csv")));
+    std::string line, cell;
+    std::getline(table, line), std::getline(table, line);
+    std::istringstream cells(line);
+    for (int k = 0; k < 7; ++k) std::getline(cells, cell, ',');
+    return std::stod(cell);
+  };
+  const double all = life("all", "--alike 0.001"), shift = life("shift", "");
+  CHECK(content(scratch / "all.yaml").find("cycle_") == std::string::npos);
+  CHECK_THAT(content(scratch / "shift.yaml"), Catch::Contains("cycle_2") && Catch::Contains("recording_of: cycle_1"));
+  REQUIRE(std::isfinite(all));
+  CHECK(all / shift == Approx(1).margin(0.05));  // damage as duty over that as one motion
 }
 
 TEST_CASE("log: files of the user stay, and what is no log is refused") {

@@ -99,8 +99,11 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
   // its own.
   write_small_job(scratch);
   write_cluster(scratch, "small.yaml", 1, 3);
-  scratch.write("shards.yaml", "base: job.yaml\nvary: {dresspack.bending_stiffness_Nm2: [2, 3, 4]}\n");
+  scratch.write("shards.yaml", "base: job.yaml\njobs: {soft: {dresspack.bending_stiffness_Nm2: 2}, usual: {}, other: {motion.clamp_poses: other.csv}}\n");
+  scratch.write("other.csv", replaced_all(content(scratch / "poses.csv"), "0.05,", "0.06,"));
   const Outcome whole = must_run(scratch, "dresslife", "run shards.yaml -o whole --quiet");
+  CHECK_THAT(must_run(scratch, "dresslife", "submit shards.yaml --only-write --cluster small.yaml -o written").out,
+             Catch::Contains("--array=1-3 ") && Catch::Contains("--dependency=afterany:NUMBER "));
   const Outcome array =
       slurm.shell("'" DRESSLIFE_BIN_DIR "/dresslife' submit shards.yaml --cluster small.yaml");
   INFO(array.out << array.err);
@@ -117,4 +120,14 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
     CHECK(graph.find(": fatigue ") == graph.rfind(": fatigue "));
   }
   CHECK(content(scratch / "runs/shards/ranking.csv") == content(scratch / "whole/shards/ranking.csv"));
+
+  // The plan of a fleet takes these results.
+  scratch.write("duties.yaml", "study: shards.yaml\nduties:\n  - {name: one, programs: [{job: soft, percent_of_time: 0.1}]}\n"
+                               "  - {name: two, programs: [{job: usual, percent_of_time: 0.1}, {job: other, percent_of_time: 0.1}]}\n");
+  scratch.write("fleet.csv", "name,duty,installed\na,one,2026-11-20\nb,two,2026-11-20\n");
+  const auto plan = [&](const std::string& out) {
+    must_run(scratch, "dresslife", "plan fleet.csv --duties duties.yaml --today 2026-11-23 --windows 2026-12-21 --quiet -o " + out);
+    return content(scratch / out / "shards/plan_fleet.csv");
+  };
+  CHECK(plan("runs") == plan("whole"));
 }

@@ -49,7 +49,7 @@ void check(const Duty& duty, const std::string& key, Problems& problems) {
   if (batch != duty.programs.end() && !duty.order.empty())
     problems.add(batch->where, fmt::format("'{}' has a batch_size, and duty '{}' an order", batch->job, duty.name),
                  "remove batch_size and give repeats in the order, or remove the order");
-  else if (std::count_if(duty.programs.begin(), duty.programs.end(), in_batches) == 1)
+  else if (std::count_if(duty.programs.begin(), duty.programs.end(), in_batches) == 1 && !problems.touch(key + ".programs"))
     problems.add(batch->where, fmt::format("'{}' alone has a batch_size, so it changes to no other program", batch->job),
                  "give the batch_size of the other programs, too");
   for (const OrderedProgram& program : duty.order)
@@ -83,6 +83,8 @@ void describe(Fields& f, DutyProgram& program) {
             "known.");
   f.number("deviation_percent", program.deviation_percent, Need::optional, between(0, 100),
            "The standard deviation of the number of repeats, from one dresspack to the next.");
+  f.text("recording_of", program.recording_of, Need::optional,
+         "A name that several programs share which are recordings of one cycle. The answer states how much their damages differ.");
 }
 
 void describe(Fields& f, OrderedProgram& program) {

@@ -35,6 +35,7 @@ struct DutyProgram {
   std::string job;
   std::optional<double> repeats_per_hour, repeats_per_shift, percent_of_time, percent_of_repeats;
   double deviation_percent = 0;  ///< standard deviation of its number of repeats, the same for the whole life of a dresspack
+  std::string recording_of;  ///< programs with one name here are one cycle of a log; empty: a cycle of its own
   int batch_size = 0;  ///< repeats before the next program begins: read_duties() makes an order of them; 0: not given
 
   /// Repeats in an hour of operation. repeat_seconds: of its motion.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/readable.h"
@@ -116,9 +117,40 @@ std::string caution_words(const DutyResult& duty) {
   return text;
 }
 
+namespace {
+
+std::string recording_words(const DutyResult& duty) {
+  constexpr double worth_a_word = 0.01;  // of the duty's damage
+  std::map<std::string, std::vector<std::size_t>> cycles;
+  for (std::size_t k = 0; k < duty.parts.size(); ++k)
+    if (!duty.parts[k].recording_of.empty() && duty.parts[k].repeats_per_hour > 0) cycles[duty.parts[k].recording_of].push_back(k);
+  std::string text;
+  for (const auto& [name, of] : cycles) {
+    double repeats = 0, damage = 0, squares = 0;
+    for (const std::size_t k : of) repeats += duty.parts[k].repeats_per_hour, damage += duty.lives.share[k];
+    if (of.size() < 2 || !(damage > worth_a_word)) continue;
+    double least = INFINITY, most = 0;
+    for (const std::size_t k : of) {
+      const double times = duty.lives.share[k] / duty.parts[k].repeats_per_hour / (damage / repeats);
+      least = std::min(least, times), most = std::max(most, times);
+      squares += (times - 1) * (times - 1);
+    }
+    const double count = static_cast<double>(of.size());
+    text += wrapped(fmt::format("The {} recordings of {} do {:.2f} to {:.2f} times its mean damage: the standard error of the mean is {} %.", of.size(),
+                                name, least, most, readable(100 * std::sqrt(squares / (count - 1) / count), 2)),
+                    118, "  ");
+  }
+  return text.empty() ? text : text + wrapped("With held cables such a cycle has the damage of one motion of all its repeats within 3 % (five measured groups). Where cables lie loose "
+                                              "in the hose, it depends on the places at which they rest: four measured groups differed by -20 to +33 %, and 4 of 8 cycles as one motion had "
+                                              "66 % more than the other 4.",
+                                              118, "  ");
+}
+
+}  // namespace
+
 std::string mixture_words(const DutyResult& duty) {
   constexpr double worth_a_word = 0.01, worth_a_place = 0.05;
-  std::string text;
+  std::string text = recording_words(duty);
   std::vector<std::string> larger;
   for (std::size_t m = 0; m < duty.modes.size(); ++m) {
     const double apart = duty.damage.same_place[m] / duty.changes[m];
@@ -142,7 +174,7 @@ std::string mixture_words(const DutyResult& duty) {
                                                                    "to another program: {}.",
                                                                    fmt::join(duty.outside, ", "))),
                     118, "  ");
-  else if (duty.parts.size() > 1)
+  else if (std::ranges::count_if(duty.parts, [](const DutyPart& part) { return part.repeats_per_hour > 0; }) > 1)
     text += wrapped("Cycles that begin in one program and end in another are not counted. With `order` or `batch_size` they are. For one measured pair "
                     "they were 11 % of the damage, or 1.2 % of strain. Where two programs bend a cable to opposite sides they can be most of the damage.",
                     118, "  ");

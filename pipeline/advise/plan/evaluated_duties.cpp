@@ -365,7 +365,7 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
     const double seconds = programs.row(program).repeat_seconds;
     const double rate = program.rate(seconds, duty.shift_hours, duty.repeats_per_hour);
     rates.push_back({rate, program.deviation_percent});
-    parts.push_back({program.job, rate, rate * seconds / 3600});
+    parts.push_back({.job = program.job, .repeats_per_hour = rate, .share_of_time = rate * seconds / 3600, .recording_of = program.recording_of});
     time += parts.back().share_of_time;
     words += fmt::format("{}{} x {:.1f} s of '{}'", words.empty() ? "" : ", ", readable(rate), seconds,
                          program.job);
@@ -490,7 +490,9 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
   }
   result.others = other_modes(result.parts, programs.rows(duty));
   result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
-  std::vector<DutyProgram> all = duty.programs;
+  std::vector<DutyProgram> all;  // that run
+  for (std::size_t k = 0; k < duty.programs.size(); ++k)
+    if (result.parts[k].repeats_per_hour > 0) all.push_back(duty.programs[k]);
   if (!duty.order.empty()) all.push_back(program_of_round(duty));
   for (const DutyProgram& program : all)
     if (const RankingRow& row = programs.row(program); !is_believable(row))

@@ -29,6 +29,7 @@ struct DutyPart {
   double share_of_time = 0;
   LifePercentiles without{}, as_twice{};  ///< [h] under the duty without it, and if it ran twice as often
   std::vector<LifeAtShare> over_share{};  ///< from 0 to all of the time that the others leave; empty: it never runs
+  std::string recording_of{};  ///< as in DutyProgram
 };
 
 /// A mode that no test validates (unvalidated_modes.h), of one dresspack and, of ratings, one cable.

@@ -170,7 +170,7 @@ std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
                          test.what.of.empty() ? "" : fmt::format(" of '{}'", test.what.of));
   }
   if (lines.empty())
-    return "No test in a laboratory saves a thousandth of this cost.\n";
+    return "No test in a laboratory saves a thousandth of the plan's cost.\n";
   return fmt::format(
       "A test before the first window saves, on average, until {} and by better replacements after that:\n{}",
       day_text(plan.end), lines);
@@ -197,7 +197,7 @@ std::string check_words(const std::optional<std::vector<CheckValue>>& checks, co
   std::string text =
       best.empty()
           ? "No visual check for abrasion today saves a thousandth of an unplanned replacement (not validated).\n"
-          : "One visual check of a dresspack for abrasion today saves, on average (not validated, without other checks, not in the cost above):\n";
+          : "One visual check of a dresspack for abrasion today saves, on average (not validated, without other checks, not in the plan's cost):\n";
   for (std::size_t k = 0; k < std::min(most, best.size()); ++k)
     text += fmt::format("  {:>9}  {}\n", readable((*checks)[best[k]].today), fleet.rows[best[k]].name);
   if (best.size() > most) text += fmt::format("  {:>9}  more dresspacks in the table\n", best.size() - most);

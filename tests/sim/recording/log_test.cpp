@@ -394,7 +394,7 @@ TEST_CASE("log: cycles are counted with other times and waits, and the rest is o
   CHECK(cycles.count == 1);
   REQUIRE(cycles.parts.size() == 11);
   for (const CyclePart& part : cycles.parts) CHECK(part.difference <= degree);
-  const std::vector<LogMotion> motions = motions_of(course, cycles, bound);
+  const std::vector<LogMotion> motions = motions_of(course, cycles, bound, 1);
   REQUIRE(motions.size() == 2);
   CHECK(motions[0].count == 11);
   CHECK(motions[0].rows.front() == motions[0].rows.back());
@@ -429,10 +429,31 @@ TEST_CASE("log: two products that differ by more than the bound are two cycles")
   CHECK(found == std::vector<std::size_t>{0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0});
   // The mean of eight parts of 9 s, at most two of which lack their stand of 1 s; an interval of the log at either end. A cycle begins
   // behind its stand: a ramp would add 0.3 s.
-  const double seconds = motions_of(course, cycles, bound)[0].duration();
+  const double seconds = motions_of(course, cycles, bound, 1)[0].duration();
   CHECK(seconds > 9 - 2. / 8 - 0.08);
   CHECK(seconds < 9 + 0.08);
   CHECK(cycles_of(course, {7 * degree, 0.1, 5}).count == 1);  // they differ by 6 deg
+}
+
+TEST_CASE("log: recordings of a cycle stand for parts of other damage") {
+  Writer writer(25);
+  for (int k = 0; k < 8; ++k) {
+    writer.stand(1);
+    writer.part(8, cycle(8, k % 2 == 0 ? 1 : 1.01));
+  }
+  writer.stand(1);
+  const Course course(writer.recording(), two_axes(), bound);
+  const auto motions = motions_of(course, cycles_of(course, {degree, 0.1, 5}), bound, 3);
+  REQUIRE(motions.size() == 2);  // three parts or more for each
+  CHECK(motions[0].count + motions[1].count == 8);
+  CHECK(motions[1].name == "cycle_1_b");
+  const auto largest = [](const LogMotion& motion) {
+    double angle = 0;
+    for (const auto& row : motion.rows) angle = std::max(angle, row.lpNorm<Eigen::Infinity>());
+    return angle;
+  };
+  CHECK(largest(motions[1]) == Approx(1.01 * largest(motions[0])).epsilon(1e-3));  // rows lie up to 0.04 s beside the turning point
+  CHECK_THAT(duty_text("shift", "study.yaml", course, motions), Contains("{job: cycle_1_b,") && Contains(", recording_of: cycle_1}"));
 }
 
 TEST_CASE("log: cycles of one way are one within the warp of their times") {

@@ -87,7 +87,8 @@ TEST_CASE("duties: a number that is refused is one problem, and a file of anothe
   };
   const std::string head = "study: s.yaml\nduties:\n  - {name: d, programs: [{job: a, ";
   for (const char* number :
-       {"percent_of_time: 150", "repeats_per_hour: -1", "percent_of_time: '0,5'", "repeats_per_minute: 5"}) {
+       {"percent_of_time: 150", "repeats_per_hour: -1", "percent_of_time: '0,5'", "repeats_per_minute: 5",
+                             "repeats_per_hour: 5, batch_size: 3}, {job: b, repeats_per_hour: 5, batch_size: -1"}) {
     const std::string words = refusal(head + number + "}]}\n");
     INFO(words);
     CHECK(!words.empty());

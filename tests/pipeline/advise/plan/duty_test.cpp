@@ -109,12 +109,25 @@ TEST_CASE("a duty names the mode beside the wires that comes first, and all that
   CHECK_THAT(in_one_line(caution_words(duty)), Catch::Contains("1 of 10 dresspacks has a corkscrew after 10,000 h"));
 }
 
+TEST_CASE("a duty states how much the damages of a cycle's recordings differ") {
+  DutyResult duty;
+  duty.modes = {"wires"}, duty.changes = {1}, duty.damage.same_place = {1}, duty.has_order = true;
+  for (const auto& [repeats, cycle] : {std::pair(2, "cycle"), {1, "cycle"}, {1, "cycle"}, {1, ""}, {0, "cycle"}})
+    duty.parts.push_back({.job = "", .repeats_per_hour = double(repeats), .recording_of = cycle});
+  duty.lives.share = {0.2, 0.2, 0.2, 0.4, 0};
+  // A repeat does 0.1, 0.2 and 0.2; the mean over the repeats is 0.15. Deviations -1/3, 1/3, 1/3: sqrt(3/9 / 2 / 3) = 0.236.
+  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("The 3 recordings of cycle do 0.67 to 1.33 times its mean damage: the standard error of the mean is 24 %."));
+}
+
 TEST_CASE("a duty of several programs without an order names the cycles that it leaves out") {
   DutyResult duty;
   duty.modes = {"wires"}, duty.changes = {1}, duty.damage.same_place = {1};
   duty.parts.resize(1);
   CHECK(mixture_words(duty).empty());
   duty.parts.resize(2);
+  duty.parts[0].repeats_per_hour = 5;
+  CHECK(mixture_words(duty).empty());  // the other one never runs
+  duty.parts[1].repeats_per_hour = 5;
   CHECK_THAT(in_one_line(mixture_words(duty)), Catch::StartsWith(" Cycles that begin in one program and end in another are not counted. ") &&
                                                    Catch::Contains("With `order` or `batch_size` they are. "));
   duty.has_order = true, duty.rounds_per_hour = 0.3;
