@@ -328,15 +328,20 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
   }
 }
 
-/// The planner's place beside the lives; where no conductor can fail it has no name. p10 [repeats]
-void write_first_place(const Context& c, const Conductors& conductors, const FirstPlace& first,
-                       double p10_repeats) {
+/// The planner's place beside the lives: of the soonest conductor of the mode that fails first most often; where no conductor
+/// can fail it has no name. p10 [repeats]
+void write_first_place(const Context& c, const Conductors& conductors, const FirstPlace& first, const ModeList& modes,
+                       std::size_t failing_mode, double p10_repeats) {
   const double p10 = hours(p10_repeats, c.repeat_seconds());
   c.life.attribute("life_months_p10", pipeline::months(p10, c.job.fatigue.operating_hours_per_week));
   if (!c.job.robot.joints.empty()) c.life.attribute("robot_life_hours", c.job.fatigue.robot_life_hours);
-  const bool known = first.conductor < conductors.path.size();
-  c.life.attribute("failing_conductor", known ? conductors.path[first.conductor] : "");
-  c.life.attribute("failing_position_from_tool", known ? c.from_tool(first.segment) : 0.0);
+  auto place = std::find_if(first.soonest.begin(), first.soonest.end(), [&](const FirstPlace::Soonest& of) {
+    return modes.of(c.component[conductors.worst[of.conductor]]) == failing_mode;
+  });
+  if (place == first.soonest.end()) place = first.soonest.begin();
+  const bool known = place != first.soonest.end();
+  c.life.attribute("failing_conductor", known ? path_in_words(c.job, conductors.path[place->conductor]) : "");
+  c.life.attribute("failing_position_from_tool", known ? c.from_tool(place->segment) : 0.0);
 }
 
 /// The whole strain history of the worst wire; empty where only its turning points are known.
@@ -832,7 +837,8 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   const pipeline::FirstFailures first = first_failures_of(c, modes, conductors, places, lives, glued, free);
   const double p10_repeats = job.uncertainty.enabled ? first.percentiles[0] : lives.first_place.lives[0];
   write_scatter(c, conductors, lives, job.uncertainty.enabled ? &first : nullptr);
-  write_first_place(c, conductors, lives.first_place, p10_repeats);
+  const auto most = std::max_element(first.first.begin(), first.first.end());
+  write_first_place(c, conductors, lives.first_place, modes, static_cast<std::size_t>(most - first.first.begin()), p10_repeats);
   write_shear(c);
   write_program(c, cycles);
   write_causes(c, cycles, write_worst_strain(c));

@@ -164,10 +164,11 @@ FirstPlace first_place_lives(std::span<const PlacesOfConductor> places,
   assert(places.size() == bundles.size());
   FirstPlace result;
   result.lives.fill(infinity);
-  result.conductor = places.size();
   const std::vector<Place> all = places_of(places, bundles, segments, failed_percent);
   if (all.empty()) return result;
-  result.conductor = all.front().conductor, result.segment = all.front().segment;
+  std::vector<bool> seen(places.size());
+  for (const Place& place : all)
+    if (!seen[place.conductor]) seen[place.conductor] = true, result.soonest.push_back({place.conductor, place.segment});
   std::map<std::size_t, std::vector<Place>> of_dresspack;
   for (const Place& place : all) of_dresspack[bundles[place.conductor].dresspack].push_back(place);
 

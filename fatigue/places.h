@@ -24,8 +24,11 @@ struct PlacesOfConductor {
 
 struct FirstPlace {
   Percentiles lives;  ///< [repeats]
-  /// Where a share of median wires breaks soonest; of no conductor (their number) where none ever does.
-  std::size_t conductor = 0, segment = 0;
+  /// Of each conductor that can fail, where a share of its median wires breaks soonest; the soonest first.
+  struct Soonest {
+    std::size_t conductor, segment;
+  };
+  std::vector<Soonest> soonest;
   std::size_t judged = 0;  ///< places that could matter
 };
 

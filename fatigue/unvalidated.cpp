@@ -31,10 +31,7 @@ namespace {
 
 /// "signal cable 3" of several equal cables, "power cable" of a single one. path: of a cable in the job.
 std::string cable_in_words(const pipeline::Job& job, const std::string& path) {
-  const PathInJob at = path_in_job(job, path);
-  for (const pipeline::Component& part : job.dresspacks[at.dresspack].dresspack.components)
-    if (part.count == 1 && at.inside == part.name + " 1") return part.name;
-  return at.inside;
+  return path_in_job(job, path_in_words(job, path)).inside;
 }
 
 using pipeline::FileReader;

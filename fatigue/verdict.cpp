@@ -191,6 +191,14 @@ PathInJob path_in_job(const pipeline::Job& job, const std::string& component) {
                              "make the strain file again with dresslife-strain");
 }
 
+std::string path_in_words(const pipeline::Job& job, const std::string& component) {
+  const PathInJob at = path_in_job(job, component);
+  for (const pipeline::Component& part : job.dresspacks[at.dresspack].dresspack.components)
+    if (const std::string only = part.name + " 1"; part.count == 1 && (at.inside + "/").starts_with(only + "/"))
+      return component.substr(0, component.size() - at.inside.size()) + part.name + at.inside.substr(only.size());
+  return component;
+}
+
 std::vector<std::string> layer_names(const pipeline::Dresspack& dresspack) {
   std::vector<std::string> names;
   add_layer_names(dresspack.components, names);

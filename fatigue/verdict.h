@@ -82,6 +82,9 @@ struct PathInJob {
 };
 PathInJob path_in_job(const pipeline::Job& job, const std::string& component);
 
+/// Its path in words: without the number of a cable that is the only one of its name, "power cable/core 2".
+std::string path_in_words(const pipeline::Job& job, const std::string& component);
+
 /// Path of a wire without the numbers of its parts: "signal cable 3/conductor 2/layer 1/wire 17" of a job
 /// whose components name a layer "layer 1" is "signal cable/conductor/layer 1/wire".
 std::string layer_of(const std::string& component, const std::vector<std::string>& layer_names);

@@ -262,6 +262,8 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
               ? fmt::format("# FILL IN clamps, or let dresslife route {} search. No routing that was tried runs. The last one:\n# {}\n",
                             job, shown(choice.faults.front()))
               : fmt::format("# Clamps: {}.\n", choice.source);
+  if (!choice.refused && !choice.faults.empty())
+    text += fmt::format("# No routing that was tried keeps all limits: dresslife check {} names them.\n", job);
   const char* const off = choice.refused ? "# " : "";
   text += fmt::format(
       "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\n{}routing:\n", off);

@@ -470,7 +470,7 @@ Format make_life_format() {
     {"life_months_p10", f64, maybe, "life_hours_p10 at the job's operating hours per week"},
     {"robot_life_hours", f64, maybe, "fatigue.robot_life_hours of the job; absent: no robot moves"},
     {"failing_conductor", text, maybe,
-     "path of the conductor that loses the share of its wires first, by median lives"},
+     "path of the conductor of failing_mode that loses the share of its wires first, by median lives"},
     {"failing_position_from_tool", f64, maybe, "distance of that place from the tool clamp along the dresspack, m"},
     {"first_wire_life_hours_p10", f64, maybe,
      "by then 10 % of such dresspacks have a broken wire (fatigue.scatter_log10)"},

@@ -306,14 +306,18 @@ void check_hose(const Dresspack& dresspack) {
   if (dresspack.hose_strain_factor)
     throw InputError(c.where, "both hose_strain_factor and hose_corrugation are given",
                      "keep one of the two");
-  if (c.height - c.wall < c.pitch / 2 || c.wall > c.pitch / 4 || c.height > dresspack.diameter / 2)
-    throw InputError(
-        c.where,
-        fmt::format(
-            "a corrugation of pitch {:.4g}, height {:.4g} and wall {:.4g} mm is not evaluated (height "
-            "less wall must be at least half the pitch, the wall at most a quarter of it)",
-            1e3 * c.pitch, 1e3 * c.height, 1e3 * c.wall),
-        "check the three, or give hose_strain_factor");
+  const auto refuse = [&](const char* key, double value, const char* bound, double limit, const char* why, const char* remedy) {
+    throw InputError(c.where, fmt::format("{} of hose_corrugation is {:.4g} (must be {} {:.4g} mm: {})", key, 1e3 * value, bound,
+                                          1e3 * limit, why),
+                     remedy);
+  };
+  const char* const measure = "measure the profile, or give hose_strain_factor instead";
+  if (c.wall > c.pitch / 4) refuse("wall_mm", c.wall, "at most", c.pitch / 4, "a quarter of the pitch; wall_mm is the thickness of the plastic", measure);
+  if (c.height > dresspack.diameter / 2)
+    refuse("height_mm", c.height, "at most", dresspack.diameter / 2, "half of the hose's diameter_mm", measure);
+  if (c.height - c.wall < c.pitch / 2)
+    refuse("height_mm", c.height, "at least", c.pitch / 2 + c.wall, "wall_mm plus half of the pitch; height_mm is that of a crest over a root",
+           "measure the profile, or give hose_strain_factor and inner_diameter_mm instead: a shallow profile is not evaluated");
 }
 
 bool hold_wires(const std::vector<Component>& parts) {

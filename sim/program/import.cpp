@@ -346,8 +346,10 @@ Language language_of(const pipeline::Motion& motion) {
   return is_backup(motion.program) ? backup_of(motion.program, motion.routine).language : language_of(motion.program);
 }
 
-Program read_program(const pipeline::Motion& motion, const std::map<std::string, std::string>& instead) {
+Program read_program(const pipeline::Motion& motion, const FlangeAt& flange,
+                     const std::map<std::string, std::string>& instead) {
   ImportOptions options = options_of(motion);
+  options.flange = flange;
   Language language = Language::rapid;
   std::deque<SourceFile> files;
   std::vector<std::string> missing;
@@ -414,10 +416,10 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
   return motion;
 }
 
-RunMotion run_motion_of(const pipeline::Motion& motion) {
+RunMotion run_motion_of(const pipeline::Motion& motion, const FlangeAt& flange) {
   if (motion.program.empty()) return {motion, ""};
   try {
-    const Program program = read_program(motion);
+    const Program program = read_program(motion, flange);
     RunMotion run{motion_of(program, motion), waits_note(program)};
     for (pipeline::Warning& warning : run.motion.left_out) warning.words = in_words_of_a_job(warning.words);
     return run;

@@ -24,10 +24,11 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
                      const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects,
                      Problems& problems);
 
-/// The program of a motion (`program`, `modules`, `routine`, `assume`, `tools`, `work_objects`). instead: contents of
-/// files other than they have, by the names in the program's places.
+/// The program of a motion (`program`, `modules`, `routine`, `assume`, `tools`, `work_objects`). flange: of its robot
+/// (ImportOptions). instead: contents of files other than they have, by the names in the program's places.
 /// Errors: one InputError with all problems. Precondition: motion.program is set.
-Program read_program(const pipeline::Motion& motion, const std::map<std::string, std::string>& instead = {});
+Program read_program(const pipeline::Motion& motion, const FlangeAt& flange = {},
+                     const std::map<std::string, std::string>& instead = {});
 
 /// The language of a motion's program. Precondition: motion.program is set.
 Language language_of(const pipeline::Motion& motion);
@@ -42,8 +43,8 @@ struct RunMotion {
   std::string note;
 };
 
-/// The motion itself, or its program's.
-RunMotion run_motion_of(const pipeline::Motion& motion);
+/// The motion itself, or its program's. flange: of its robot.
+RunMotion run_motion_of(const pipeline::Motion& motion, const FlangeAt& flange = {});
 
 /// "3 waits for signals count 0 s ...": lines whose wait ends when something outside of the program happens; empty: none.
 std::string waits_note(const Program& program);

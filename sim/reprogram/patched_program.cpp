@@ -10,6 +10,7 @@
 
 #include "pipeline/base/plain_file.h"
 #include "pipeline/settings/document.h"
+#include "sim/robot/inverse_kinematics.h"
 
 namespace dresslife::sim {
 namespace {
@@ -126,7 +127,7 @@ PatchedProgram patched(const pipeline::Job& job, const ReadProgram& read, const 
     instead[file] = changed.text;
     made.patch += changed.patch;
   }
-  made.motion = motion_of(read_program(job.motion, instead), job.motion);
+  made.motion = motion_of(read_program(job.motion, flange_at(job.robot), instead), job.motion);
   const std::string other = other_difference(read.motion, made.motion, way.changes);
   if (!other.empty())
     throw pipeline::InputError(

@@ -253,7 +253,7 @@ class Ways {
 ReadProgram read_job_program(const pipeline::Job& job) {
   ReadProgram read;
   read.language = language_of(job.motion);
-  read.program = read_program(job.motion);
+  read.program = read_program(job.motion, flange_at(job.robot));
   read.motion = motion_of(read.program, job.motion);
   return read;
 }

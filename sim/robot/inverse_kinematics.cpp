@@ -373,7 +373,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
       for (const VectorXd& joints : with_turns(arm)) {
         within_limits = true;
         if (!matches(joints, configuration, with_sides)) {
-          if (with_sides) others.push_back(this->configuration(joints, configuration.kind).text());
+          if (with_sides) others.push_back(in_words(this->configuration(joints, configuration.kind)));
           continue;
         }
         fits = true;
@@ -396,7 +396,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
     if (different > 1 && !open_.empty() && !chosen && configuration.kind != ArmConfiguration::Kind::any) {
       reason =
           fmt::format("is reached by {} arms of configuration {}: {}; only joint angles distinguish them",
-                      different, configuration.text(), open_);
+                      different, in_words(configuration), open_);
       return {};
     }
   }
@@ -409,9 +409,22 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
   else if (!within_limits)
     reason = "is reached only outside the joint limits: " + least_beyond(reaching);
   else
-    reason = fmt::format("is not reached in configuration {} (but in {})", configuration.text(),
+    reason = fmt::format("is not reached in configuration {} (but in {})", in_words(configuration),
                          pipeline::joined(others, "; "));
   return {};
+}
+
+std::string in_words(const ArmConfiguration& configuration) {
+  return configuration.kind == ArmConfiguration::Kind::kuka
+             ? fmt::format("S {}, T {}", configuration.numbers[0], configuration.numbers[1])
+             : configuration.text();
+}
+
+FlangeAt flange_at(const pipeline::Robot& robot) {
+  if (!robot.external_axes.empty() || RobotKinematics(robot).axes() != 6) return {};
+  return [arm = InverseKinematics(robot)](const std::array<double, 6>& angles) {
+    return arm.flange(Eigen::Map<const VectorXd>(angles.data(), 6));
+  };
 }
 
 }  // namespace dresslife::sim

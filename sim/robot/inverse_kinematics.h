@@ -43,6 +43,9 @@
 
 namespace dresslife::sim {
 
+/// For messages: text(), of KUKA as its programs write it, "S 2, T 35".
+std::string in_words(const ArmConfiguration& configuration);
+
 class InverseKinematics {
  public:
   explicit InverseKinematics(const pipeline::Robot& robot);
@@ -110,5 +113,8 @@ class InverseKinematics {
   bool exact_ = false;  // the closed form needs no iteration
   std::optional<NumericalInverse> numerical_;
 };
+
+/// For readers of programs; empty for a robot without six axes, or with external ones, whose place it depends on.
+FlangeAt flange_at(const pipeline::Robot& robot);
 
 }  // namespace dresslife::sim

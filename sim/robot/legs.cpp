@@ -229,8 +229,7 @@ class Layout {
                        external);
       if (leads_tool(step.path) && place_.size() > 0) {
         move.path = ToolPath(tooling, tooling.pose(arm_.flange(place_)), tooling.pose(arm_.flange(move.to)));
-        if (!step.via_position.empty())
-          move.path->bend({step.via_position[0], step.via_position[1], step.via_position[2]});
+        bend(step, line, move);
         if (!step.circle_joints.empty()) move.path->bend_beside(circle_point(step, tooling, external));
       }
     } else if (!reach(step, line, external, move)) {
@@ -247,6 +246,17 @@ class Layout {
     }
     place_ = move.to;
     moves_.push_back(std::move(move));
+  }
+
+  /// Controllers stop at a circular move without a circle.
+  void bend(const MotionStep& step, int line, Move& move) {
+    const auto& via = step.via_position;
+    if (via.empty() || move.path->bend({via[0], via[1], via[2]})) return;
+    problems_.add(step.where,
+                  fmt::format("'{}' has no circle: its start, the point on the way and its end lie on a line, or two of "
+                              "them are one",
+                              made_.texts[line]),
+                  "correct the point on the way or the end, or write a straight move");
   }
 
   /// Where the tool is at a step's circle_joints, with the external axes as at the move's end.
@@ -278,14 +288,13 @@ class Layout {
     move.to = *joints;
     if (!path) return true;
     move.path = ToolPath(move.tooling, move.tooling.pose(arm_.flange(place_)), target);
-    if (has_via(step.path))
-      move.path->bend({step.via_position[0], step.via_position[1], step.via_position[2]});
+    bend(step, line, move);
     follow(move);
     if (arm_.unsupported().empty() && !arm_.may_end(move.to, *configuration))
       return refuse(
           step, line,
           fmt::format("is reached along its path in configuration {}, not in {}",
-                      arm_.configuration(move.to, configuration->kind).text(), configuration->text()));
+                      in_words(arm_.configuration(move.to, configuration->kind)), in_words(*configuration)));
     return true;
   }
 

@@ -2,6 +2,7 @@
 // evenly.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/rod/rotation.h"
@@ -30,8 +31,8 @@ class ToolPath {
     turn_ = rotation_vector(from.orientation.conjugate() * to.orientation).norm();
   }
 
-  /// Makes it the arc through `via`; a point on the line leaves it straight.
-  void bend(const Vector3& via) { bend_round(via, to_.position); }
+  /// Makes it the arc through `via`; false: start, via and end give no circle, and the way stays straight.
+  bool bend(const Vector3& via) { return bend_round(via, to_.position); }
 
   /// Makes it the arc of the circle through `other`, a point of the circle before the start or after the end.
   void bend_beside(const Vector3& other) { bend_round(to_.position, other); }
@@ -59,18 +60,20 @@ class ToolPath {
 
  private:
   /// The arc to the end on the circle that leads from the start to p, then on to q.
-  void bend_round(const Vector3& p, const Vector3& q) {
+  bool bend_round(const Vector3& p, const Vector3& q) {
     // The centre m of the circle through 0, a, b: 2 a.m = |a|^2, 2 b.m = |b|^2 and (a x b).m = 0, hence
     // m = (|a|^2 b - |b|^2 a) x (a x b) / (2 |a x b|^2).
     const Vector3 a = p - from_.position, b = q - from_.position, n = a.cross(b);
-    constexpr double straight = 1e-9;  // sine of the angle between a and b
-    if (n.norm() <= straight * a.norm() * b.norm() || a.norm() == 0) return;
+    // The largest side times the distance of the third point from it. Programs hold 0.01 or 0.001 mm.
+    constexpr double straight = 1e-5;  // [m]
+    if (n.norm() <= straight * std::max({a.norm(), b.norm(), (b - a).norm()})) return false;
     centre_ = from_.position + (a.squaredNorm() * b - b.squaredNorm() * a).cross(n) / (2 * n.squaredNorm());
     axis_ = n.normalized();
     const Vector3 first = from_.position - centre_, last = to_.position - centre_;
     angle_ = std::atan2(axis_.dot(first.cross(last)), first.dot(last));
     if (angle_ <= 0) angle_ += 2 * std::acos(-1.0);  // p, then q: less than a full turn about n
     length_ = angle_ * first.norm();
+    return true;
   }
 
   Tooling tooling_;

@@ -11,6 +11,7 @@
 #include "pipeline/resolve/plausible_job.h"
 #include "sim/program/import.h"
 #include "sim/program/interpreter/tokens.h"
+#include "sim/robot/inverse_kinematics.h"
 
 namespace dresslife::sim {
 
@@ -240,7 +241,7 @@ std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup) {
   return std::make_unique<RobotPath>(setup);
 }
 
-RobotPath::RobotPath(const pipeline::Setup& setup) : RobotPath(setup, run_motion_of(setup.motion)) {}
+RobotPath::RobotPath(const pipeline::Setup& setup) : RobotPath(setup, run_motion_of(setup.motion, flange_at(setup.robot))) {}
 
 RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
     : kinematics_(setup.robot),

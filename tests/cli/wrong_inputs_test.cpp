@@ -216,6 +216,13 @@ const Wrong wrong[] = {
     {"job.yaml", "dresspack: hose.yaml", "dresspack: spot.mod", "job.yaml:9:12: error: ", "'spot.mod' is a robot program or a table", "write a program after 'motion:'"},
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_g: 1200", "hose.yaml:5:1: error: ", "unknown key 'dresspack.mass_g'", "did you mean 'mass_kg_per_m'? Its unit is kg/m"},
     {"spot.mod", "MoveAbsJ a", "WaitTime -0.6;\n  MoveAbsJ a", "spot.mod:4:", "waits for -0.6 s (must be 0 or more)", "write 0.6 if the sign is a slip", "dresslife-sim module.yaml --preview -o out.h5"},
+    // Programs of KUKA
+    {"nod.src", "BAS(#VEL_PTP,60)", "BAS(#VEL_PTP)", "nod.src:2:1: error: ", "has BAS(#vel_ptp) without a number", "write BAS(#vel_ptp, NUMBER)", "dresslife check krl.yaml"},
+    {"nod.src", "S 2,T 2", "S 2,T 35", "nod.src:9:1: error: ", "is not reached in configuration S 2, T 35 (but in ", "check target, tool", "dresslife check krl.yaml"},
+    {"nod.src", "LIN_REL {Z -120} C_DIS", "CIRC {X 900,Y -350,Z 600,A 0,B 180,C 0}, {X 900,Y -350,Z 500,A 0,B 180,C 0}", "nod.src:10:1: error: ", "has no circle", "or write a straight move", "dresslife check krl.yaml"},
+    {"nod.src", "LIN_REL {Z -120} C_DIS", "CIRC {X 900,Y -350,Z 550,A 0,B 180,C 0}, {X 900,Y -350,Z 500,A 0,B 180,C 0}", "nod.src:10:1: error: ", "lie on a line", "correct the point on the way", "dresslife check krl.yaml"},
+    {"nod.src", "PTP {X 900,Y -350,Z 600,A 0,B 180,C 0,S 2,T 2}\n", "", "nod.src:9:9: error: ", "gives some coordinates only", "name the program in a job, whose robot of six axes gives them", "dresslife-import nod.src -o out.h5"},
+    {"hose.yaml", "inner_diameter_mm: 42", "hose_corrugation: {pitch_mm: 4.5, height_mm: 4, wall_mm: 7}", "hose.yaml:4:19: error: ", "wall_mm of hose_corrugation is 7 (must be at most 1.125 mm", "measure the profile", draw},
     // What a search may change
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.lenght=2.05: error: unknown key 'routing.lenght'", "correct `free`, or --free", free_as("routing.lenght=2 .. 2.1")},
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.free_length_m=2050: error: ", "correct `free`, or --free", free_as("routing.free_length_m=2000 .. 2100")},
@@ -268,6 +275,20 @@ TEST_CASE("the inputs that are changed below are accepted as they are") {
     INFO(outcome.err);
     CHECK(outcome.status == 0);
   }
+}
+
+TEST_CASE("wrong inputs: a relative move behind axis angles is none, its place follows from the job's robot") {
+  const Scratch scratch;
+  write_inputs(scratch);
+  scratch.write("nod.src", edited(krl, "PTP {X 900,Y -350,Z 600,A 0,B 180,C 0,S 2,T 2}\n", ""));
+  const Outcome relative = run(scratch, "dresslife", "check krl.yaml");
+  CAPTURE(relative.out, relative.err);
+  CHECK(relative.status == 0);
+  // The same way to the pose that the robot has at these axis angles.
+  scratch.write("nod.src", edited(krl, "PTP {X 900,Y -350,Z 600,A 0,B 180,C 0,S 2,T 2}\nLIN_REL {Z -120} C_DIS\n", "PTP $POS_ACT\nLIN_REL {Z -120} C_DIS\n"));
+  CHECK(run(scratch, "dresslife", "check krl.yaml").out == relative.out);
+  scratch.write("nod.src", edited(krl, "VEL_PTP,60", "VEL_PTP"));
+  CHECK(count_of(run(scratch, "dresslife", "check krl.yaml").err, "error: ") == 1);
 }
 
 TEST_CASE("45 and more plausible wrong inputs: each answer names file, line, problem and remedy") {

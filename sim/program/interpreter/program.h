@@ -12,6 +12,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -182,6 +184,9 @@ class Unread : public pipeline::InputError {
 
 enum class Assumption { then_branch, else_branch };
 
+/// The flange in the program's frame at six axis angles [rad].
+using FlangeAt = std::function<Frame(const std::array<double, 6>&)>;
+
 struct ImportOptions {
   std::string routine;  ///< where to start, "name" or "name(arguments)"; empty: the language's own start
   /// "file.mod:12" or "12" -> what an undecidable branch on that line does.
@@ -197,6 +202,7 @@ struct ImportOptions {
   /// Whether the user named the first file as the program: its routines count before those of the same name in files
   /// that lie beside it, such as a copy of an older state.
   bool first_file_counts = false;
+  FlangeAt flange = {};  ///< empty: the robot is not known
 };
 
 /// Bounds on what a program may ask of its reader; past them the reading ends with a problem.

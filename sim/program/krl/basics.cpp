@@ -436,6 +436,10 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
   const Place& place = statement.place;
   const std::string what = run.evaluate(statement.arguments[0]).text;
   const Value number = statement.arguments.size() > 1 ? run.evaluate(statement.arguments[1]) : Value{};
+  static const std::set<std::string> with_number{"#vel_ptp", "#acc_ptp", "#vel_cp",  "#acc_cp",     "#acc_glue",
+                                                 "#tool",    "#base",    "#ex_base", "#ptp_params", "#cp_params"};
+  if (statement.arguments.size() < 2 && with_number.contains(what))
+    return run.complain(place, fmt::format("has BAS({}) without a number", what), fmt::format("write BAS({}, NUMBER)", what));
   const auto set_speed = [&](const Value& speed) {
     run.assign(field_at("$vel", "cp", place), path_speed(speed, run));
   };

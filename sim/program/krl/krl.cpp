@@ -126,7 +126,10 @@ void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter
       place_here(axes, run), written.place,
       "gives some coordinates only, from a place whose other coordinates are not known: the move before goes to axis "
       "angles or is not known",
-      "move to a pose with X, Y, Z, A, B, C before", "");
+      run.options().flange ? "move to a pose with X, Y, Z, A, B, C before"
+                           : "move to a pose with X, Y, Z, A, B, C before, name the program in a job, whose robot of six "
+                             "axes gives them (dresslife check JOB.yaml)",
+      "");
 }
 
 /// Where the robot stands is unknown: what the last move's target depends on is asked for too, but that may be given
@@ -137,8 +140,13 @@ Value Krl::place_here(bool axes, Interpreter& run) const {
   return lost_.cause ? unknown_value(lost_, here) : here;
 }
 
-/// The numbers of the last target, in other frames where they have changed since.
+/// The numbers of the last target, in other frames where they have changed since; of axis angles those of the robot.
 std::optional<std::array<double, 6>> Krl::place_before(const Frames& frames) const {
+  if (axes_ && frames.unknown.known() && run_->options().flange) {
+    std::array<double, 6> angles = *axes_;
+    for (double& angle : angles) angle *= degree;
+    return numbers_of(frames.pose(run_->options().flange(angles)));
+  }
   if (!numbers_ || frames.same(numbers_in_)) return numbers_;
   if (!frames.unknown.known() || !numbers_in_.unknown.known()) return numbers_;  // they are asked for
   return numbers_of(frames.pose(numbers_in_.flange(frame_from(*numbers_))));

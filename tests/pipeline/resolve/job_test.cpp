@@ -382,10 +382,8 @@ TEST_CASE("job: the hose's wall has a material of its own and a factor or a prof
   refused(profile + "  hose_strain_factor: 0.2\n",
           "both hose_strain_factor and hose_corrugation are given; keep one of the two");
   refused("  hose_corrugation: {pitch_mm: 4, height_mm: 2, wall_mm: 0.5}\n",
-          "a corrugation of pitch 4, height 2 and wall 0.5 mm is not evaluated (height less wall must be at "
-          "least "
-          "half the pitch, the wall at most a quarter of it); check the three, or give hose_strain_factor");
-  refused("  hose_corrugation: {pitch_mm: 4, height_mm: 4, wall_mm: 1.5}\n", "is not evaluated");
+          "height_mm of hose_corrugation is 2 (must be at least 2.5 mm: wall_mm plus half of the pitch;");
+  refused("  hose_corrugation: {pitch_mm: 4, height_mm: 4, wall_mm: 1.5}\n", "wall_mm of hose_corrugation is 1.5 (must be at most 1 mm");
   refused("  hose_corrugation: {pitch_mm: 4, height_mm: 4}\n", "wall_mm");
   refused("  hose_strain_factor: 0\n", "hose_strain_factor");
 }
