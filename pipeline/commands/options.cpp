@@ -14,6 +14,7 @@
 #include "pipeline/base/installation.h"
 #include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/text.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/stage/stage.h"
 
@@ -108,8 +109,7 @@ constexpr OtherKind program_kind{"robot program", "name it in a job: dresslife n
 
 /// By the end of the name; null: perhaps a YAML file, whose keys tell its kind (pipeline/resolve/document_kind.h).
 const OtherKind* kind_by_name(const fs::path& file) {
-  std::string end = file.extension();
-  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  const std::string end = lower_case(file.extension().string());
   static const std::set<std::string> programs{".mod", ".modx", ".prg", ".sys", ".pgf", ".src", ".dat", ".ls", ".jbi", ".script"};
   if (programs.contains(end)) return &program_kind;
   if (end == ".urdf" || end == ".xacro") return &robot_kind;

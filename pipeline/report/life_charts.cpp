@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "pipeline/base/order.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
@@ -60,12 +61,8 @@ struct Label {
 std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<ProgramRun>& runs,
                                 const Panel& panel) {
   const double total = sum(life.step_damage);
-  std::vector<std::size_t> lines(life.step_damage.size());
-  std::iota(lines.begin(), lines.end(), 0);
-  std::stable_sort(lines.begin(), lines.end(),
-                   [&](auto a, auto b) { return life.step_damage[a] > life.step_damage[b]; });
   std::vector<Label> labels;
-  for (const std::size_t line : lines) {
+  for (const std::size_t line : largest_first(life.step_damage)) {
     if (labels.size() == named_lines || !(life.step_damage[line] > named_share * total)) break;
     const ProgramRun* costliest = nullptr;
     for (const ProgramRun& run : runs)

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 
+#include "pipeline/base/order.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/known_history.h"
@@ -35,12 +35,8 @@ class Thinning {
   std::vector<double> of(const std::vector<double>& history) const { return at(history, kept(history)); }
   /// Samples of a history that are kept.
   std::vector<std::size_t> kept(const std::vector<double>& history) const {
+    if (!thins()) return indices_of(samples_);
     std::vector<std::size_t> samples;
-    if (!thins()) {
-      samples.resize(samples_);
-      std::iota(samples.begin(), samples.end(), 0);
-      return samples;
-    }
     for (std::size_t from = 0; from < samples_; from += stretch_) {
       const auto begin = history.begin() + static_cast<std::ptrdiff_t>(from),
                  end = history.begin() + static_cast<std::ptrdiff_t>(std::min(from + stretch_, samples_));
@@ -68,13 +64,6 @@ class Thinning {
  private:
   std::size_t samples_, stretch_;
 };
-
-std::vector<std::size_t> most_damaged_first(const std::vector<double>& damage) {
-  std::vector<std::size_t> order(damage.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return damage[a] > damage[b]; });
-  return order;
-}
 
 class Data {
  public:
@@ -221,7 +210,7 @@ class Data {
     std::size_t kept = 0;
     const bool worst_known = worst_ && strain_ && known_whole(*strain_, *worst_);
     std::size_t turns = 0;
-    for (const std::size_t segment : most_damaged_first(damage_)) {
+    for (const std::size_t segment : largest_first(damage_)) {
       const bool worst_one = static_cast<int>(segment) == worst;
       if (worst_site_[segment] == no_site || (!strain_ && !worst_one)) continue;
       const auto probe = probed.find(segment);

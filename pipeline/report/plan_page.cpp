@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/order.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/table_page.h"
@@ -35,11 +35,7 @@ const char* shade_of(double probability) {
 
 /// Dresspacks by falling risk.
 std::vector<std::size_t> by_risk(const Plan& plan) {
-  std::vector<std::size_t> order(plan.rows.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return plan.rows[a].fails_before > plan.rows[b].fails_before; });
-  return order;
+  return largest_first(plan.rows.size(), [&](std::size_t k) { return plan.rows[k].fails_before; });
 }
 
 /// A picture over the days of the plan.

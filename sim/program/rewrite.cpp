@@ -1,10 +1,10 @@
 #include "sim/program/rewrite.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/text.h"
 #include "sim/program/fanuc/run.h"
 #include "sim/program/interpreter/encoding.h"
 #include "sim/program/interpreter/parser.h"
@@ -154,10 +154,8 @@ std::string in_degrees(const std::vector<double>& joints) {
 
 /// "500" -> "350"; absent: no number.
 std::optional<std::string> scaled(std::string_view number, double factor) {
-  double value = 0;
-  const auto [end, failure] = std::from_chars(number.data(), number.data() + number.size(), value);
-  if (failure != std::errc() || end != number.data() + number.size() || number.empty()) return {};
-  return shortest(value * factor, 6);
+  const auto value = pipeline::whole_number_in<double>(number);
+  return value ? std::optional(shortest(*value * factor, 6)) : std::nullopt;
 }
 
 std::string indentation(const std::string& line) {

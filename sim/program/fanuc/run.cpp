@@ -1,7 +1,6 @@
 #include "sim/program/fanuc/run.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "pipeline/base/joined.h"
@@ -63,9 +62,7 @@ std::string FanucRun::line_name() const { return fmt::format("{}:{}", file_of(wh
 
 /// The program that runs, as its listing writes it.
 std::string FanucRun::program_name() const {
-  std::string name = routines_.empty() ? "" : routines_.back().listing->name;
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return name;
+  return routines_.empty() ? "" : upper_case(routines_.back().listing->name);
 }
 
 void FanucRun::complain(const std::string& what, const std::string& remedy) {

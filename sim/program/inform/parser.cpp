@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "pipeline/base/text.h"
 #include "sim/program/inform/inform.h"
 #include "sim/program/interpreter/parser.h"
 
@@ -871,11 +872,10 @@ std::string inform_name(const std::string& written) {
                                                "bp", "ex", "c",  "bc", "ec",  "lb",  "li",
                                                "ld", "lr", "ls", "lp", "lpx", "lbp", "lex"};
   if (digits == 0 || digits == name.size() || !variables.contains(letters)) return lower_case(written);
-  int number = 0;
-  const auto [end, failure] = std::from_chars(name.data() + digits, name.data() + name.size(), number);
-  if (failure != std::errc() || end != name.data() + name.size()) return lower_case(written);
+  const auto number = pipeline::whole_number_in<int>(std::string_view(name).substr(digits));
+  if (!number) return lower_case(written);
   return fmt::format("{}{:03}", letters.ends_with("px") ? letters.substr(0, letters.size() - 1) : letters,
-                     number);
+                     *number);
 }
 
 }  // namespace dresslife::sim

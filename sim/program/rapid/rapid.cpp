@@ -1,12 +1,12 @@
 #include "sim/program/rapid/rapid.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <numbers>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/text.h"
 #include "sim/program/interpreter/tokens.h"
 #include "sim/program/rapid/dialect.h"
 #include "sim/program/rapid/functions.h"
@@ -336,12 +336,10 @@ Value Rapid::text_to_value(const Expression& call, Interpreter& run) {
   const Value text = call.items.empty() ? Value{} : run.evaluate(call.items[0]);
   if (call.items.size() != 2) return Value{};
   if (text.kind == Value::Kind::text) {
-    double number = 0;
-    const char* end = text.text.data() + text.text.size();
-    const auto read = std::from_chars(text.text.data(), end, number);
+    const auto number = pipeline::whole_number_in<double>(text.text);
     const std::string word = lower_case(text.text);
-    if (!text.text.empty() && read.ec == std::errc() && read.ptr == end && std::isfinite(number))
-      return run.assign(call.items[1], number_value(number)), truth_value(true);
+    if (number && std::isfinite(*number))
+      return run.assign(call.items[1], number_value(*number)), truth_value(true);
     if (word == "true" || word == "false")
       return run.assign(call.items[1], truth_value(word == "true")), truth_value(true);
   }
