@@ -140,6 +140,13 @@ StudyRequest request_of(const StudyOptions& options) {
   return {named_study(options.study), options.sets, options.out, program_folder()};
 }
 
+fs::path folder_of_results(const StudyRequest& request, const StudyOptions& options) {
+  const fs::path folder = request.out / study_name(request.file);
+  if (kind_of(folder) != FileKind::folder)
+    throw InputError({folder.string()}, "is not there (the study has not run)", "run it: dresslife run " + options.study);
+  return folder;
+}
+
 void print(const std::string& text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) < text.size()) note_failed_output(errno);

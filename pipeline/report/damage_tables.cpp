@@ -7,6 +7,7 @@
 
 #include "pipeline/base/order.h"
 #include "pipeline/report/chart_style.h"
+#include "pipeline/report/page_shell.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/study/mode_table.h"
 
@@ -68,10 +69,9 @@ std::string cause_table(const LifeSummary& life) {
       "<h3>What moved while the damage was done: a correlation</h3>\n<p class=\"soft\">Damage of the worst wire by the "
       "joints "
       "that move the two clamps against each other, by how much each changed the wire's strain while a cycle "
-      "ran. This is no cause: motion.hold_joint tries what a joint costs. {} % of the strain's variance follows from these joints{}.</p>\n<div "
-      "class=\"wide\"><table>\n<thead><tr><th>moved</th><th>share of the "
-      "damage</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
-      printed(100 * life.explained), life.explained < 0.8 ? ": the shares are rough" : "", rows);
+      "ran. This is no cause: motion.hold_joint tries what a joint costs. {} % of the strain's variance follows from these joints{}.</p>\n{}",
+      printed(100 * life.explained), life.explained < 0.8 ? ": the shares are rough" : "",
+      wide_table({"moved", "share of the damage"}, rows));
 }
 
 /// (line) half of the damage of the cycles that a line opens and half of those that it completes.
@@ -124,15 +124,10 @@ std::string program_table(const LifeSummary& life) {
   return "<h3>Program lines that cost most</h3>\n<p class=\"soft\">It takes two lines to make a cycle of "
          "strain: "
          "one in which it opens and one in which its range is reached. Each is blamed for half of its "
-         "damage.</p>\n<div "
-         "class=\"wide\"><table>\n<thead><tr><th "
-         "class=\"number\">line</th><th>program</th>"
-         "<th class=\"number\">runs</th><th>costliest at</th><th>share of the damage</th><th "
-         "class=\"number\">opened here</th><th class=\"number\">reached here</th><th>reached mostly "
-         "by</th><th "
-         "class=\"number\">damage per repeat</th></tr>"
-         "</thead>\n<tbody>\n" +
-         rows + "</tbody></table></div>\n";
+         "damage.</p>\n" +
+         wide_table({"#line", "program", "#runs", "costliest at", "share of the damage", "#opened here", "#reached here",
+                     "reached mostly by", "#damage per repeat"},
+                    rows);
 }
 
 std::string layer_table(const LifeSummary& life, const RankingRow& row) {
@@ -146,11 +141,7 @@ std::string layer_table(const LifeSummary& life, const RankingRow& row) {
         printed(life.layer_damage[i]));
   }
   if (rows.empty()) return "";
-  return "<h3>Life by layer of wires</h3>\n<div class=\"wide\"><table>\n<thead><tr><th>layer</th><th "
-         "class=\"number\">life [h]</th>"
-         "<th class=\"number\">repeats</th><th class=\"number\">damage per "
-         "repeat</th></tr></thead>\n<tbody>\n" +
-         rows + "</tbody></table></div>\n";
+  return "<h3>Life by layer of wires</h3>\n" + wide_table({"layer", "#life [h]", "#repeats", "#damage per repeat"}, rows);
 }
 
 std::string place_remark(const LifeSummary& life) {

@@ -10,6 +10,7 @@
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/known_history.h"
+#include "pipeline/report/stored_job.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
@@ -325,7 +326,7 @@ class Data {
 
   /// What stress follows, in words.
   std::string stress_rule() const {
-    const Node job = parse_yaml(life_.text_attribute("job"), life_.where().file + " (attribute job)");
+    const Node job = stored_job(life_);
     const Node* fatigue = job.find("fatigue");
     const Node* stress = fatigue ? fatigue->find("stress") : nullptr;
     return !stress ? "stress as fatigue.stress has it"

@@ -298,12 +298,7 @@ void FanucRun::action(const std::string& text) {
     skip_condition_ = std::string(at.rest());
     return note("SKIP: input, output or logic");
   }
-  if (word == "spot") {
-    Instruction weld;
-    weld.kind = Instruction::Kind::dwell;
-    weld.dwell = around_.options.spot_time;
-    return emit(weld);
-  }
+  if (word == "spot") return emit(dwell_of(around_.options.spot_time));
   assignment(word, at);
 }
 
@@ -484,11 +479,7 @@ void FanucRun::wait(FanucCursor& at) {
     }
     return note("WAIT: input");
   }
-  if (*time <= 0) return;
-  Instruction wait;
-  wait.kind = Instruction::Kind::dwell;
-  wait.dwell = *time;
-  emit(wait);
+  if (*time > 0) emit(dwell_of(*time));
 }
 
 // ---- assignments -----------------------------------------------------------------------------------------

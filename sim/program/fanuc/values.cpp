@@ -50,8 +50,6 @@ FanucNumber number_in(const std::string& text) {
 
 }  // namespace
 
-int whole_number(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
-
 void add_causes(FanucCauses& to, const FanucCauses& more) {
   constexpr std::size_t most = 12;  // of one value
   for (const FanucCause& cause : more)

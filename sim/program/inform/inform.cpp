@@ -614,18 +614,12 @@ class Inform final : public Dialect {
     const Expression& written = statement.arguments[0];
     const auto number = needed(written, "time");
     if (!number || !(*number > 0)) return;
-    Instruction wait;
-    wait.kind = Instruction::Kind::dwell;
-    wait.dwell = *number * (written.kind == Expression::Kind::number ? 1 : unit_of_variable("t"));
-    run.emit(wait, statement);
+    run.emit(dwell_of(*number * (written.kind == Expression::Kind::number ? 1 : unit_of_variable("t"))), statement);
   }
 
   void spot(const Statement& statement, Interpreter& run) { weld(statement, run); }
   static void weld(const Statement& statement, Interpreter& run) {
-    Instruction weld;
-    weld.kind = Instruction::Kind::dwell;
-    weld.dwell = run.options().spot_time;
-    if (weld.dwell > 0) run.emit(weld, statement);
+    if (run.options().spot_time > 0) run.emit(dwell_of(run.options().spot_time), statement);
   }
 
   void start_beside(const Statement& statement, Interpreter& run) {

@@ -166,12 +166,8 @@ void Rapid::wait(const Statement& statement, Interpreter& run) {
   else if (!time.is_number() || !(time.number >= 0))
     run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
                 "write it as a constant", "a time in s");
-  else if (time.number > 0) {
-    Instruction instruction;
-    instruction.kind = Instruction::Kind::dwell;
-    instruction.dwell = time.number;
-    run.emit(instruction, statement);
-  }
+  else if (time.number > 0)
+    run.emit(dwell_of(time.number), statement);
 }
 
 /// Incr n; Decr n; Clear n; Add n, by.
@@ -202,10 +198,7 @@ bool Rapid::named_data(const Statement& statement, Interpreter& run) {
   if ((!get && statement.name != "setdataval") || statement.arguments.size() < 2) return false;
   const Value name = run.evaluate(statement.arguments[0]);
   const Expression& value = statement.arguments.back();
-  Expression data;
-  data.kind = Expression::Kind::name;
-  data.text = lower_case(name.text);
-  data.place = statement.place;
+  const Expression data = name_at(lower_case(name.text), statement.place);
   if (name.kind != Value::Kind::text || !run.variable(data.text)) {
     if (get)
       run.make_unknown(value, {"", "is read by GetDataVal under a name that no file read declares"});
