@@ -10,6 +10,7 @@
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/known_history.h"
+#include "pipeline/report/motion_data.h"
 #include "pipeline/report/stored_job.h"
 #include "pipeline/settings/document.h"
 
@@ -84,7 +85,7 @@ class Data {
     data.add("segments", segments()).add("strains", strains()).add("closings", closings());
     if (const auto of_worst = cycles()) data.add("cycles", *of_worst);
     if (const auto of_worst = loops()) data.add("loops", *of_worst);
-    data.add("program", program());
+    data.add("program", program_data(life_).add("damage", life_.read<double>("/program/damage")));
     return data.add("joints", life_.has("/joint/name") ? life_.read<std::string>("/joint/name")
                                                        : std::vector<std::string>{});
   }
@@ -343,20 +344,6 @@ class Data {
     std::vector<std::uint16_t> numbers;
     for (const double value : values) numbers.push_back(steps.of(value));
     return {{"low", steps.low}, {"step", steps.step}, {"numbers", base64_of(numbers)}};
-  }
-
-  Json program() const {
-    const auto step = life_.read<std::int32_t>("/program/step");
-    std::vector<double> begin, line;
-    for (std::size_t k = 0; k < step.size(); ++k)
-      if (k == 0 || step[k] != step[k - 1]) {
-        begin.push_back(time_[k] - time_[0]);
-        line.push_back(step[k]);
-      }
-    return {{"text", life_.read<std::string>("/program/text")},
-            {"damage", life_.read<double>("/program/damage")},
-            {"begin", begin},
-            {"line", line}};
   }
 
   const FileReader& life_;

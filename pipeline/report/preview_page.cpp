@@ -139,20 +139,6 @@ std::string scan_table(const std::vector<SpanPreview>& spans) {
          wide_table({"what", "#length", "#least bend radius", "#allowed"}, rows);
 }
 
-/// Where program lines begin; -1 before the program.
-Json program_data(const FileReader& file) {
-  const auto time = file.read<double>("/time");
-  const auto step = file.read<std::int32_t>("/program/step");
-  std::vector<double> begin, line;
-  for (std::size_t k = 0; k < step.size(); ++k) {
-    const double here = time[k] < 0 ? -1 : step[k];
-    if (!line.empty() && line.back() == here) continue;
-    begin.push_back(time[k] - time[0]);
-    line.push_back(here);
-  }
-  return {{"text", file.read<std::string>("/program/text")}, {"begin", begin}, {"line", line}};
-}
-
 Json ways_data(const FileReader& file, const std::vector<SpanPreview>& spans) {
   const auto times = file.read<double>("/time"), ways = file.read<double>("/span/way");
   std::vector<Json> rows;
