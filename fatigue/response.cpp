@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/order.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
@@ -45,10 +45,8 @@ std::vector<double> damage_of(const VariedStrains& at, const std::vector<std::si
 /// The `count` of them with the largest damage.
 std::vector<std::size_t> worst_of(const std::vector<std::size_t>& wires, const std::vector<double>& damage,
                                   std::size_t count) {
-  std::vector<std::size_t> order(wires.size()), worst;
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return damage[a] > damage[b]; });
+  std::vector<std::size_t> worst;
+  const std::vector<std::size_t> order = pipeline::largest_first(damage);
   for (std::size_t k = 0; k < std::min(count, order.size()); ++k) worst.push_back(wires[order[k]]);
   std::sort(worst.begin(), worst.end());
   return worst;
@@ -207,8 +205,7 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
     const SiteCounters counters(sites, component, job, longest);
     DamageCounter::Workspace workspace;
     for (const VariedStrains* at : points) {
-      std::vector<std::size_t> all(at->strains.size());
-      std::iota(all.begin(), all.end(), 0);
+      const std::vector<std::size_t> all = pipeline::indices_of(at->strains.size());
       likely.push_back(worst_of(all, damage_of(*at, all, counters, workspace), likely_wires));
     }
   }

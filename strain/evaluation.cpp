@@ -668,9 +668,6 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   const std::vector<const Worst*> wires = of_wires(worst);
   find_likely(wires);
   put_probes(sites_to_probe(wires, segment), segment, motion, sink);
-  if (sink.progress)
-    sink.progress(static_cast<double>(place_.first_segment + segment + 1) /
-                  static_cast<double>(place_.segments_in_all));
   if (!with_planes_) return;
   std::set<Site> likely;
   for (const Worst* const layer : wires)

@@ -50,7 +50,6 @@ struct Sink {
   std::function<void(const SiteRows&)> sites, bound_stick, bound_free;
   std::function<void(const Probe&)> probe;
   std::function<void(const FibreHistory&)> fibre;  ///< of the likely worst wires, for critical_plane only
-  std::function<void(double share)> progress;      ///< of the second pass; may be empty
 };
 
 /// Where the evaluated segments lie: a span between two clamps, which holds what slides at both its ends.

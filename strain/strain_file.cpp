@@ -1,6 +1,5 @@
 #include "strain/strain_file.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -9,17 +8,17 @@
 #include <numeric>
 #include <span>
 
-#include "pipeline/base/threads.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/stiffness.h"
-#include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/line_key.h"
 #include "strain/evaluation.h"
+#include "strain/motion_reader.h"
+#include "strain/passage.h"
 #include "strain/starts.h"
 #include "strain/variations.h"
 
@@ -31,7 +30,6 @@ using pipeline::FileWriter;
 using pipeline::Warning;
 using pipeline::WarningKind;
 
-constexpr std::size_t block_samples = 512;  // rows read at a time
 constexpr double first_pass_share = 0.05;   // of the work, for the progress display
 // 2 % of strain are a tenth of a life that goes with its fifth power: less than anything else here is known
 // to.
@@ -44,142 +42,6 @@ constexpr double rehearsed = 180;
 // Variations go on from the first start so long before the first sample [s]. From 170 s the same lives follow for robot 1 and
 // hard, from 30 s one of ten differs by 0.85 of a decade.
 constexpr double rehearsed_varied = 90;
-
-/// Some samples of all segments.
-struct MotionBlock {
-  std::size_t first;                         ///< sample
-  std::span<const Deformation> deformation;  ///< (sample, segment) at its centre
-  std::span<const Deformation> at_wires;     ///< (sample, segment) where its wires are evaluated (W39)
-  std::span<const double> pull;              ///< (sample, segment, 2), see SpanBlock; empty: not asked for
-};
-
-/// Reads the motion block by block and measures the deformation of every segment.
-class MotionReader {
- public:
-  /// group: of the places of segments and clamps; empty: of the job's own motion.
-  MotionReader(const FileReader& file, const pipeline::Job& job, std::string group = "")
-      : file_(file),
-        group_(std::move(group)),
-        lengths_(file.read<double>("/segment/length")),
-        samples_(file.rows("/time")),
-        step_(step_of(file, job)),
-        gravity_(job.simulation.gravity) {
-    if (lengths_.empty()) return;
-    spans_ = pipeline::motion_spans(file);
-    for (std::size_t k = 0; k < spans_.size(); ++k)
-      gauges_.emplace_back(lengths_of(spans_[k]), job.strain.deformation, free_end(job, k));
-  }
-
-  std::size_t samples() const { return samples_; }
-  double step() const { return step_; }  ///< between samples [s]
-  const std::vector<double>& lengths() const { return lengths_; }
-  const std::vector<pipeline::MotionSpan>& spans() const { return spans_; }
-  std::vector<double> lengths_of(const pipeline::MotionSpan& span) const {
-    return {lengths_.begin() + span.first_segment, lengths_.begin() + span.first_segment + span.segments};
-  }
-
-  KnownEnds known_ends(std::size_t span) const { return gauges_[span].knows_ends(); }
-
-  /// Whether no clamp holds the tool end of span k.
-  bool ends_freely(const pipeline::Job& job, std::size_t k) const {
-    const auto dresspack = static_cast<std::size_t>(spans_[k].dresspack);
-    const bool last = k + 1 == spans_.size() || spans_[k + 1].dresspack != spans_[k].dresspack;
-    if (dresspack >= job.dresspacks.size()) return false;  // check() reports it
-    return last && !is_clamped(job.dresspacks[dresspack].routing.tool_end);
-  }
-
-  /// One block after the other, of all samples or of those in [from, end). with_pull: gives that, too.
-  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put) {
-    run(with_pull, put, 0, samples_);
-  }
-  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put, std::size_t from,
-           std::size_t end) {
-    const std::size_t segments = lengths_.size();
-    const std::size_t clamps = file_.row_size("/clamp/position") / 3;
-    std::vector<double> position, orientation, clamp_position, clamp_orientation;
-    std::vector<Deformation> deformation, at_wires;
-    std::vector<double> pull;
-    for (std::size_t first = from; first < end; first += block_samples) {
-      const std::size_t count = std::min(block_samples, end - first);
-      file_.read_rows(group_ + "/segment/position", first, count, position);
-      file_.read_rows(group_ + "/segment/orientation", first, count, orientation);
-      file_.read_rows(group_ + "/clamp/position", first, count, clamp_position);
-      file_.read_rows(group_ + "/clamp/orientation", first, count, clamp_orientation);
-      deformation.resize(count * segments);
-      at_wires.resize(count * segments);
-      for (std::size_t t = 0; t < count; ++t) {
-        auto row = [&](const std::vector<double>& of, std::size_t size) {
-          return std::span(of).subspan(t * size, size);
-        };
-        for (std::size_t k = 0; k < spans_.size(); ++k) {
-          const auto& [dresspack, begin, size, base, tool] = spans_[k];
-          const std::size_t held = tool - base + 1;  // the first and the last count
-          const auto own = [&, first = t * segments + begin, count = size](std::vector<Deformation>& of) {
-            return std::span(of).subspan(first, count);
-          };
-          gauges_[k].measure({row(position, 3 * segments).subspan(3 * begin, 3 * size),
-                              row(orientation, 4 * segments).subspan(4 * begin, 4 * size),
-                              row(clamp_position, 3 * clamps).subspan(3 * base, 3 * held),
-                              row(clamp_orientation, 4 * clamps).subspan(4 * base, 4 * held)},
-                             own(deformation));
-          std::ranges::copy(own(deformation), own(at_wires).begin());
-          gauges_[k].move_to_ends(own(at_wires));
-        }
-      }
-      if (with_pull) measure_pull(first, count, orientation, pull);
-      put({first, deformation, at_wires, pull});
-    }
-  }
-
- private:
-  static double step_of(const FileReader& file, const pipeline::Job& job) {
-    std::vector<double> two;
-    if (file.rows("/time") < 2) return 1 / job.simulation.sample_rate;
-    file.read_rows("/time", 0, 2, two);
-    return two[1] - two[0];
-  }
-
-  /// Gravity less acceleration in each segment's frame; the first and the last sample have their neighbour's
-  /// acceleration.
-  void measure_pull(std::size_t first, std::size_t count, const std::vector<double>& orientation,
-                    std::vector<double>& pull) const {
-    const std::size_t segments = lengths_.size(), row = 3 * segments;
-    const std::size_t before = first > 0 ? 1 : 0, after = first + count < samples_ ? 1 : 0;
-    std::vector<double> position;
-    file_.read_rows(group_ + "/segment/position", first - before, count + before + after, position);
-    const std::size_t rows = position.size() / row;
-    pull.assign(count * segments * 2, 0.0);
-    for (std::size_t t = 0; t < count; ++t) {
-      const std::size_t middle = rows < 3 ? 0 : std::clamp<std::size_t>(t + before, 1, rows - 2);
-      for (std::size_t i = 0; i < segments; ++i) {
-        Eigen::Vector3d force = gravity_;
-        for (std::size_t d = 0; rows >= 3 && d < 3; ++d) {
-          const double* const at = position.data() + middle * row + 3 * i + d;
-          force[static_cast<Eigen::Index>(d)] -= (at[row] - 2 * at[0] + *(at - row)) / (step_ * step_);
-        }
-        const double* const q = orientation.data() + (t * segments + i) * 4;
-        const Eigen::Vector3d own = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * force;
-        pull[(t * segments + i) * 2] = own.x();
-        pull[(t * segments + i) * 2 + 1] = own.y();
-      }
-    }
-  }
-
-  /// Rates of the unloaded dresspack, if it ends freely at the tool end of span k.
-  std::optional<Eigen::Vector3d> free_end(const pipeline::Job& job, std::size_t k) const {
-    if (!ends_freely(job, k)) return {};
-    return Eigen::Vector3d(0, job.dresspacks[spans_[k].dresspack].dresspack.rest_curvature, 0);
-  }
-
-  const FileReader& file_;
-  std::string group_;
-  std::vector<double> lengths_;
-  std::size_t samples_;
-  double step_;
-  Eigen::Vector3d gravity_;
-  std::vector<pipeline::MotionSpan> spans_;
-  std::vector<DeformationGauge> gauges_;  // (span)
-};
 
 void append_deformation(FileWriter& file, std::span<const Deformation> block) {
   std::vector<double> curvature, twist, elongation;
@@ -299,8 +161,8 @@ void copy_program(const FileReader& motion, FileWriter& strain) {
   if (!motion.has(joints)) return;
   strain.set_axis("joint", motion.row_size(joints));
   std::vector<double> block;
-  for (std::size_t first = 0; first < motion.rows(joints); first += block_samples) {
-    motion.read_rows(joints, first, std::min(block_samples, motion.rows(joints) - first), block);
+  for (std::size_t first = 0; first < motion.rows(joints); first += motion_block_samples) {
+    motion.read_rows(joints, first, std::min(motion_block_samples, motion.rows(joints) - first), block);
     strain.append(joints, block);
   }
 }
@@ -598,6 +460,83 @@ void write_bending(FileWriter& file, const pipeline::Job& job) {
   file.append("/bending/moment", moment);
 }
 
+/// The rests of the job's own cables in the file: (start).
+void write_rests(FileWriter& file, const Starts& starts) {
+  const std::vector<std::int32_t> rests(starts.rest_of().begin(), starts.rest_of().end());
+  if (!rests.empty()) file.append("/start/rest", rests);
+}
+
+/// Shares of the work that are done.
+class Work {
+ public:
+  Work(const std::function<void(double)>& progress, bool loose, std::size_t others)
+      : progress_(progress),
+        first_pass_(loose ? loose_pass_share : first_pass_share),
+        own_(others == 0 ? 1 : own_work_share),
+        others_(static_cast<double>(others)) {}
+  /// Each: so much of the first pass, of the segments, and so many other motions.
+  void first_pass(double share) const { progress_(own_ * first_pass_ * share); }
+  void segments(double share) const { progress_(own_ * (first_pass_ + (1 - first_pass_) * share)); }
+  void other_motions(std::size_t done) const { progress_(own_ + (1 - own_) * static_cast<double>(done) / others_); }
+
+ private:
+  const std::function<void(double)>& progress_;
+  double first_pass_, own_, others_;
+};
+
+/// Where the results of the job's own evaluation go.
+class OwnResults {
+ public:
+  OwnResults(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations)
+      : sites_(file, "", evaluations), stick_(file, "/bound_stick", evaluations), free_(file, "/bound_free", evaluations) {
+    sink_.sites = [&](const SiteRows& rows) { sites_.append(rows); };
+    sink_.bound_stick = [&](const SiteRows& rows) { stick_.append(rows); };
+    sink_.bound_free = [&](const SiteRows& rows) { free_.append(rows); };
+    sink_.probe = [&file](const Probe& probe) {
+      file.append("/probe/site", std::vector<std::uint32_t>{static_cast<std::uint32_t>(probe.site)});
+      file.append("/probe/strain", probe.strain);
+      file.append("/probe/shear", probe.shear);
+    };
+    sink_.fibre = [&file](const FibreHistory& fibre) {
+      file.append("/plane/site", std::vector<std::uint32_t>{static_cast<std::uint32_t>(fibre.site)});
+      file.append("/plane/strain", std::vector<float>(fibre.strain.begin(), fibre.strain.end()));
+      file.append("/plane/shear", std::vector<float>(fibre.shear.begin(), fibre.shear.end()));
+    };
+  }
+  OwnResults(const OwnResults&) = delete;
+  OwnResults& operator=(const OwnResults&) = delete;
+  const Sink& sink() const { return sink_; }
+
+ private:
+  SiteWriter sites_, stick_, free_;
+  Sink sink_;
+};
+
+using LikelySites = std::vector<std::vector<Evaluation::Site>>;  ///< (segment)
+
+/// The likely worst wires of the job with another stiffness of the hose, as one variation.
+void write_other_motion(MotionReader& motion, const pipeline::Job& job, const std::function<Starts::Spans&()>& build,
+                        HistoryWindow& window, std::size_t threads, const LikelySites& likely, std::size_t variation,
+                        VariationWriter& rows) {
+  Starts starts(build(), build);
+  Passage passage(motion, starts, window, threads);
+  passage.rehearse(rehearsed_varied, 0);
+  passage.run([](const MotionBlock&) {});
+  passage.choose(job.strain.rest);
+  if (starts.rests() == 1)  // else choose() has done it
+    for (const auto& evaluation : starts.spans(0)) evaluation->find_bent();
+  std::size_t seen = 0;
+  passage.each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
+    Evaluation& evaluation = *starts.spans(0)[span];
+    const std::vector<Evaluation::Site> wires =
+        with_likely_of_bent(likely[seen++], evaluation, segment, window.history(), row);
+    if (wires.empty()) return;
+    std::vector<std::size_t> sites;
+    for (const Evaluation::Site site : wires) sites.push_back(evaluation.row_of(segment, site));
+    rows.append(variation, sites, evaluation.varied(wires, {1.0}, segment, window.history(), row).front());
+  });
+}
+
 }  // namespace
 
 Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain,
@@ -607,7 +546,6 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   check(motion, job, reader);
   std::vector<OtherMotion> others = other_motions(motion, job);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
-  const double own_work = others.empty() ? 1 : own_work_share;
   check_probes(job);
   // Half of the room: the hose's deformation wants the other.
   const Scratch scratch{
@@ -628,142 +566,23 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   strain.set_axis("sample", samples);
   copy_program(motion, strain);
   for (const auto& evaluation : evaluations) strain.append("/segment/wires_at", evaluation->places());
-  SiteWriter sites(strain, "", evaluations), stick(strain, "/bound_stick", evaluations),
-      free(strain, "/bound_free", evaluations);
+  OwnResults results(strain, evaluations);
 
   std::size_t held_bytes = 0;
   for (const auto& evaluation : evaluations) held_bytes += evaluation->held_bytes();
-  held_bytes = std::min(held_bytes, history_bytes);
-  const std::size_t per_pass =
-      std::clamp<std::size_t>((history_bytes - held_bytes) / (samples * sizeof(Deformation)), 1, segments);
-  DeformationHistory history(per_pass, samples);  // of segments [first_segment, first_segment + per_pass)
-  auto keep = [&](std::size_t first_segment, std::size_t first, std::span<const Deformation> block) {
-    for (std::size_t k = 0; k < block.size(); ++k)
-      if (const std::size_t segment = k % segments;
-          segment >= first_segment && segment < first_segment + per_pass)
-        history.set(segment - first_segment, first + k / segments, block[k]);
-  };
-  using OfSpan = std::function<std::vector<Evaluation*>(std::size_t)>;
-  // use: evaluations of a span that go through the same motion.
-  const auto each_span = [&](const MotionBlock& block, const OfSpan& of_span_all, const auto& use) {
-    const std::size_t count = block.deformation.size() / segments;
-    std::vector<double> pull;
-    std::vector<Deformation> ends;
-    for (std::size_t k = 0; k < evaluations.size(); ++k) {
-      const auto [begin, size] = std::pair(reader.spans()[k].first_segment, reader.spans()[k].segments);
-      DeformationHistory of_span(size, count);
-      pull.clear();
-      ends.clear();
-      for (std::size_t t = 0; t < count; ++t) {
-        for (std::size_t i = 0; i < size; ++i) of_span.set(i, t, block.deformation[t * segments + begin + i]);
-        for (const std::size_t i : {begin, begin + size - 1})
-          ends.push_back(block.at_wires[t * segments + i]);
-        if (block.pull.empty()) continue;
-        const auto own = block.pull.subspan((t * segments + begin) * 2, size * 2);
-        pull.insert(pull.end(), own.begin(), own.end());
-      }
-      const SpanBlock span_block{of_span, pull, reader.step(), ends};
-      std::vector<std::vector<Evaluation*>> of_thread(threads);  // those that share loose cables in one
-      std::size_t next = 0;
-      for (Evaluation* const evaluation : of_span_all(k)) {
-        const auto shares = [&](const std::vector<Evaluation*>& own) {
-          return std::ranges::any_of(own, [&](const Evaluation* other) {
-            return other->cables().shares_loose(evaluation->cables());
-          });
-        };
-        const auto found = std::ranges::find_if(of_thread, shares);
-        (found != of_thread.end() ? *found : of_thread[next++ % threads]).push_back(evaluation);
-      }
-      pipeline::in_parallel(threads, [&](std::size_t part) {
-        if (!of_thread[part].empty()) use(of_thread[part], span_block);
-      });
-    }
-  };
-  // use: of a span, its segment, and where `history` has that. `history` has the first segments before.
-  const auto each_segment = [&](MotionReader& of, const std::function<void(std::size_t, std::size_t, std::size_t)>& use) {
-    for (std::size_t k = 0, span = 0; k < segments; ++k) {
-      if (k == reader.spans()[span].first_segment + reader.spans()[span].segments) ++span;
-      if (k % per_pass == 0 && k > 0)
-        of.run(false, [&](const MotionBlock& block) { keep(k, block.first, block.at_wires); });
-      use(span, k - reader.spans()[span].first_segment, k % per_pass);
-    }
-  };
-  const auto any = [&](auto does) { return std::any_of(evaluations.begin(), evaluations.end(), does); };
-  const bool loose = any([](const auto& evaluation) { return evaluation->any_loose(); });
-  const auto samples_of = [&](double seconds) {
-    return static_cast<std::size_t>(std::ceil(seconds / reader.step()));
-  };
-  // The job's own motion, or another: samples before the first one, from `left` to `until` of them before it, of the motion's
-  // end or of whole repeats.
-  const auto rehearse = [&](MotionReader& of, Starts& those, const OfSpan& evaluated, std::size_t left, std::size_t until) {
-    while (left > until) {
-      const std::size_t first = (samples - left % samples) % samples,
-                        count = std::min(left - until, samples - first);
-      const auto move = [&](const MotionBlock& block) {
-        each_span(block, evaluated, Evaluation::rehearse);
-        those.merge();
-      };
-      of.run(true, move, first, first + count);
-      left -= count;
-    }
-  };
-  // put: of every block.
-  const auto pass = [&](MotionReader& of, Starts& those, const OfSpan& evaluated, const std::function<void(const MotionBlock&)>& put) {
-    of.run(loose, [&](const MotionBlock& block) {
-      put(block);
-      each_span(block, evaluated, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
-        Evaluation::add(own, of_span);
-      });
-      those.merge();
-      keep(0, block.first, block.at_wires);
-    });
-    for (std::size_t k = 0; k < evaluations.size(); ++k)
-      for (Evaluation* const evaluation : evaluated(k)) evaluation->end_first_pass();
-    if (any([](const auto& evaluation) { return evaluation->wants_again(); }))
-      of.run(false, [&](const MotionBlock& block) {
-        each_span(block, evaluated, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
-          for (Evaluation* const evaluation : own)
-            if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
-        });
-      });
-  };
-  const auto choose = [&](MotionReader& of, Starts& those) {
-    if (those.rests() == 1) return;
-    for (std::size_t rest = 0; rest < those.rests(); ++rest)
-      for (const auto& evaluation : those.spans(rest)) evaluation->find_bent();
-    std::vector<double> damage(those.rests(), 0.0);
-    each_segment(of, [&](std::size_t span, std::size_t segment, std::size_t row) {
-      for (std::size_t rest = 0; rest < those.rests(); ++rest)
-        damage[rest] = std::max<double>(damage[rest], those.spans(rest)[span]->damage_of_bent(segment, history, row));
-    });
-    those.choose(job.strain.rest, damage);
-    if (per_pass < segments)
-      of.run(false, [&](const MotionBlock& block) { keep(0, block.first, block.at_wires); });
-  };
-  const auto of_starts = [](const Starts& those, std::size_t span) {
-    std::vector<Evaluation*> all_starts{those.spans(0)[span].get()};
-    for (Evaluation* const placed : those.placed(span)) all_starts.push_back(placed);
-    return all_starts;
-  };
-  bool varied = false;  // whether variations go through the motion, too
-  const OfSpan own_and_varied = [&](std::size_t span) {
-    std::vector<Evaluation*> together = of_starts(starts, span);
-    if (varied)
-      for (Evaluation* const placed : variations.placed(span)) together.push_back(placed);
-    return together;
-  };
-  if (loose && samples > 1) rehearse(reader, starts, own_and_varied, samples_of(rehearsed), samples_of(rehearsed_varied));
+  HistoryWindow window(segments, samples, history_bytes - std::min(held_bytes, history_bytes));
+  Passage passage(reader, starts, window, threads);
+  const Work work(progress, passage.any_loose(), others.size());
+  passage.rehearse(rehearsed, rehearsed_varied);
   variations.go_on();
-  varied = true;
-  if (loose && samples > 1) rehearse(reader, starts, own_and_varied, samples_of(rehearsed_varied), 0);
-  for (std::size_t k = 0; k < evaluations.size(); ++k)  // each of these may become the job's own
-    for (Evaluation* const evaluation : of_starts(starts, k)) evaluation->record_rubbing();
-  pass(reader, starts, own_and_varied, [&](const MotionBlock& block) {
+  passage.take_along(variations);
+  passage.rehearse(rehearsed_varied, 0);
+  passage.record_rubbing();
+  passage.run([&](const MotionBlock& block) {
     append_deformation(strain, block.deformation);
-    progress(own_work * (loose ? loose_pass_share : first_pass_share) * static_cast<double>(block.first) /
-             static_cast<double>(samples));
+    work.first_pass(static_cast<double>(block.first) / static_cast<double>(samples));
   });
-  choose(reader, starts);
+  passage.choose(job.strain.rest);
   for (std::size_t k = 0; k < evaluations.size(); ++k)
     for (Evaluation* const placed : variations.placed(k)) placed->find_bent();
   variations.add(starts);
@@ -771,65 +590,29 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
       pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),
                        write_cables(strain, job.simulation, evaluations));
   write_bending(strain, job);
-
-  Sink sink;
-  sink.sites = [&](const SiteRows& rows) { sites.append(rows); };
-  sink.bound_stick = [&](const SiteRows& rows) { stick.append(rows); };
-  sink.bound_free = [&](const SiteRows& rows) { free.append(rows); };
-  sink.probe = [&](const Probe& probe) {
-    strain.append("/probe/site", std::vector<std::uint32_t>{static_cast<std::uint32_t>(probe.site)});
-    strain.append("/probe/strain", probe.strain);
-    strain.append("/probe/shear", probe.shear);
-  };
-  sink.fibre = [&](const FibreHistory& fibre) {
-    strain.append("/plane/site", std::vector<std::uint32_t>{static_cast<std::uint32_t>(fibre.site)});
-    strain.append("/plane/strain", std::vector<float>(fibre.strain.begin(), fibre.strain.end()));
-    strain.append("/plane/shear", std::vector<float>(fibre.shear.begin(), fibre.shear.end()));
-  };
-  if (const std::vector<std::int32_t> rests(starts.rest_of().begin(), starts.rest_of().end()); !rests.empty())
-    strain.append("/start/rest", rests);
+  write_rests(strain, starts);
   VariationWriter variation_rows(strain, variations, others);
-  std::size_t segment = 0;
-  sink.progress = [&](double) {
-    const double share = static_cast<double>(segment + 1) / static_cast<double>(segments);
-    const double done = loose ? loose_pass_share : first_pass_share;
-    progress(own_work * (done + (1 - done) * share));
-  };
-  std::vector<std::vector<Evaluation::Site>> likely;  // (segment)
-  each_segment(reader, [&](std::size_t span, std::size_t in_span, std::size_t row) {
-    evaluations[span]->evaluate(in_span, history, row, sink);
+  LikelySites likely;
+  passage.each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
+    evaluations[span]->evaluate(segment, window.history(), row, results.sink());
     likely.push_back(evaluations[span]->likely_worst());
-    variations.evaluate(span, in_span, history, row,
+    variations.evaluate(span, segment, window.history(), row,
                         [&](std::size_t variation, const std::vector<std::size_t>& of, const SiteRows& rows) {
                           variation_rows.append(variation, of, rows);
                         });
-    ++segment;
+    work.segments(static_cast<double>(likely.size()) / static_cast<double>(segments));
   });
   for (Evaluations& laid : otherwise_laid) laid.of_span.clear();  // their memory is for others
   for (std::size_t other = 0; other < others.size(); ++other) {
-    MotionReader& of = others[other].reader;
     std::list<Evaluations> laid;
-    const auto lay = [&]() -> Starts::Spans& {
-      return laid.emplace_back(job, of, threads, job.strain.factors, scratch, &all).of_span;
-    };
-    Starts those(lay(), lay);
-    const OfSpan evaluated = [&](std::size_t span) { return of_starts(those, span); };
-    if (loose && samples > 1) rehearse(of, those, evaluated, samples_of(rehearsed_varied), 0);
-    pass(of, those, evaluated, [&](const MotionBlock&) {});
-    choose(of, those);
-    if (those.rests() == 1)  // else it is done
-      for (const auto& evaluation : those.spans(0)) evaluation->find_bent();
-    std::size_t seen = 0;
-    each_segment(of, [&](std::size_t span, std::size_t in_span, std::size_t row) {
-      Evaluation& evaluation = *those.spans(0)[span];
-      std::vector<Evaluation::Site> wires = with_likely_of_bent(likely[seen++], evaluation, in_span, history, row);
-      if (wires.empty()) return;
-      std::vector<std::size_t> rows;
-      for (const Evaluation::Site site : wires) rows.push_back(evaluation.row_of(in_span, site));
-      variation_rows.append(variations.points().size() + other, rows,
-                            evaluation.varied(wires, {1.0}, in_span, history, row).front());
-    });
-    progress(own_work + (1 - own_work) * static_cast<double>(other + 1) / static_cast<double>(others.size()));
+    MotionReader& of = others[other].reader;
+    write_other_motion(
+        of, job,
+        [&]() -> Starts::Spans& {
+          return laid.emplace_back(job, of, threads, job.strain.factors, scratch, &all).of_span;
+        },
+        window, threads, likely, variations.points().size() + other, variation_rows);
+    work.other_motions(other + 1);
   }
   const auto worst =
       std::max_element(evaluations.begin(), evaluations.end(),

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cstdlib>
 #include <set>
 
 #include "pipeline/base/limits.h"
+#include "pipeline/base/text.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -19,10 +18,7 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 std::optional<double> number_in(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return value;
+  return whole_number_in<double>(text);
 }
 
 CsvReader::CsvReader(std::string text, std::string file, std::string_view separators)
@@ -130,14 +126,10 @@ void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer
       throw InputError(table.where(title), fmt::format("two columns are titled '{}'", title.text),
                        "keep one of the two");
   }
-  const auto lower = [](std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char letter) { return std::tolower(letter); });
-    return text;
-  };
   for (const std::string_view name : needed) {
     if (seen.contains(name)) continue;
     for (const CsvCell& title : titles)
-      if (lower(title.text) == name)
+      if (lower_case(title.text) == name)
         throw InputError(table.where(title), fmt::format("the table has no column '{}' (it has '{}')", name, title.text),
                          fmt::format("write '{}' instead of '{}'", name, title.text));
     throw InputError(table.where(titles.front()), fmt::format("the table has no column '{}'", name), "add it");

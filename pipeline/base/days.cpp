@@ -2,23 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include "pipeline/base/text.h"
+
 
 namespace dresslife::pipeline {
 namespace {
 
 using std::chrono::year_month_day;
 
-/// The number that is all of a text.
-std::optional<int> whole(std::string_view text) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 std::optional<Day> day_of(std::string_view year, std::string_view month, std::string_view day) {
-  const auto y = whole(year), m = whole(month), d = whole(day);
+  const auto y = whole_number_in<int>(year), m = whole_number_in<int>(month), d = whole_number_in<int>(day);
   if (!y || !m || !d || *m < 1 || *d < 1) return std::nullopt;
   const year_month_day date{std::chrono::year(*y), std::chrono::month(static_cast<unsigned>(*m)),
                             std::chrono::day(static_cast<unsigned>(*d))};

@@ -8,6 +8,7 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/text.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -99,9 +100,7 @@ std::vector<Triangle> obj(const std::string& text, const std::filesystem::path& 
 }  // namespace
 
 std::vector<Triangle> read_triangles(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lower_case(file.extension().string());
   if (ending != ".stl" && ending != ".obj")
     throw InputError({file.string()}, fmt::format("is a '{}' (a mesh must be .stl or .obj)", ending),
                      "export the mesh as STL");

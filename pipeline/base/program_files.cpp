@@ -8,6 +8,7 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/text.h"
 
 namespace dresslife::pipeline {
 
@@ -15,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower_extension(const fs::path& file) { return lower_case_of(file.extension()); }
+std::string lower_extension(const fs::path& file) { return lower_case(file.extension().string()); }
 
 bool ends_like_a_program(const fs::path& file) {
   static const std::set<std::string> ends{".mod", ".modx", ".prg", ".sys", ".sysx", ".pgf",
                                           ".src", ".dat",  ".sub", ".ls",  ".va",   ".jbi", ".cnd"};
-  return ends.contains(lower_extension(file)) || lower_case_of(file.filename()) == "backinfo.txt";  // ABB's contents
+  return ends.contains(lower_extension(file)) || lower_case(file.filename().string()) == "backinfo.txt";  // ABB's contents
 }
 
 constexpr std::size_t most_files = 20'000;  // of a folder: many times a controller's backup
@@ -52,13 +53,6 @@ std::vector<fs::path> krl_files_beside(const fs::path& program) {
 
 }  // namespace
 
-std::string lower_case_of(const fs::path& name) {
-  std::string text = name.string();
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 bool is_krl(const fs::path& file) {
   static const std::set<std::string> ends{".src", ".dat", ".sub"};
   return ends.contains(lower_extension(file));
@@ -83,7 +77,7 @@ std::vector<fs::path> program_files(const fs::path& program) {
     for (const fs::path& beside : entries_of(folder_of_program(program))) {
       const fs::path file = program.has_parent_path() ? beside : beside.filename();
       const std::string end = lower_extension(file);
-      if ((end == ".jbi" || end == ".cnd" || lower_case_of(file.filename()) == "var.dat") && file != program &&
+      if ((end == ".jbi" || end == ".cnd" || lower_case(file.filename().string()) == "var.dat") && file != program &&
           files.size() < most_files)
         files.push_back(file);
     }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace dresslife::pipeline {
@@ -11,9 +10,6 @@ namespace dresslife::pipeline {
 /// folder of a list of modules), those that end like robot programs, within it and the folders in it; of a
 /// KRL program, those of the robot's folder R1 in a backup, else those beside it. Sorted.
 std::vector<std::filesystem::path> program_files(const std::filesystem::path& program);
-
-/// A name or a text with small letters A to Z.
-std::string lower_case_of(const std::filesystem::path& name);
 
 /// Whether the file is a module of KUKA's language: .src, .dat or .sub in any case.
 bool is_krl(const std::filesystem::path& file);

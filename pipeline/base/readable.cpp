@@ -16,6 +16,13 @@ bool continues(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 
 
 }  // namespace
 
+std::string short_decimal(double value, int most_decimals) {
+  std::string text = fmt::format("{:.{}f}", value, most_decimals);
+  if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
 std::string grouped(std::string digits) {
   const std::size_t first = digits.starts_with('-') ? 1 : 0;
   const std::size_t end = std::min(digits.find_first_not_of("0123456789", first), digits.size());

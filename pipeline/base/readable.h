@@ -20,6 +20,9 @@ std::string calendar_words(double months);
 /// The same of a life: "no damage" for infinity.
 std::string calendar_text(double months);
 
+/// With at most so many decimals, without zeros at its end: "0.25", "2", "0" for -0.0001.
+std::string short_decimal(double value, int most_decimals);
+
 /// The digits of a whole part in groups of three: "1234567.5" -> "1,234,567.5".
 std::string grouped(std::string digits);
 

@@ -9,13 +9,14 @@
 
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/program_files.h"
+#include "pipeline/base/text.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string stem_of(const fs::path& file) { return lower_case_of(file.stem().string()); }
+std::string stem_of(const fs::path& file) { return lower_case(file.stem().string()); }
 
 std::string without_comments(const std::string& text) {
   std::string kept;
@@ -30,7 +31,7 @@ std::string without_comments(const std::string& text) {
 /// Nothing of a file that cannot be read, or is written in letters of two bytes.
 std::optional<std::string> text_of(const fs::path& file) {
   try {
-    std::string text = lower_case_of(read_text(file));
+    std::string text = lower_case(read_text(file));
     if (text.find('\0') != std::string::npos) return std::nullopt;
     return is_krl(file) ? without_comments(text) : text;
   } catch (const InputError&) {
@@ -143,7 +144,7 @@ std::set<std::string> used_in(const std::string& text) {
 
 /// Whether it belongs to all programs in its folder: registers (.va) and KUKA's own data lists ($config.dat).
 bool is_of_the_controller(const fs::path& file, const std::string& text) {
-  return lower_case_of(file.extension().string()) == ".va" || file.filename().string().starts_with('$') ||
+  return lower_case(file.extension().string()) == ".va" || file.filename().string().starts_with('$') ||
          text.find("defdat $") != std::string::npos;
 }
 
@@ -164,12 +165,12 @@ struct Open {
 std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::vector<fs::path> beside,
                                     const std::string& routine) {
   std::vector<fs::path> related;
-  std::vector<Open> open{{"", lower_case_of(routine) + "()"}};
+  std::vector<Open> open{{"", lower_case(routine) + "()"}};
   std::vector<Candidate> candidates;
   bool all = false;
   for (const fs::path& program : programs) {
     std::optional<std::string> text = program.empty() ? std::string() : text_of(program);
-    all |= !text || lower_case_of(program.extension().string()) == ".pgf";
+    all |= !text || lower_case(program.extension().string()) == ".pgf";
     open.push_back({stem_of(program), std::move(text).value_or("")});
   }
   // Other files may define routines of the same names: those of the first program count (first_file_counts in sim/program/interpreter/program.h).

@@ -32,4 +32,10 @@ double number_at(const std::vector<double>& sorted, double place) {
   return std::isinf(high) ? high : low + (place - static_cast<double>(below)) * (high - low);
 }
 
+double sum_above_zero(std::span<const double> values) {
+  double sum = 0;
+  for (const double value : values) sum += std::max(0.0, value);
+  return sum;
+}
+
 }  // namespace dresslife::pipeline

@@ -1,6 +1,7 @@
 // The standard normal distribution, and quantiles of a list of numbers.
 #pragma once
 
+#include <span>
 #include <vector>
 
 namespace dresslife::pipeline {
@@ -24,5 +25,8 @@ constexpr double normal_decile = 1.2815515655446004;
 /// that is infinite. The quantile of a share of n numbers is at the place share (n - 1) (it runs from the
 /// first number to the last) or share n - 1/2 (Hazen: each number stands for 1/n). Precondition: not empty.
 double number_at(const std::vector<double>& sorted, double place);
+
+/// The sum of the numbers above 0: by how much limits are passed in all. What is not a number counts as 0.
+double sum_above_zero(std::span<const double> values);
 
 }  // namespace dresslife::pipeline

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <condition_variable>
 #include <cstdlib>
 #include <exception>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/text.h"
 
 namespace dresslife::pipeline {
 
@@ -21,14 +21,13 @@ std::size_t thread_count() {
   const char* const wanted = std::getenv("DRESSLIFE_THREADS");
   if (!wanted) return std::max(1u, std::thread::hardware_concurrency());
   const std::string_view text = wanted;
-  std::size_t count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  const auto count = whole_number_in<std::size_t>(text);
   constexpr std::size_t most = 1024;
-  if (error != std::errc{} || end != text.data() + text.size() || count < 1 || count > most)
+  if (!count || *count < 1 || *count > most)
     throw InputError(Where{"DRESSLIFE_THREADS"},
                      fmt::format("is '{}' (must be a whole number, 1 .. {})", text, most),
                      "set it to the threads that each stage may use, or unset it");
-  return count;
+  return *count;
 }
 
 void in_parallel(std::size_t parts, const std::function<void(std::size_t)>& work) {

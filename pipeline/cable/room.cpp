@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/order.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -19,13 +19,9 @@ struct CableRing {
 
 /// Puts cables into rings, innermost first.
 std::vector<CableRing> rings_of(std::span<const CableSpot> cables, std::vector<CableRoom>& rooms) {
-  std::vector<std::size_t> order(cables.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return away(cables[a]) - cables[a].radius < away(cables[b]) - cables[b].radius;
-  });
   std::vector<CableRing> rings;
-  for (const std::size_t k : order) {
+  for (const std::size_t k :
+       smallest_first(cables.size(), [&](std::size_t of) { return away(cables[of]) - cables[of].radius; })) {
     if (cables[k].own_play) continue;
     const double inside = away(cables[k]) - cables[k].radius, outside = away(cables[k]) + cables[k].radius;
     if (rings.empty() || inside >= rings.back().outside) rings.push_back({inside, outside});

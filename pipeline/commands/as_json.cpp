@@ -1,9 +1,12 @@
 #include "pipeline/commands/as_json.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/commands/options.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
@@ -55,5 +58,14 @@ Json json_of(const Node& document) {
   for (const Entry& entry : document.entries) object.add(entry.key, json_of(entry.value));
   return object;
 }
+
+void JobList::add(const std::string& job, const std::string& state) {
+  if (json_)
+    jobs_.push_back({{"job", job}, {"state", state}});
+  else
+    print(shown(fmt::format("{:<40} {}\n", job, state)));
+}
+
+void JobList::end(const std::string& words) const { print(json_ ? Json(jobs_).text + "\n" : words); }
 
 }  // namespace dresslife::pipeline

@@ -16,4 +16,17 @@ Json json_of_csv(const std::string& csv);
 /// A YAML document: numbers, true and false as such, all else as text.
 Json json_of(const Node& document);
 
+/// Jobs and their states on standard output: a line each, or all as one list in JSON.
+class JobList {
+ public:
+  explicit JobList(bool json) : json_(json) {}
+  void add(const std::string& job, const std::string& state);
+  /// Prints words below the lines, or the list instead.
+  void end(const std::string& words) const;
+
+ private:
+  bool json_;
+  std::vector<Json> jobs_;
+};
+
 }  // namespace dresslife::pipeline

@@ -8,14 +8,11 @@
 #include "pipeline/advise/calibrate/learning.h"
 #include "pipeline/advise/calibrate/service_records.h"
 #include "pipeline/base/exported.h"
-#include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/report/observation_pictures.h"
 #include "pipeline/settings/fields.h"
-#include "pipeline/study/folder_lock.h"
-#include "pipeline/study/folder_source.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -47,9 +44,8 @@ int calibrate(const CalibrateOptions& options) {
   const auto [tests, words] = tests_of(options, file);
   for (const Warning& warning : doubtful_rows(tests)) tell(shown(warning.line() + "\n"));
   if (!words.empty()) tell(words);  // before hours of computation
-  const StudyPlaces places{fs::path(options.out) / ("calibrate_" + file.stem().string()), program_folder()};
-  const FolderLock lock(places.folder);
-  claim_folder(places.folder, file);
+  const OwnFolder own(options, "calibrate_" + file.stem().string(), file);
+  const StudyPlaces& places = own.places;
   const Learned learned = learn(tests, options.sets, places,
                                 [&](const Study& study) { return made_rows(study, places, options); });
   const std::string table = learned_table(learned);

@@ -19,10 +19,7 @@ namespace fs = std::filesystem;
 
 int clean(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
-  const fs::path folder = request.out / study_name(request.file);
-  if (kind_of(folder) != FileKind::folder)
-    throw InputError({folder.string()}, "is not there (the study has not run)",
-                     "run it: dresslife run " + options.study);
+  const fs::path folder = folder_of_results(request, options);
   const FolderLock lock(folder);
   check_source(folder, request.file);
   const StudyState standing = standing_of(request);

@@ -9,7 +9,6 @@
 #include "pipeline/advise/improve/finals.h"
 #include "pipeline/advise/improve/improvement.h"
 #include "pipeline/advise/improve/story.h"
-#include "pipeline/base/installation.h"
 #include "pipeline/base/progress.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/whole_file.h"
@@ -18,8 +17,6 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
 #include "pipeline/resolve/sources.h"
-#include "pipeline/study/folder_lock.h"
-#include "pipeline/study/folder_source.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -127,9 +124,8 @@ int improve_study(ImproveOptions options) {
   options.request.sets = options.sets;
   if (options.bracket_mm) options.request.longest_bracket = *options.bracket_mm / 1000;
   const std::string name = study_name(options.request.file);
-  const StudyPlaces places{fs::path(options.out) / (name + "_improve"), program_folder()};
-  const FolderLock lock(places.folder);
-  claim_folder(places.folder, options.request.file);
+  const OwnFolder own(options, name + "_improve", options.request.file);
+  const StudyPlaces& places = own.places;
   const fs::path job = name + "_improved.yaml";
   check_replaceable(job);
   RunOptions quiet = options;

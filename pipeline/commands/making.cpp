@@ -10,8 +10,10 @@
 #include <string>
 #include <unordered_map>
 
+#include "pipeline/base/installation.h"
 #include "pipeline/base/progress.h"
 #include "pipeline/study/build_graph.h"
+#include "pipeline/study/folder_source.h"
 #include "pipeline/study/relative_life.h"
 #include "pipeline/study/shared_stages.h"
 
@@ -162,6 +164,11 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
   std::vector<RankingRow> rows = made_rows(study, places, options);
   files.check();
   return rows;
+}
+
+OwnFolder::OwnFolder(const StudyOptions& options, const std::string& name, const std::filesystem::path& file)
+    : places{std::filesystem::path(options.out) / name, program_folder()}, lock(places.folder) {
+  claim_folder(places.folder, file);
 }
 
 ToleranceRuns::ToleranceRuns(const std::string& label, const RunOptions& options)

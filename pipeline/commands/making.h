@@ -8,6 +8,7 @@
 #include "pipeline/base/progress.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/study/changes.h"
+#include "pipeline/study/folder_lock.h"
 #include "pipeline/study/ranking.h"
 
 namespace dresslife::pipeline {
@@ -26,6 +27,14 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
 /// options.
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,
                         std::vector<RankingRow>& rows);
+
+/// The folder of a command's own jobs, below that of the results. As long as this lives no other run writes there.
+struct OwnFolder {
+  StudyPlaces places;
+  FolderLock lock;
+  /// file: of which the folder notes that it holds results. Errors: those of FolderLock and claim_folder().
+  OwnFolder(const StudyOptions& options, const std::string& name, const std::filesystem::path& file);
+};
 
 /// A line of a job that is written before these runs.
 inline constexpr const char* not_verified =

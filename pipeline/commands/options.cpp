@@ -14,6 +14,7 @@
 #include "pipeline/base/installation.h"
 #include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/text.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/stage/stage.h"
 
@@ -108,8 +109,7 @@ constexpr OtherKind program_kind{"robot program", "name it in a job: dresslife n
 
 /// By the end of the name; null: perhaps a YAML file, whose keys tell its kind (pipeline/resolve/document_kind.h).
 const OtherKind* kind_by_name(const fs::path& file) {
-  std::string end = file.extension();
-  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  const std::string end = lower_case(file.extension().string());
   static const std::set<std::string> programs{".mod", ".modx", ".prg", ".sys", ".pgf", ".src", ".dat", ".ls", ".jbi", ".script"};
   if (programs.contains(end)) return &program_kind;
   if (end == ".urdf" || end == ".xacro") return &robot_kind;
@@ -138,6 +138,13 @@ fs::path named_study(const std::string& name) { return input(file_or_entry(name,
 
 StudyRequest request_of(const StudyOptions& options) {
   return {named_study(options.study), options.sets, options.out, program_folder()};
+}
+
+fs::path folder_of_results(const StudyRequest& request, const StudyOptions& options) {
+  const fs::path folder = request.out / study_name(request.file);
+  if (kind_of(folder) != FileKind::folder)
+    throw InputError({folder.string()}, "is not there (the study has not run)", "run it: dresslife run " + options.study);
+  return folder;
 }
 
 void print(const std::string& text) {

@@ -56,6 +56,9 @@ std::filesystem::path named_study(const std::string& name);
 
 StudyRequest request_of(const StudyOptions& options);
 
+/// The folder of a study's results. Errors: InputError when it is not there.
+std::filesystem::path folder_of_results(const StudyRequest& request, const StudyOptions& options);
+
 /// To standard output, as it is: what comes from jobs and programs passes shown() first.
 void print(const std::string& text);
 

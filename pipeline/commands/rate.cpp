@@ -8,8 +8,6 @@
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/study/folder_lock.h"
-#include "pipeline/study/folder_source.h"
 #include "pipeline/study/rate.h"
 
 namespace dresslife::pipeline {
@@ -20,9 +18,8 @@ namespace fs = std::filesystem;
 int rate(const RunOptions& options) {
   const fs::path file = named_file(options.study, "dresspacks");
   const RateStudy rated = rate_study(file, shipped_catalogue() / "rigs", options.sets);
-  const StudyPlaces places{fs::path(options.out) / rated.study.name, program_folder()};
-  const FolderLock lock(places.folder);
-  claim_folder(places.folder, file);
+  const OwnFolder own(options, rated.study.name, file);
+  const StudyPlaces& places = own.places;
   const std::vector<RankingRow> rows = made_rows(rated.study, places, options);
   write_text_if_changed(places.folder / "rate.csv", rate_csv(rated, rows));
   print(

@@ -24,10 +24,7 @@ namespace fs = std::filesystem;
 /// run left them.
 int report(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
-  const fs::path folder = request.out / study_name(request.file);
-  if (kind_of(folder) != FileKind::folder)
-    throw InputError({folder.string()}, "is not there (the study has not run)",
-                     "run it: dresslife run " + options.study);
+  const fs::path folder = folder_of_results(request, options);
   check_source(folder, request.file);
   StudyState standing = standing_of(request);
   report_changes(standing.study, standing.places, standing.states);

@@ -12,7 +12,7 @@
 #include "pipeline/advise/improve/set_text.h"
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/errors.h"
-#include "pipeline/base/installation.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/command.h"
@@ -23,8 +23,6 @@
 #include "pipeline/report/life_charts.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/units.h"
-#include "pipeline/study/folder_lock.h"
-#include "pipeline/study/folder_source.h"
 #include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {
@@ -62,22 +60,18 @@ double times_as_long(const TriedWay& tried, const TriedWay& before) {
 }
 
 std::string lines_words(const OtherWay& way) {
-  std::string text;
-  for (const std::string& line : way.lines) text += (text.empty() ? "" : "; ") + line;
-  return text.empty() ? "all lines" : text;
+  return way.lines.empty() ? "all lines" : joined(way.lines, "; ");
 }
 
 std::string csv_of(const TriedWay& before, const std::vector<TriedWay>& ways) {
   std::string text = "lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch\n";
   for (const TriedWay& tried : ways) {
-    std::string sets;
-    for (const std::string& set : tried.way.sets) sets += (sets.empty() ? "" : "; ") + set;
     const bool ran = tried.outcome.failure.empty();
     text += fmt::format(
         "{},{},{},{},{},{},{},{},{}\n", csv_cell(lines_words(tried.way)), csv_cell(tried.way.what),
         ran ? shortest_text(tried.outcome.hours) : "", ran ? shortest_text(times_as_long(tried, before)) : "",
         ran ? shortest_text(tried.seconds) : "", ran ? shortest_text(before.seconds - tried.seconds) : "",
-        csv_cell(tried.outcome.words()), csv_cell(sets), csv_cell(tried.file.filename().string()));
+        csv_cell(tried.outcome.words()), csv_cell(joined(tried.way.sets, "; ")), csv_cell(tried.file.filename().string()));
   }
   return text;
 }
@@ -195,9 +189,8 @@ int reprogram(const ReprogramOptions& options) {
   request.file = named_study(options.study);
   request.sets = options.sets;
   const std::string name = study_name(request.file);
-  const StudyPlaces places{fs::path(options.out) / (name + "_reprogram"), program_folder()};
-  const FolderLock lock(places.folder);
-  claim_folder(places.folder, request.file);
+  const OwnFolder own(options, name + "_reprogram", request.file);
+  const StudyPlaces& places = own.places;
   Study study{name, changed_jobs(request, {}, "as_it_is")};
   int failed = 0;
   const std::vector<RankingRow> rows = made_rows(study, places, options);

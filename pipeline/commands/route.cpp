@@ -1,9 +1,9 @@
+#include "pipeline/base/text.h"
 #include "pipeline/commands/command.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -305,14 +305,12 @@ double violation(const Trial& trial) {
 
 std::vector<double> factors_of(const RouteOptions& options) {
   if (options.scale == "auto") return {1, 0.8, 0.65, 0.5, 0.4, 0.3};
-  double factor = 0;
-  const char* const end = options.scale.data() + options.scale.size();
-  const auto [rest, failure] = std::from_chars(options.scale.data(), end, factor);
-  if (failure != std::errc() || rest != end || !(factor >= 0.05 && factor <= 2))
+  const auto factor = whole_number_in<double>(options.scale);
+  if (!factor || !(*factor >= 0.05 && *factor <= 2))
     throw InputError({"--scale"},
                      fmt::format("'{}' is neither auto nor a number from 0.05 to 2", options.scale),
                      "write one");
-  return {factor};
+  return {*factor};
 }
 
 void write_page(const fs::path& job, const fs::path& page) {

@@ -49,29 +49,19 @@ int dry_run(const RunOptions& options) {
   StudyState standing = standing_of(request);
   report_changes(standing.study, standing.places, standing.states);
   std::size_t to_make = 0, refused = 0;
-  std::vector<Json> jobs;
-  const auto show_job = [&](const std::string& job, const std::string& state) {
-    if (options.json)
-      jobs.push_back({{"job", job}, {"state", state}});
-    else
-      print(shown(fmt::format("{:<40} {}\n", job, state)));
-  };
+  JobList jobs(options.json);
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
     if (!job.failure.empty()) {
       ++refused;
-      show_job(job.name, "refused: " + first_problem(job));
+      jobs.add(job.name, "refused: " + first_problem(job));
     }
     if (!job.failure.empty() || standing.states[k].done()) continue;
     ++to_make;
-    show_job(job.name, standing.states[k].words());
+    jobs.add(job.name, standing.states[k].words());
   }
-  if (options.json) {
-    print(Json(jobs).text + "\n");
-    return refused > 0 ? 1 : 0;
-  }
-  print(shown(problem_words(standing.study)));
-  print(fmt::format("{} of {} jobs to make; nothing was run\n", to_make, standing.study.jobs.size()));
+  jobs.end(shown(problem_words(standing.study)) +
+           fmt::format("{} of {} jobs to make; nothing was run\n", to_make, standing.study.jobs.size()));
   return refused > 0 ? 1 : 0;
 }
 

@@ -19,23 +19,15 @@ int status(const StudyOptions& options) {
   StudyState standing = standing_of(request);
   report_changes(standing.study, standing.places, standing.states);
   std::size_t done = 0;
-  std::vector<Json> jobs;
+  JobList jobs(options.json);
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
     const std::string word =
         job.failure.empty() ? standing.states[k].words() : "failed   " + first_problem(job);
     done += word == "done";
-    if (options.json)
-      jobs.push_back({{"job", job.name}, {"state", word}});
-    else
-      print(shown(fmt::format("{:<40} {}\n", job.name, word)));
+    jobs.add(job.name, word);
   }
-  if (options.json) {
-    print(Json(jobs).text + "\n");
-    return 0;
-  }
-  print(shown(problem_words(standing.study)));
-  print(fmt::format("{} of {} jobs done\n", done, standing.study.jobs.size()));
+  jobs.end(shown(problem_words(standing.study)) + fmt::format("{} of {} jobs done\n", done, standing.study.jobs.size()));
   return 0;
 }
 

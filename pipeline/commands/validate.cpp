@@ -6,13 +6,10 @@
 
 #include "pipeline/advise/calibrate/law_tests.h"
 #include "pipeline/advise/calibrate/observations.h"
-#include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/report/observation_pictures.h"
-#include "pipeline/study/folder_lock.h"
-#include "pipeline/study/folder_source.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -21,11 +18,9 @@ namespace fs = std::filesystem;
 
 /// Laws beside published tests: at once, without jobs.
 int validate_laws(const fs::path& file, const RunOptions& options) {
-  const StudyPlaces places{fs::path(options.out) / ("validate_" + file.stem().string()), program_folder()};
   const std::string table = law_table(read_law_tests(file));
-  const FolderLock lock(places.folder);
-  claim_folder(places.folder, file);
-  write_text_if_changed(places.folder / "validation.md", with_mark(table, Mark::xml));
+  const OwnFolder own(options, "validate_" + file.stem().string(), file);
+  write_text_if_changed(own.places.folder / "validation.md", with_mark(table, Mark::xml));
   print(shown(table));
   return 0;
 }
@@ -35,9 +30,8 @@ int validate(const RunOptions& options) {
   if (holds_law_tests(file)) return validate_laws(file, options);
   const ValidationStudy validation = read_observations(file, options.sets);
   for (const Warning& warning : validation.doubts) tell(shown(warning.line() + "\n"));
-  const StudyPlaces places{fs::path(options.out) / validation.study.name, program_folder()};
-  const FolderLock lock(places.folder);
-  claim_folder(places.folder, file);
+  const OwnFolder own(options, validation.study.name, file);
+  const StudyPlaces& places = own.places;
   const std::vector<RankingRow> rows = made_rows(validation.study, places, options);
   const std::string table = validation_table(validation, rows);
   write_text_if_changed(places.folder / "validation.md", with_mark(table, Mark::xml));

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/order.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/statistics.h"
 
@@ -78,9 +79,7 @@ Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance, const std::vector<s
 /// (row, column) W with W C = numbers, for a covariance C and rows of numbers that C can give. A column that follows from
 /// those before it has weight 0. (Eigen's pseudo-inverse takes nine seconds to compile.)
 Eigen::MatrixXd divided(const Eigen::MatrixXd& numbers, const Eigen::MatrixXd& covariance) {
-  std::vector<std::size_t> order(static_cast<std::size_t>(covariance.rows()));
-  std::iota(order.begin(), order.end(), 0);
-  const Eigen::MatrixXd factor = factor_of(covariance, order);
+  const Eigen::MatrixXd factor = factor_of(covariance, indices_of(static_cast<std::size_t>(covariance.rows())));
   const Eigen::Index n = factor.rows();
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(numbers.rows(), n);
   for (Eigen::Index row = 0; row < numbers.rows(); ++row) {
@@ -103,8 +102,7 @@ struct Samples {
 /// again: another, independent set of samples.
 Samples samples_of(const LifeResponse& response, const std::string& job, std::size_t count, bool again = false) {
   const auto normals = [&](const std::string& name) { return standard_normals(again ? name + " again" : name, count); };
-  std::vector<std::size_t> order(uncertain_count);
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<std::size_t> order = indices_of(uncertain_count);
   std::stable_partition(order.begin(), order.end(), [](std::size_t p) {
     return uncertain_parameters()[p].shared != SharedBy::installation;
   });
@@ -537,12 +535,8 @@ std::string share_words(const std::array<double, uncertain_count + 1>& share) {
   parts.emplace_back("other", other);
   int missing = 100;
   for (const auto& [name, percent] : parts) missing -= static_cast<int>(std::floor(percent));
-  std::vector<std::size_t> order(parts.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const auto left = [&](std::size_t k) { return parts[k].second - std::floor(parts[k].second); };
-    return left(a) > left(b);
-  });
+  const std::vector<std::size_t> order =
+      largest_first(parts.size(), [&](std::size_t k) { return parts[k].second - std::floor(parts[k].second); });
   std::vector<int> whole(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) whole[k] = static_cast<int>(std::floor(parts[k].second));
   for (std::size_t k = 0; k < order.size() && missing > 0; ++k, --missing) ++whole[order[k]];

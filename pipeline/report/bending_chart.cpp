@@ -17,7 +17,7 @@
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
 #include "pipeline/report/plot.h"
-#include "pipeline/resolve/job_text.h"
+#include "pipeline/report/stored_job.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -124,7 +124,7 @@ double bend_of_cables(const FileReader& strain, std::size_t dresspack, std::size
 
 std::string bending_chart(const std::filesystem::path& strain_file, std::size_t which) {
   const FileReader strain(strain_file, strain_format());
-  const Job job = job_from(parse_yaml(strain.text_attribute("job"), strain_file.string() + " (attribute job)"));
+  const Job job = job_from(stored_job(strain));
   if (std::none_of(job.strain.slip.begin(), job.strain.slip.end(), rubs))
     throw InputError({strain_file.string()}, "comes from a job without friction in its cables (strain.slip)",
                      "set strain.slip: friction and run again");
@@ -151,17 +151,17 @@ std::string bending_chart(const std::filesystem::path& strain_file, std::size_t 
     return job.strain.factors.friction * parameter.value(deviation * normal_quantile(share));
   };
   const std::array<double, 3> frictions{friction(0.1), friction(0.5), friction(0.9)};
-  constexpr double width = 960, left = 78, right = 14, height = 300, heading = 44, below = 62;  // [px]
+  constexpr double height = 300, heading = 44, below = 62;  // [px]
   const std::string title = "Moment over curvature";
-  Picture picture(width, heading + (height + below) * static_cast<double>(laws.size()), title, title);
-  picture.text(left, 15, "Blue: first bend; red: loop of the largest bend in the motion; grey: with the friction of 10 .. 90 %; dashed: as simulated",
+  Picture picture(chart_width, heading + (height + below) * static_cast<double>(laws.size()), title, title);
+  picture.text(chart_left, 15, "Blue: first bend; red: loop of the largest bend in the motion; grey: with the friction of 10 .. 90 %; dashed: as simulated",
                "note");
   if (!left_out.empty())
-    picture.text(left, 32, fmt::format("Left out, because they have no wires that are described: {}", fmt::join(left_out, ", ")), "note");
+    picture.text(chart_left, 32, fmt::format("Left out, because they have no wires that are described: {}", fmt::join(left_out, ", ")), "note");
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const double most = way_up(laws[k], frictions[2]).back(), by_simulation = laws[k].simulated ? laws[k].simulated(laws[k].largest) : 0;
     const double highest = std::max(most, by_simulation);
-    const Panel panel{left, heading + (height + below) * static_cast<double>(k), width - left - right, height,
+    const Panel panel{chart_left, heading + (height + below) * static_cast<double>(k), chart_panel, height,
                       linear_axis("curvature [1/m]", -laws[k].largest, laws[k].largest, 9), linear_axis("moment [N m]", -highest, highest)};
     draw(picture, panel, laws[k], frictions);
   }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "pipeline/base/order.h"
 #include "pipeline/report/chart_style.h"
+#include "pipeline/report/page_shell.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/study/mode_table.h"
 
@@ -21,10 +23,9 @@ std::string meter(double share, double largest) {
       100 * share / largest, 100 * share);
 }
 
-std::vector<std::size_t> largest_first(const std::vector<double>& values, std::size_t most) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return values[a] > values[b]; });
+/// Of those above 0.
+std::vector<std::size_t> largest_of(const std::vector<double>& values, std::size_t most) {
+  std::vector<std::size_t> order = largest_first(values);
   std::erase_if(order, [&](std::size_t i) { return !(values[i] > 0); });
   if (order.size() > most) order.resize(most);
   return order;
@@ -39,7 +40,7 @@ std::string main_causes(const LifeSummary& life, std::size_t line) {
   const auto first = life.line_cause_damage.begin() + static_cast<std::ptrdiff_t>(line * causes);
   const std::vector<double> of_line(first, first + static_cast<std::ptrdiff_t>(causes));
   std::string text;
-  for (const std::size_t cause : largest_first(of_line, most_named)) {
+  for (const std::size_t cause : largest_of(of_line, most_named)) {
     const double share = of_line[cause] / life.step_damage[line];
     if (share < least_named && !text.empty()) break;
     text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", escaped(life.cause[cause]), 100 * share);
@@ -68,10 +69,9 @@ std::string cause_table(const LifeSummary& life) {
       "<h3>What moved while the damage was done: a correlation</h3>\n<p class=\"soft\">Damage of the worst wire by the "
       "joints "
       "that move the two clamps against each other, by how much each changed the wire's strain while a cycle "
-      "ran. This is no cause: motion.hold_joint tries what a joint costs. {} % of the strain's variance follows from these joints{}.</p>\n<div "
-      "class=\"wide\"><table>\n<thead><tr><th>moved</th><th>share of the "
-      "damage</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
-      printed(100 * life.explained), life.explained < 0.8 ? ": the shares are rough" : "", rows);
+      "ran. This is no cause: motion.hold_joint tries what a joint costs. {} % of the strain's variance follows from these joints{}.</p>\n{}",
+      printed(100 * life.explained), life.explained < 0.8 ? ": the shares are rough" : "",
+      wide_table({"moved", "share of the damage"}, rows));
 }
 
 /// (line) half of the damage of the cycles that a line opens and half of those that it completes.
@@ -108,7 +108,7 @@ std::string program_table(const LifeSummary& life) {
   };
   std::string rows;
   double largest = 0;
-  for (const std::size_t line : largest_first(damage, listed_lines)) {
+  for (const std::size_t line : largest_of(damage, listed_lines)) {
     largest = std::max(largest, damage[line]);
     if (damage[line] < least_listed * total) break;
     const LineRuns of = runs_of(line, runs);
@@ -124,20 +124,15 @@ std::string program_table(const LifeSummary& life) {
   return "<h3>Program lines that cost most</h3>\n<p class=\"soft\">It takes two lines to make a cycle of "
          "strain: "
          "one in which it opens and one in which its range is reached. Each is blamed for half of its "
-         "damage.</p>\n<div "
-         "class=\"wide\"><table>\n<thead><tr><th "
-         "class=\"number\">line</th><th>program</th>"
-         "<th class=\"number\">runs</th><th>costliest at</th><th>share of the damage</th><th "
-         "class=\"number\">opened here</th><th class=\"number\">reached here</th><th>reached mostly "
-         "by</th><th "
-         "class=\"number\">damage per repeat</th></tr>"
-         "</thead>\n<tbody>\n" +
-         rows + "</tbody></table></div>\n";
+         "damage.</p>\n" +
+         wide_table({"#line", "program", "#runs", "costliest at", "share of the damage", "#opened here", "#reached here",
+                     "reached mostly by", "#damage per repeat"},
+                    rows);
 }
 
 std::string layer_table(const LifeSummary& life, const RankingRow& row) {
   std::string rows;
-  for (const std::size_t i : largest_first(life.layer_damage, listed_layers)) {
+  for (const std::size_t i : largest_of(life.layer_damage, listed_layers)) {
     const double repeats = 1 / life.layer_damage[i];
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
@@ -146,11 +141,7 @@ std::string layer_table(const LifeSummary& life, const RankingRow& row) {
         printed(life.layer_damage[i]));
   }
   if (rows.empty()) return "";
-  return "<h3>Life by layer of wires</h3>\n<div class=\"wide\"><table>\n<thead><tr><th>layer</th><th "
-         "class=\"number\">life [h]</th>"
-         "<th class=\"number\">repeats</th><th class=\"number\">damage per "
-         "repeat</th></tr></thead>\n<tbody>\n" +
-         rows + "</tbody></table></div>\n";
+  return "<h3>Life by layer of wires</h3>\n" + wide_table({"layer", "#life [h]", "#repeats", "#damage per repeat"}, rows);
 }
 
 std::string place_remark(const LifeSummary& life) {

@@ -19,8 +19,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double figure_width = 960, figure_left = 78, figure_right = 14, axis_height = 44;  // [px]
-constexpr double figure_panel = figure_width - figure_left - figure_right;
 constexpr double percent = 100;
 constexpr double degrees = 57.29577951308232;
 
@@ -43,22 +41,22 @@ std::optional<Worst> find_worst(const std::filesystem::path& life_file) {
                file.text_attribute("worst_component"), file.number_attribute("worst_time")};
 }
 
-Worst worst_of(const std::filesystem::path& life_file) {
-  if (const auto worst = find_worst(life_file)) return *worst;
+std::optional<Worst> worst_if_known(const JobFiles& files) {
+  return kind_of(files.life) != FileKind::absent ? find_worst(files.life) : std::nullopt;
+}
+
+[[noreturn]] void refuse_undamaged(const std::filesystem::path& life_file) {
   throw InputError({life_file.string()}, "has no damaged wire to show", "choose another figure");
 }
 
-std::string needed(const std::string& chart, const std::filesystem::path& file) {
-  if (chart.empty())
-    throw InputError({file.string()}, "has no damaged wire to show", "choose another figure");
-  return chart;
+Worst worst_of(const std::filesystem::path& life_file) {
+  if (const auto worst = find_worst(life_file)) return *worst;
+  refuse_undamaged(life_file);
 }
 
-std::size_t nearest_sample(const std::vector<double>& times, double time) {
-  std::size_t nearest = 0;
-  for (std::size_t k = 1; k < times.size(); ++k)
-    if (std::abs(times[k] - time) < std::abs(times[nearest] - time)) nearest = k;
-  return nearest;
+std::string needed(const std::string& chart, const std::filesystem::path& life_file) {
+  if (chart.empty()) refuse_undamaged(life_file);
+  return chart;
 }
 
 std::pair<double, double> extremes(const std::vector<double>& values) {
@@ -94,11 +92,11 @@ std::string deformation_chart(const std::array<Along, 3>& all, const std::vector
   double whole = 0;
   for (const double length : lengths) whole += length;
   const PlotAxis x{"base clamp   \u2192   along the dresspack [m]   \u2192   tool clamp", 0, whole};
-  Picture picture(figure_width, heading + 3 * (height + gap) + axis_height, title, title);
-  picture.text(figure_left, 15, title, "note");
+  Picture picture(chart_width, heading + 3 * (height + gap) + x_axis_height, title, title);
+  picture.text(chart_left, 15, title, "note");
   for (std::size_t p = 0; p < all.size(); ++p) {
     const auto [low, high] = extremes(all[p].value);
-    const Panel panel{figure_left, heading + static_cast<double>(p) * (height + gap),     figure_panel, height,
+    const Panel panel{chart_left, heading + static_cast<double>(p) * (height + gap),     chart_panel, height,
                       x,    linear_axis(all[p].title, std::min(low, 0.0), high, 4)};
     panel.draw_axes(picture, p + 1 == all.size());
     std::vector<std::pair<double, double>> points;
@@ -148,14 +146,14 @@ std::string curvature_figure(const JobFiles& files) {
   }
   const auto [low, high] = extremes(strain);
   const auto [straightest, most] = extremes(curvature);
-  const Panel panel{figure_left,
+  const Panel panel{chart_left,
                     10,
-                    figure_panel,
+                    chart_panel,
                     420,
                     linear_axis("curvature of the segment [1/m]", std::min(straightest, 0.0), most, 9),
                     linear_axis("strain [%]", percent * low, percent * high)};
   const std::string words = fmt::format("{}, segment {} from the tool", history.words(), worst.from_tool);
-  Picture picture(figure_width, panel.bottom() + axis_height, "Strain of the worst wire over curvature", words);
+  Picture picture(chart_width, panel.bottom() + x_axis_height, "Strain of the worst wire over curvature", words);
   panel.draw_axes(picture);
   picture.text(panel.left + 6, panel.top + 12, words, "note");
   std::vector<std::pair<double, double>> points;
@@ -166,13 +164,13 @@ std::string curvature_figure(const JobFiles& files) {
 }
 
 std::string bending_figure(const JobFiles& files) {
-  const auto worst = kind_of(files.life) != FileKind::absent ? find_worst(files.life) : std::nullopt;
+  const auto worst = worst_if_known(files);
   if (!worst) return bending_chart(files.strain, 0);
   return bending_chart(files.strain, dresspack_of_segments(FileReader(files.strain, strain_format())).at(worst->segment));
 }
 
 std::string scene_figure(const JobFiles& files, std::optional<double> time) {
-  const auto worst = kind_of(files.life) != FileKind::absent ? find_worst(files.life) : std::nullopt;
+  const auto worst = worst_if_known(files);
   return scene_picture(files.motion, time.value_or(worst ? worst->time : 0), worst ? worst->from_tool : 0,
                        worst ? worst->dresspack : "");
 }

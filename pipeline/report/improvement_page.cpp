@@ -8,6 +8,7 @@
 
 #include "pipeline/base/readable.h"
 #include "pipeline/report/chart_style.h"
+#include "pipeline/report/page_shell.h"
 #include "pipeline/report/plot.h"
 
 namespace dresslife::pipeline {
@@ -29,12 +30,6 @@ h1, td code { overflow-wrap: anywhere; } div.narrow { display: none; } .figure {
   h2, h2 + p { break-after: avoid; } .figure, tr { break-inside: avoid; } }
 )";
 
-/// A table that scrolls where it is wider than the page.
-std::string table(const std::string& head, const std::string& rows) {
-  return fmt::format(
-      "<div class=\"wide\"><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n", head, rows);
-}
-
 std::string lives_section(const ImprovementStory& story) {
   const auto row = [](const char* name, const ImprovementStory::Lives& of) {
     return fmt::format(
@@ -45,8 +40,8 @@ std::string lives_section(const ImprovementStory& story) {
   };
   std::string text =
       "<h2>Lives</h2>\n" +
-      table(
-          "<th></th><th class=\"number\">p10 [h]</th><th class=\"number\">p50 [h]</th><th class=\"number\">p90 [h]</th><th>limits</th><th>modes that are not validated</th>",
+      wide_table(
+          {"", "#p10 [h]", "#p50 [h]", "#p90 [h]", "limits", "modes that are not validated"},
           (story.before ? row("before", *story.before) : "") +
               (story.after ? row(story.keep.empty() ? "after" : "best of the trials", *story.after) : ""));
   if (!story.keep.empty()) text += fmt::format("<p><b>{}</b></p>\n", escaped(story.keep));
@@ -61,7 +56,7 @@ std::string changes_section(const ImprovementStory& story) {
   for (const ImprovementStory::Change& change : story.changes)
     rows += fmt::format("<tr><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n", escaped(change.key),
                         escaped(change.before), escaped(change.after));
-  return "<h2>What was changed</h2>\n" + table("<th>key</th><th>before</th><th>after</th>", rows);
+  return "<h2>What was changed</h2>\n" + wide_table({"key", "before", "after"}, rows);
 }
 
 std::string beside_section(const ImprovementStory& story) {
@@ -88,9 +83,7 @@ std::string nudges_section(const ImprovementStory& story) {
             : fmt::format("{}: {}", escaped(nudge.first_mode), escaped(hours_text(nudge.first_hours))));
   return "<h2>Mounting tolerance</h2>\n<p>The same job with one clamp, ring, length or the turn of its end off. The life is the p10 of the "
          "wires over that of the job as drawn.</p>\n" +
-         table(
-             "<th>off by</th><th class=\"number\">life</th><th>limits</th><th>first of the modes that are not validated</th>",
-             rows);
+         wide_table({"off by", "#life", "limits", "first of the modes that are not validated"}, rows);
 }
 
 /// Room for the chart of a page, and for that of a phone's.

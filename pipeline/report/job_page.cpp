@@ -24,7 +24,7 @@
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene_data.h"
 #include "pipeline/report/section_data.h"
-#include "pipeline/resolve/job_text.h"
+#include "pipeline/report/stored_job.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/row_words.h"
@@ -194,8 +194,7 @@ class Page {
     if (const std::string limits = broken_limits(*motion_); !limits.empty()) notes_.push_back(limits);
     // The motion may be another job's that moves alike, with other cables in the hose; a life is each job's
     // own.
-    const std::string source = files.life().string() + " (attribute job)";
-    setup_ = setup_from(parse_yaml(life_.text_attribute("job"), source));
+    setup_ = setup_from(stored_job(life_));
   }
 
   std::string text(const std::string& made_from) {
@@ -214,11 +213,6 @@ class Page {
     return data;
   }
 
-  /// As it was resolved.
-  Node job() const {
-    return parse_yaml(life_.text_attribute("job"), files_.life().string() + " (attribute job)");
-  }
-
   std::string body() const {
     std::string text = headline(row_);
     for (const std::string& note : notes_) text += fmt::format("<p class=\"failed\">{}</p>\n", escaped(note));
@@ -231,7 +225,7 @@ class Page {
       text += "<h2>Where the damage comes from</h2>\n" + damage_along(life, row_) + damage_tables(life, row_);
     }
     text += "<h2>What the numbers rest on</h2>\n" +
-            assumptions(row_, job(), motion_.get(), strain_.get(), setup_ ? &*setup_ : nullptr);
+            assumptions(row_, stored_job(life_), motion_.get(), strain_.get(), setup_ ? &*setup_ : nullptr);
     if (motion_) text += check_table(files_.motion());
     text += "<p class=\"soft\" id=\"shown\"></p>\n";
     if (setup_) text += folded("What the dresspack is made of", layers(*setup_));

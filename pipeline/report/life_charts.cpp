@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "pipeline/base/order.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
@@ -19,8 +20,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double page_width = 960, left_margin = 78, right_margin = 14, x_axis_height = 44;
-constexpr double panel_width = page_width - left_margin - right_margin;
 constexpr double in_percent = 100;
 constexpr double narrow_span = 30;     // ratios below this stay on a linear axis
 constexpr double widest_span = 1e6;    // what lies further below the largest is nothing beside it
@@ -60,12 +59,8 @@ struct Label {
 std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<ProgramRun>& runs,
                                 const Panel& panel) {
   const double total = sum(life.step_damage);
-  std::vector<std::size_t> lines(life.step_damage.size());
-  std::iota(lines.begin(), lines.end(), 0);
-  std::stable_sort(lines.begin(), lines.end(),
-                   [&](auto a, auto b) { return life.step_damage[a] > life.step_damage[b]; });
   std::vector<Label> labels;
-  for (const std::size_t line : lines) {
+  for (const std::size_t line : largest_first(life.step_damage)) {
     if (labels.size() == named_lines || !(life.step_damage[line] > named_share * total)) break;
     const ProgramRun* costliest = nullptr;
     for (const ProgramRun& run : runs)
@@ -86,17 +81,17 @@ void draw_labels(Picture& picture, const Panel& panel, const std::vector<Label>&
                  double row_height) {
   std::vector<const Label*> rows;
   for (auto label = labels.rbegin(); label != labels.rend(); ++label)
-    if (label->x + 6 + text_width(label->words) > page_width) rows.push_back(&*label);
+    if (label->x + 6 + text_width(label->words) > chart_width) rows.push_back(&*label);
   const std::size_t reading_left = rows.size();
   for (const Label& label : labels)
-    if (label.x + 6 + text_width(label.words) <= page_width) rows.push_back(&label);
+    if (label.x + 6 + text_width(label.words) <= chart_width) rows.push_back(&label);
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const double y = top + row_height * static_cast<double>(row + 1) - 4;
     picture.line(rows[row]->x, y - 8, rows[row]->x, panel.bottom(), "leader");
     const bool left = row < reading_left;
     picture.text(rows[row]->x + (left ? -5 : 5), y, rows[row]->words, "note",
                  left ? Picture::Anchor::end : Picture::Anchor::start,
-                 (left ? rows[row]->x : page_width - rows[row]->x) - 6);
+                 (left ? rows[row]->x : chart_width - rows[row]->x) - 6);
   }
 }
 
@@ -121,7 +116,7 @@ void draw_program(Picture& picture, const LifeSummary& life, const std::vector<P
     if (run.step >= 0 && to - from > text_width(number) + 2)
       picture.text((from + to) / 2, top + height - 4.5, number, "cell", Picture::Anchor::middle);
   }
-  picture.text(left_margin - 6, top + height - 4, "line", "tick", Picture::Anchor::end);
+  picture.text(chart_left - 6, top + height - 4, "line", "tick", Picture::Anchor::end);
 }
 
 std::vector<double> shares_so_far(const std::vector<double>& rates) {
@@ -283,16 +278,16 @@ std::string strain_chart(const LifeSummary& life) {
   const auto [low, high] = std::minmax_element(life.strain.begin(), life.strain.end());
   const std::vector<ProgramRun> runs = program_runs(life);
   PlotAxis time{"time [s]", life.time.front(), life.time.back()};
-  Panel strain{left_margin,   0,    panel_width,
+  Panel strain{chart_left,   0,    chart_panel,
                strain_height, time, linear_axis("strain [%]", in_percent * *low, in_percent * *high)};
   const std::vector<Label> labels = costly_lines(life, runs, strain);
   strain.top = 8 + label_row * static_cast<double>(labels.size());
   const double strip = strain.bottom() + gap;
-  const Panel share{left_margin, strip + strip_height + gap, panel_width, share_height,
+  const Panel share{chart_left, strip + strip_height + gap, chart_panel, share_height,
                     time,        {"share [%]", 0, 100}};
   const bool damaged = sum(life.damage_rate) > 0;
   const double bottom = damaged ? share.bottom() : strip + strip_height;
-  Picture picture(page_width, bottom + x_axis_height, "Strain of the worst wire over time",
+  Picture picture(chart_width, bottom + x_axis_height, "Strain of the worst wire over time",
                   fmt::format("Strain between {:.3g} and {:.3g} percent over {:.0f} seconds.", in_percent * *low,
                               in_percent * *high, life.time.back() - life.time.front()));
   strain.draw_axes(picture, false);
@@ -300,7 +295,7 @@ std::string strain_chart(const LifeSummary& life) {
     picture.line(strain.left, strain.down(0), strain.right(), strain.down(0), "mark");
   draw_labels(picture, strain, labels, 4, label_row);
   std::vector<std::pair<double, double>> points =
-      thinned(life.time, life.strain, static_cast<std::size_t>(panel_width));
+      thinned(life.time, life.strain, static_cast<std::size_t>(chart_panel));
   for (auto& [x, y] : points) {
     x = strain.across(x);
     y = strain.down(in_percent * y);
@@ -311,12 +306,11 @@ std::string strain_chart(const LifeSummary& life) {
   if (damaged) {
     share.draw_axes(picture);
     picture.curve(stair(share, life.time, shares_so_far(life.damage_rate)), "curve-hot");
-    picture.text(left_margin + 6, share.top + 13, "damage so far", "note");
+    picture.text(chart_left + 6, share.top + 13, "damage so far", "note");
   } else {
-    const Panel ticks{left_margin, strip, panel_width, strip_height, time, {"", 0, 1}};
     for (const Tick& tick : time.ticks(9))
-      picture.text(ticks.across(tick.value), bottom + 17, tick.label, "tick", Picture::Anchor::middle);
-    picture.text(left_margin + panel_width / 2, bottom + 36, time.title, "axis-title",
+      picture.text(strain.across(tick.value), bottom + 17, tick.label, "tick", Picture::Anchor::middle);
+    picture.text(chart_left + chart_panel / 2, bottom + 36, time.title, "axis-title",
                  Picture::Anchor::middle);
   }
   return picture.svg();
@@ -328,9 +322,9 @@ std::string segment_chart(const LifeSummary& life, int worst_from_tool) {
   PlotAxis x{"base clamp   \u2190   distance to the tool clamp along the dresspack [m]   \u2192   tool clamp",
              0, sum(life.segment_length)};
   x.reversed = true;
-  const Panel panel{left_margin, 26, panel_width,
+  const Panel panel{chart_left, 26, chart_panel,
                     180,         x,  axis_of_amounts("damage per repeat", life.segment_damage)};
-  Picture picture(page_width, panel.bottom() + x_axis_height, "Damage along the dresspack",
+  Picture picture(chart_width, panel.bottom() + x_axis_height, "Damage along the dresspack",
                   fmt::format("The worst segment is number {} from the tool.", worst_from_tool));
   panel.draw_axes(picture);
   double to_tool = sum(life.segment_length);
@@ -346,7 +340,7 @@ std::string segment_chart(const LifeSummary& life, int worst_from_tool) {
     if (!worst) continue;
     const double middle = (from + to) / 2;
     const std::string words = fmt::format("worst: segment {} from the tool", from_tool);
-    const bool left = middle + 5 + text_width(words) > page_width;
+    const bool left = middle + 5 + text_width(words) > chart_width;
     picture.line(middle, 4, middle, top, "leader");
     picture.text(middle + (left ? -5 : 5), 13, words, "note",
                  left ? Picture::Anchor::end : Picture::Anchor::start);
@@ -370,12 +364,12 @@ std::string cycle_chart(const LifeSummary& life) {
   const double total = sum(shares);
   for (double& share : shares) share *= total > 0 ? in_percent / total : 0;
   const PlotAxis x = range_axis(bins);
-  const Panel count{left_margin, 10, panel_width, 130, x, axis_of_amounts("cycles per repeat", counts)};
+  const Panel count{chart_left, 10, chart_panel, 130, x, axis_of_amounts("cycles per repeat", counts)};
   const Panel share{
-      left_margin, count.bottom() + 16,
-      panel_width, 130,
+      chart_left, count.bottom() + 16,
+      chart_panel, 130,
       x,           linear_axis("share of damage [%]", 0, *std::max_element(shares.begin(), shares.end()), 5)};
-  Picture picture(page_width, share.bottom() + x_axis_height, "Cycles of the worst wire",
+  Picture picture(chart_width, share.bottom() + x_axis_height, "Cycles of the worst wire",
                   fmt::format("{} cycles per repeat.", printed(sum(counts))));
   count.draw_axes(picture, false);
   share.draw_axes(picture);

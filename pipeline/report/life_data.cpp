@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 
+#include "pipeline/base/order.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/known_history.h"
+#include "pipeline/report/motion_data.h"
+#include "pipeline/report/stored_job.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
@@ -35,12 +37,8 @@ class Thinning {
   std::vector<double> of(const std::vector<double>& history) const { return at(history, kept(history)); }
   /// Samples of a history that are kept.
   std::vector<std::size_t> kept(const std::vector<double>& history) const {
+    if (!thins()) return indices_of(samples_);
     std::vector<std::size_t> samples;
-    if (!thins()) {
-      samples.resize(samples_);
-      std::iota(samples.begin(), samples.end(), 0);
-      return samples;
-    }
     for (std::size_t from = 0; from < samples_; from += stretch_) {
       const auto begin = history.begin() + static_cast<std::ptrdiff_t>(from),
                  end = history.begin() + static_cast<std::ptrdiff_t>(std::min(from + stretch_, samples_));
@@ -69,13 +67,6 @@ class Thinning {
   std::size_t samples_, stretch_;
 };
 
-std::vector<std::size_t> most_damaged_first(const std::vector<double>& damage) {
-  std::vector<std::size_t> order(damage.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return damage[a] > damage[b]; });
-  return order;
-}
-
 class Data {
  public:
   Data(const FileReader& life, const FileReader* strain)
@@ -94,7 +85,7 @@ class Data {
     data.add("segments", segments()).add("strains", strains()).add("closings", closings());
     if (const auto of_worst = cycles()) data.add("cycles", *of_worst);
     if (const auto of_worst = loops()) data.add("loops", *of_worst);
-    data.add("program", program());
+    data.add("program", program_data(life_).add("damage", life_.read<double>("/program/damage")));
     return data.add("joints", life_.has("/joint/name") ? life_.read<std::string>("/joint/name")
                                                        : std::vector<std::string>{});
   }
@@ -221,7 +212,7 @@ class Data {
     std::size_t kept = 0;
     const bool worst_known = worst_ && strain_ && known_whole(*strain_, *worst_);
     std::size_t turns = 0;
-    for (const std::size_t segment : most_damaged_first(damage_)) {
+    for (const std::size_t segment : largest_first(damage_)) {
       const bool worst_one = static_cast<int>(segment) == worst;
       if (worst_site_[segment] == no_site || (!strain_ && !worst_one)) continue;
       const auto probe = probed.find(segment);
@@ -336,7 +327,7 @@ class Data {
 
   /// What stress follows, in words.
   std::string stress_rule() const {
-    const Node job = parse_yaml(life_.text_attribute("job"), life_.where().file + " (attribute job)");
+    const Node job = stored_job(life_);
     const Node* fatigue = job.find("fatigue");
     const Node* stress = fatigue ? fatigue->find("stress") : nullptr;
     return !stress ? "stress as fatigue.stress has it"
@@ -353,20 +344,6 @@ class Data {
     std::vector<std::uint16_t> numbers;
     for (const double value : values) numbers.push_back(steps.of(value));
     return {{"low", steps.low}, {"step", steps.step}, {"numbers", base64_of(numbers)}};
-  }
-
-  Json program() const {
-    const auto step = life_.read<std::int32_t>("/program/step");
-    std::vector<double> begin, line;
-    for (std::size_t k = 0; k < step.size(); ++k)
-      if (k == 0 || step[k] != step[k - 1]) {
-        begin.push_back(time_[k] - time_[0]);
-        line.push_back(step[k]);
-      }
-    return {{"text", life_.read<std::string>("/program/text")},
-            {"damage", life_.read<double>("/program/damage")},
-            {"begin", begin},
-            {"line", line}};
   }
 
   const FileReader& life_;

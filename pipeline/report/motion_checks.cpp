@@ -6,6 +6,7 @@
 
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
+#include "pipeline/report/page_shell.h"
 #include "pipeline/report/plot.h"
 
 namespace dresslife::pipeline {
@@ -70,10 +71,8 @@ std::string check_table(const std::filesystem::path& motion_file) {
         known ? escaped(texts[static_cast<std::size_t>(steps[i])]) : "");
   }
   return fmt::format(
-      "<p class=\"soft\">{}</p>\n<div class=\"wide\"><table>\n<thead><tr><th>check</th><th "
-      "class=\"number\">worst</th><th class=\"number\">limit</th><th class=\"number\">from the tool</th>"
-      "<th class=\"number\">when</th><th>program</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
-      repeats_words(file), rows);
+      "<p class=\"soft\">{}</p>\n{}", repeats_words(file),
+      wide_table({"check", "#worst", "#limit", "#from the tool", "#when", "program"}, rows));
 }
 
 }  // namespace dresslife::pipeline

@@ -271,4 +271,17 @@ Json motion_data(const FileReader& motion, const FileReader* strain, const Setup
   return Player(motion, strain, setup).json();
 }
 
+Json program_data(const FileReader& file) {
+  const auto time = file.read<double>("/time");
+  const auto step = file.read<std::int32_t>("/program/step");
+  std::vector<double> begin, line;
+  for (std::size_t k = 0; k < step.size(); ++k) {
+    const double here = time[k] < 0 ? -1 : step[k];
+    if (!line.empty() && line.back() == here) continue;
+    begin.push_back(time[k] - time[0]);
+    line.push_back(here);
+  }
+  return {{"text", file.read<std::string>("/program/text")}, {"begin", begin}, {"line", line}};
+}
+
 }  // namespace dresslife::pipeline

@@ -14,4 +14,7 @@ namespace dresslife::pipeline {
 /// belong together.
 Json motion_data(const FileReader& motion, const FileReader* strain, const Setup& setup);
 
+/// Lines of the program, and when they begin [s after the first sample]; -1 before the program (time 0).
+Json program_data(const FileReader& file);
+
 }  // namespace dresslife::pipeline

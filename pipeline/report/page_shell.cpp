@@ -59,6 +59,13 @@ std::string whole_page(const std::string& title, const std::string& made_from, c
   return with_mark(page, Mark::page);
 }
 
+std::string wide_table(std::initializer_list<std::string_view> heads, const std::string& rows) {
+  std::string head;
+  for (const std::string_view one : heads)
+    head += one.starts_with('#') ? fmt::format("<th class=\"number\">{}</th>", one.substr(1)) : fmt::format("<th>{}</th>", one);
+  return fmt::format("<div class=\"wide\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n", head, rows);
+}
+
 std::string made_from_of(const std::filesystem::path& page) {
   if (!state_of(page).exists()) return "";
   const std::string text = read_text(page);

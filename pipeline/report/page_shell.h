@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -25,5 +26,8 @@ std::string made_from_of(const std::filesystem::path& page);
 
 /// A page of whole_page() with changed text.
 std::string changed_page(std::string_view page, const std::function<void(std::string&)>& change);
+
+/// A table that scrolls where it is wider than the page. Heads that begin with # stand above numbers. rows: as HTML.
+std::string wide_table(std::initializer_list<std::string_view> heads, const std::string& rows);
 
 }  // namespace dresslife::pipeline

@@ -12,7 +12,7 @@
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/report/plot.h"
-#include "pipeline/resolve/job_text.h"
+#include "pipeline/report/stored_job.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -187,8 +187,7 @@ std::string xdmf_text(const JobFiles& files, const fs::path& output) {
   const FileReader motion(files.motion, motion_format());
   const auto strain = beside(files.strain, strain_format(), motion),
              life = beside(files.life, life_format(), motion);
-  const Setup setup =
-      setup_from(parse_yaml(motion.text_attribute("job"), files.motion.string() + " (attribute job)"));
+  const Setup setup = setup_from(stored_job(motion));
   const std::vector<double> times = motion.read<double>("/time");
   const std::vector<std::size_t> of_segment = dresspack_of_segments(motion);
   const Slab moved(name_from(output, files.motion), times.size(), of_segment.size());

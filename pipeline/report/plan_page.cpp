@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/order.h"
 #include "pipeline/report/chart_style.h"
+#include "pipeline/report/page_shell.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/table_page.h"
 
@@ -35,11 +36,7 @@ const char* shade_of(double probability) {
 
 /// Dresspacks by falling risk.
 std::vector<std::size_t> by_risk(const Plan& plan) {
-  std::vector<std::size_t> order(plan.rows.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return plan.rows[a].fails_before > plan.rows[b].fails_before; });
-  return order;
+  return largest_first(plan.rows.size(), [&](std::size_t k) { return plan.rows[k].fails_before; });
 }
 
 /// A picture over the days of the plan.
@@ -157,10 +154,7 @@ std::string beside_table(const PlanNotes& notes) {
   std::string rows;
   for (const BesideRow& row : notes.beside)
     rows += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n", row.what, row.now, row.then, row.more);
-  return fmt::format(
-      "<h3>Beside today's fleet</h3>\n<div class=\"wide\"><table>\n<thead><tr><th></th><th class=\"number\">{}</th><th class=\"number\">what if</th>"
-      "<th class=\"number\">difference</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
-      escaped(notes.today), rows);
+  return "<h3>Beside today's fleet</h3>\n" + wide_table({"", "#" + escaped(notes.today), "#what if", "#difference"}, rows);
 }
 
 std::string windows_table(const Fleet& fleet, const Plan& plan) {
@@ -170,8 +164,7 @@ std::string windows_table(const Fleet& fleet, const Plan& plan) {
     rows += fmt::format("<tr><td style=\"white-space: nowrap\">{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
                         window_text(plan.windows[n]), replaced.size(), replaced.empty() ? "nothing to replace" : escaped(joined(replaced, ", ")));
   }
-  return "<h3>What to replace</h3>\n<div class=\"wide\"><table>\n<thead><tr><th>window</th><th class=\"number\">dresspacks</th><th>names</th></tr></thead>\n<tbody>\n" +
-         rows + "</tbody></table></div>\n";
+  return "<h3>What to replace</h3>\n" + wide_table({"window", "#dresspacks", "names"}, rows);
 }
 
 std::string years_table(const Fleet& fleet, const Plan& plan) {
@@ -183,9 +176,8 @@ std::string years_table(const Fleet& fleet, const Plan& plan) {
         y + 1, printed(year.planned + year.unplanned, 2), std::floor(year.low), std::ceil(year.high), printed(year.planned, 2), printed(year.unplanned, 2));
   }
   std::string text =
-      "<h3>Spare dresspacks</h3>\n<div class=\"wide\"><table>\n<thead><tr><th>year from today</th><th class=\"number\">expected</th>"
-      "<th class=\"number\">in 90 of 100 plants</th><th class=\"number\">planned</th><th class=\"number\">after failures</th></tr></thead>\n<tbody>\n" +
-      rows + "</tbody></table></div>\n";
+      "<h3>Spare dresspacks</h3>\n" +
+      wide_table({"year from today", "#expected", "#in 90 of 100 plants", "#planned", "#after failures"}, rows);
   if (fleet.has_costs)
     text += fmt::format("<p>Cost until {}: <b>{}</b> by this plan, {} if only failed dresspacks are replaced.</p>\n", day_text(plan.end),
                         printed(plan.cost), printed(plan.cost_without_windows));

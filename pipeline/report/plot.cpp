@@ -91,11 +91,7 @@ std::string hinted(const std::string& element, const std::string& hint) {
 }
 
 /// Lengths need a tenth of a pixel; shorter text keeps the page small.
-std::string at(double length) {
-  std::string text = fmt::format("{:.1f}", length);
-  if (text.ends_with(".0")) text.resize(text.size() - 2);
-  return text == "-0" ? "0" : text;
-}
+std::string at(double length) { return short_decimal(length, 1); }
 
 double share_of(const PlotAxis& axis, double value) {
   const double share = axis.logarithmic ? std::log(value / axis.low) / std::log(axis.high / axis.low)

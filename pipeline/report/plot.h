@@ -8,6 +8,9 @@
 
 namespace dresslife::pipeline {
 
+/// The size of a chart over the width of a page, with room for the words of its axes [px].
+constexpr double chart_width = 960, chart_left = 78, chart_panel = chart_width - chart_left - 14, x_axis_height = 44;
+
 /// Text escaped for HTML text and quoted attributes.
 std::string escaped(const std::string& text);
 

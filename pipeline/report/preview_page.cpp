@@ -17,7 +17,7 @@
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene_data.h"
-#include "pipeline/resolve/job_text.h"
+#include "pipeline/report/stored_job.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -38,10 +38,6 @@ struct SpanPreview {
   bool hangs() const { return !(most_way > 0); }
   bool works() const { return hangs() || (length >= program[0] && length <= program[1]); }
 };
-
-Setup setup_of(const FileReader& file) {
-  return setup_from(parse_yaml(file.text_attribute("job"), file.where().file + " (attribute job)"));
-}
 
 std::vector<SpanPreview> spans_of(const FileReader& file, const Setup& setup) {
   const auto dresspacks = file.read<std::int32_t>("/span/dresspack");
@@ -139,26 +135,8 @@ std::string scan_table(const std::vector<SpanPreview>& spans) {
   return "<h2>Other lengths at rest</h2>\n<p class=\"soft\">Least bend radius in eight poses of the program, "
          "with the dresspack's "
          "weight, free of twist, without contact and speed. Without a position of rest in one of them nothing is shown: "
-         "a run may find one.</p>\n<div "
-         "class=\"wide\"><table>\n<thead><tr><th>what</th><th "
-         "class=\"number\">length</th><th class=\"number\">least bend radius</th><th "
-         "class=\"number\">allowed</th></tr></thead>\n"
-         "<tbody>\n" +
-         rows + "</tbody></table></div>\n";
-}
-
-/// Where program lines begin; -1 before the program.
-Json program_data(const FileReader& file) {
-  const auto time = file.read<double>("/time");
-  const auto step = file.read<std::int32_t>("/program/step");
-  std::vector<double> begin, line;
-  for (std::size_t k = 0; k < step.size(); ++k) {
-    const double here = time[k] < 0 ? -1 : step[k];
-    if (!line.empty() && line.back() == here) continue;
-    begin.push_back(time[k] - time[0]);
-    line.push_back(here);
-  }
-  return {{"text", file.read<std::string>("/program/text")}, {"begin", begin}, {"line", line}};
+         "a run may find one.</p>\n" +
+         wide_table({"what", "#length", "#least bend radius", "#allowed"}, rows);
 }
 
 Json ways_data(const FileReader& file, const std::vector<SpanPreview>& spans) {
@@ -206,7 +184,7 @@ double place_in(const std::string& refusal) {
 std::vector<std::string> length_words(const std::filesystem::path& preview_file) {
   const FileReader file(preview_file, preview_format());
   std::vector<std::string> lines;
-  for (const SpanPreview& span : spans_of(file, setup_of(file))) lines.push_back(words(span, warns_of_bends(file)));
+  for (const SpanPreview& span : spans_of(file, setup_from(stored_job(file)))) lines.push_back(words(span, warns_of_bends(file)));
   return lines;
 }
 
@@ -217,7 +195,7 @@ std::string refusal_of(const std::filesystem::path& preview_file) {
 std::string preview_page(const std::filesystem::path& preview_file, const std::string& name,
                          const std::string& made_from, const std::string& failure) {
   const FileReader file(preview_file, preview_format());
-  const Setup setup = setup_of(file);
+  const Setup setup = setup_from(stored_job(file));
   const std::vector<SpanPreview> spans = spans_of(file, setup);
   std::string refusal = file.text_attribute("refusal");
   double refusal_time = file.has_attribute("refusal_time") ? file.number_attribute("refusal_time")

@@ -17,6 +17,7 @@
 #include "pipeline/report/life_matrix.h"
 #include "pipeline/report/motion_checks.h"
 #include "pipeline/report/page_assets.h"
+#include "pipeline/report/page_shell.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene.h"
 #include "pipeline/report/table_page.h"
@@ -245,12 +246,8 @@ std::string dresspack_table(const LifeSummary& life, const RankingRow& row) {
                 : fmt::format("<tr><td>{}</td><td class=\"number\" colspan=\"3\">no damage</td></tr>\n",
                               escaped(life.dresspack[d]));
   }
-  return "<h3>Life by dresspack</h3>\n<p class=\"soft\">Of the worst wire in each; the charts below are "
-         "about the "
-         "worst of them.</p>\n<div class=\"wide\"><table>\n<thead><tr><th>dresspack</th><th "
-         "class=\"number\">life [h]</th><th class=\"number\">repeats</th><th class=\"number\">damage per "
-         "repeat</th></tr></thead>\n<tbody>\n" +
-         rows + "</tbody></table></div>\n";
+  return "<h3>Life by dresspack</h3>\n<p class=\"soft\">Of the worst wire in each; the charts below are about the worst of them.</p>\n" +
+         wide_table({"dresspack", "#life [h]", "#repeats", "#damage per repeat"}, rows);
 }
 
 std::string facts(const RankingRow& row) {

@@ -10,7 +10,7 @@
 #include "pipeline/files/files.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/report/hose_line.h"
-#include "pipeline/resolve/job_text.h"
+#include "pipeline/report/stored_job.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -146,14 +146,6 @@ View fit(const std::vector<Stroke>& strokes, double& height) {
   return view;
 }
 
-std::size_t sample_at(const FileReader& file, double time) {
-  const std::vector<double> times = file.read<double>("/time");
-  const auto later = std::lower_bound(times.begin(), times.end(), time);
-  if (later == times.begin()) return 0;
-  if (later == times.end()) return times.size() - 1;
-  return static_cast<std::size_t>(later - times.begin()) - (time - *(later - 1) < *later - time);
-}
-
 /// A bar of one metre (or a tenth for small scenes) in the lower left corner.
 std::string scale_bar(const View& view, double height) {
   const double length = view.scale > 600 ? 0.1 : 1;
@@ -167,12 +159,18 @@ std::string scale_bar(const View& view, double height) {
 
 }  // namespace
 
+std::size_t nearest_sample(const std::vector<double>& times, double time) {
+  const auto later = std::lower_bound(times.begin(), times.end(), time);
+  const auto at = static_cast<std::size_t>(later - times.begin());
+  if (at == 0) return 0;
+  return later == times.end() || time - times[at - 1] <= *later - time ? at - 1 : at;
+}
+
 std::string scene_picture(const std::filesystem::path& motion_file, double time, int worst_from_tool,
                           const std::string& worst_dresspack) {
   const FileReader file(motion_file, motion_format());
-  const Setup setup =
-      setup_from(parse_yaml(file.text_attribute("job"), motion_file.string() + " (attribute job)"));
-  const std::size_t sample = sample_at(file, time);
+  const Setup setup = setup_from(stored_job(file));
+  const std::size_t sample = nearest_sample(file.read<double>("/time"), time);
   std::vector<Stroke> strokes;
   add_robot(strokes, file, setup.robot, sample);
   add_rings(strokes, file, setup, sample);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace dresslife::pipeline {
 
@@ -11,5 +12,8 @@ namespace dresslife::pipeline {
 /// the tool, 0: none. Errors: InputError when the file is missing or cannot be read.
 std::string scene_picture(const std::filesystem::path& motion_file, double time, int worst_from_tool,
                           const std::string& worst_dresspack = "");
+
+/// The sample nearest to a time; of two the earlier one. Precondition: times rise, and there is one.
+std::size_t nearest_sample(const std::vector<double>& times, double time);
 
 }  // namespace dresslife::pipeline

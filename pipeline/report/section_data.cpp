@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
 
+#include "pipeline/base/order.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/json.h"
@@ -90,8 +90,7 @@ std::string levels_of(const std::vector<double>& damage, double most) {
 
 /// Wires and their damages.
 Json worst_json(const std::vector<double>& damage) {
-  std::vector<std::size_t> order(damage.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<std::size_t> order = indices_of(damage.size());
   const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(listed_wires, order.size()));
   std::partial_sort(order.begin(), end, order.end(), [&](auto a, auto b) { return damage[a] > damage[b]; });
   std::vector<std::vector<double>> list;
@@ -109,13 +108,10 @@ std::optional<Json> section_data(const FileReader& life, const Setup& setup) {
   const std::vector<std::size_t> dresspack = dresspack_of_segments(life);
   if (!(most > 0) || dresspack.size() != of_segment.size() || !std::is_sorted(segment.begin(), segment.end()))
     return {};
-  std::vector<std::size_t> order(of_segment.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return of_segment[a] > of_segment[b]; });
   std::vector<Wires> wires(setup.dresspacks.size());
   std::vector<Json> rows, dresspacks;
   std::size_t bytes = 0;
-  for (const std::size_t at : order) {
+  for (const std::size_t at : largest_first(of_segment)) {
     const std::size_t d = dresspack[at];
     if (!(of_segment[at] > 0) || d >= wires.size()) break;
     const auto [first, end] = std::equal_range(segment.begin(), segment.end(), static_cast<std::int32_t>(at));

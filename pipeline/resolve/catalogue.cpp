@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <optional>
 #include <set>
 
 #include "pipeline/base/installation.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/text.h"
 #include "pipeline/resolve/beds.h"
 #include "pipeline/resolve/cable_alone.h"
 #include "pipeline/resolve/data_sheet.h"
@@ -130,9 +130,7 @@ void read_urdf(Node& entry) {
 
 /// A robot's program in its own language, or joints as columns.
 bool is_program_file(const fs::path& file) {
-  std::string end = file.extension();
-  std::transform(end.begin(), end.end(), end.begin(),
-                 [](unsigned char letter) { return std::tolower(letter); });
+  const std::string end = lower_case(file.extension().string());
   static const std::set<std::string> ends{".mod", ".modx", ".prg",    ".pgf",      ".src",
                                           ".ls",  ".jbi",  ".script", ".urscript", ".csv"};
   return ends.contains(end) && is_file(file);
@@ -265,11 +263,9 @@ void resolve_entry(Node* entry, const std::string& path, const std::string& fold
 
 /// Which item of a list a word of a key path names: there they count from 1. Nothing: none.
 std::optional<std::size_t> item_of(const Node& list, const std::string& word) {
-  std::size_t number = 0;
-  const char* const end = word.data() + word.size();
-  const auto [read, failure] = std::from_chars(word.data(), end, number);
-  const bool is_item = failure == std::errc() && read == end && number >= 1 && number <= list.items.size();
-  return is_item ? std::optional(number - 1) : std::nullopt;
+  const auto number = whole_number_in<std::size_t>(word);
+  const bool is_item = number && *number >= 1 && *number <= list.items.size();
+  return is_item ? std::optional(*number - 1) : std::nullopt;
 }
 
 /// The word of a key path at `begin`, which goes on to the next; beyond the path's end: that was the last.

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/text.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/resolve/cable_rules.h"
 #include "pipeline/resolve/placement.h"
@@ -433,12 +434,7 @@ void expand(Node& component, LeftOut& left_out) {
 }
 
 /// In lower case, without space around it.
-std::string plain(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return std::tolower(letter); });
-  const std::size_t begin = text.find_first_not_of(" \t\n"), end = text.find_last_not_of(" \t\n");
-  return begin == std::string::npos ? "" : text.substr(begin, end + 1 - begin);
-}
+std::string plain(const std::string& text) { return lower_case(trimmed(text)); }
 
 constexpr const char* example_line =
     "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket PUR 1.1 mm";

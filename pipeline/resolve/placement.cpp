@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/order.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
@@ -196,8 +196,7 @@ double bore_of(const Node& dresspack) {
 
 std::optional<std::vector<PlacedPart>> pack_in_bore(const std::vector<double>& radii, double bore, double core) {
   std::vector<PlacedPart> places(radii.size());
-  std::vector<std::size_t> parts(radii.size());
-  std::iota(parts.begin(), parts.end(), 0);
+  std::vector<std::size_t> parts = indices_of(radii.size());
   if (!fill(radii, parts, bore, core, places)) return std::nullopt;
   return places;
 }

@@ -1,10 +1,10 @@
 #include "pipeline/settings/fields.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/text.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
@@ -12,13 +12,8 @@ namespace {
 
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    if (text == ".nan" || text == ".inf" || text == "-.inf" || text == ".NaN") return std::nan("");
-    return std::nullopt;
-  }
-  return value;
+  if (text == ".nan" || text == ".inf" || text == "-.inf" || text == ".NaN") return std::nan("");
+  return whole_number_in<double>(text);
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

@@ -6,6 +6,7 @@
 
 #include "pipeline/base/installation.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/text.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -101,8 +102,8 @@ std::string in_short(std::string purpose) {
 }
 
 std::string man_page(const Command& program) {
-  std::string name = program.name, synopsis, commands;
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const std::string name = upper_case(program.name);
+  std::string synopsis, commands;
   if (program.commands.empty()) synopsis = man_synopsis(program.name, program);
   for (const Command& command : program.commands) {
     synopsis += (synopsis.empty() ? "" : ".br\n") + man_synopsis(program.name + " " + command.name, command);

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <numeric>
 #include <span>
 #include <string_view>
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/limits.h"
+#include "pipeline/base/order.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/files/files.h"
@@ -203,8 +203,7 @@ std::vector<double> lives_of(RankingRow& row, std::size_t samples) {
 /// (job) how many others it outlives in the mean over the samples; of equal lives each outlives the other by half.
 std::vector<double> outlived(std::span<const std::vector<double>> lives) {
   std::vector<double> count(lives.size(), 0.0);
-  std::vector<std::size_t> order(lives.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<std::size_t> order = indices_of(lives.size());
   const std::size_t samples = lives.front().size();
   for (std::size_t s = 0; s < samples; ++s) {
     std::sort(order.begin(), order.end(),
@@ -227,13 +226,9 @@ void order_beyond_robot(std::vector<RankingRow>& rows, std::vector<std::vector<d
     ++beyond;
   if (beyond < 2) return;
   const std::vector<double> count = outlived(std::span(lives).first(beyond));
-  std::vector<std::size_t> order(beyond);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return count[a] > count[b]; });
   std::vector<RankingRow> sorted_rows;
   std::vector<std::vector<double>> sorted_lives;
-  for (const std::size_t k : order)
+  for (const std::size_t k : largest_first(count))
     sorted_rows.push_back(std::move(rows[k])), sorted_lives.push_back(std::move(lives[k]));
   std::move(sorted_rows.begin(), sorted_rows.end(), rows.begin());
   std::move(sorted_lives.begin(), sorted_lives.end(), lives.begin());

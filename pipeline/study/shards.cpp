@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 #include <unordered_map>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/order.h"
 
 namespace dresslife::pipeline {
 
@@ -41,12 +41,10 @@ int shards_needed(const StudyState& standing, int most_stages) {
 void keep_shard(StudyState& standing, const Shard& shard) {
   const std::size_t jobs = standing.states.size();
   std::unordered_map<std::string, std::size_t> firsts;  // of each simulation
-  std::vector<std::size_t> order(jobs), group(jobs);
+  std::vector<std::size_t> group(jobs);
   for (std::size_t k = 0; k < jobs; ++k)
     group[k] = firsts.emplace(standing.states[k].recipes[0], k).first->second;
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return group[a] < group[b]; });
+  const std::vector<std::size_t> order = smallest_first(jobs, [&](std::size_t k) { return group[k]; });
   const auto begin_of = [&](int index) {
     return jobs * static_cast<std::size_t>(index - 1) / static_cast<std::size_t>(shard.count);
   };

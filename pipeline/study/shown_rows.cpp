@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
+#include "pipeline/base/order.h"
 #include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
@@ -27,9 +27,7 @@ std::size_t take(const std::vector<RankingRow>& rows, std::size_t begin, std::si
 }  // namespace
 
 ShownRows shown_rows(const std::vector<RankingRow>& rows) {
-  std::vector<std::size_t> all(rows.size());
-  std::iota(all.begin(), all.end(), 0);
-  if (rows.size() <= short_ranking) return {all, ""};
+  if (rows.size() <= short_ranking) return {indices_of(rows.size()), ""};
   const auto first_failed =
       std::partition_point(rows.begin(), rows.end(), [](const auto& row) { return row.done(); });
   const auto done = static_cast<std::size_t>(first_failed - rows.begin());

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
+#include "pipeline/base/order.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
@@ -43,11 +43,7 @@ std::vector<int> numbers_of(const std::vector<std::string>& names, bool last) {
 }
 
 std::vector<std::size_t> sorted_by(const std::vector<int>& numbers) {
-  std::vector<std::size_t> order(numbers.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
-  return order;
+  return pipeline::smallest_first(numbers.size(), [&](std::size_t k) { return numbers[k]; });
 }
 
 /// Where each of an arm's words stands in exactly one name.

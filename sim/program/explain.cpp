@@ -3,17 +3,13 @@
 #include <filesystem>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/readable.h"
 
 namespace dresslife::sim {
 namespace {
 
-/// Four decimals at most, as controllers write them, without zeros behind.
-std::string number(double value) {
-  std::string text = fmt::format("{:.4f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text == "-0" ? "0" : text;
-}
+/// Four decimals at most, as controllers write them.
+std::string number(double value) { return pipeline::short_decimal(value, 4); }
 
 std::string position(const Vector3& p) {
   return fmt::format("{} {} {} mm", number(p.x() / millimetre), number(p.y() / millimetre),

@@ -1,10 +1,11 @@
 #include "sim/program/rewrite.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/readable.h"
+#include "pipeline/base/text.h"
 #include "sim/program/fanuc/run.h"
 #include "sim/program/interpreter/encoding.h"
 #include "sim/program/interpreter/parser.h"
@@ -136,28 +137,17 @@ class Lines {
   throw pipeline::InputError(change.where, "cannot be changed by itself: " + what, "change it by hand");
 }
 
-std::string shortest(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-  }
-  return text == "-0" ? "0" : text;
-}
-
 std::string in_degrees(const std::vector<double>& joints) {
   std::string list;
   for (const double angle : joints)
-    list += fmt::format("{}{}", list.empty() ? "" : ",", shortest(angle / degree, 6));
+    list += fmt::format("{}{}", list.empty() ? "" : ",", pipeline::short_decimal(angle / degree, 6));
   return list;
 }
 
 /// "500" -> "350"; absent: no number.
 std::optional<std::string> scaled(std::string_view number, double factor) {
-  double value = 0;
-  const auto [end, failure] = std::from_chars(number.data(), number.data() + number.size(), value);
-  if (failure != std::errc() || end != number.data() + number.size() || number.empty()) return {};
-  return shortest(value * factor, 6);
+  const auto value = pipeline::whole_number_in<double>(number);
+  return value ? std::optional(pipeline::short_decimal(*value * factor, 6)) : std::nullopt;
 }
 
 std::string indentation(const std::string& line) {
@@ -258,7 +248,7 @@ std::vector<Argument> arguments_of(const std::vector<Token>& tokens, std::size_t
 
 std::string rapid_speed(const Writer& w, const Argument& speed, double factor, const LineChange& change) {
   if (w.tokens[speed.first].kind == Token::Kind::word && speed.first == speed.expression_last)
-    return fmt::format("[{0}*{1}.v_tcp,{0}*{1}.v_ori,{1}.v_leax,{1}.v_reax]", shortest(factor, 3),
+    return fmt::format("[{0}*{1}.v_tcp,{0}*{1}.v_ori,{1}.v_leax,{1}.v_reax]", pipeline::short_decimal(factor, 3),
                        w.tokens[speed.first].text);
   std::vector<std::string> parts;
   for (std::size_t i = speed.first + 1; i < speed.expression_last; ++i)
@@ -276,7 +266,7 @@ std::string rapid_speed(const Writer& w, const Argument& speed, double factor, c
 std::string rapid_external(const Target& target) {
   std::vector<std::string> axes;
   for (std::size_t i = 0; i < 6; ++i)
-    axes.push_back(i < target.external_axes.size() ? shortest(target.external_axes[i], 4) : "9E9");
+    axes.push_back(i < target.external_axes.size() ? pipeline::short_decimal(target.external_axes[i], 4) : "9E9");
   return fmt::format("[{}]", fmt::join(axes, ","));
 }
 
@@ -318,9 +308,9 @@ void change_rapid(Writer& w, const LineChange& change) {
     w.replace(
         target.first, target.expression_last,
         named ? fmt::format("[{0}.trans,{0}.rot,[{1}],{0}.extax]", target_text, fmt::join(n, ","))
-              : fmt::format("[[{},{},{}],[{},{},{},{}],[{}],{}]", shortest(p.x(), 6), shortest(p.y(), 6),
-                            shortest(p.z(), 6), shortest(q.w(), 9), shortest(q.x(), 9), shortest(q.y(), 9),
-                            shortest(q.z(), 9), fmt::join(n, ","), rapid_external(read.target)),
+              : fmt::format("[[{},{},{}],[{},{},{},{}],[{}],{}]", pipeline::short_decimal(p.x(), 6), pipeline::short_decimal(p.y(), 6),
+                            pipeline::short_decimal(p.z(), 6), pipeline::short_decimal(q.w(), 9), pipeline::short_decimal(q.x(), 9), pipeline::short_decimal(q.y(), 9),
+                            pipeline::short_decimal(q.z(), 9), fmt::join(n, ","), rapid_external(read.target)),
         change);
   }
   if (!change.joints.empty())
@@ -341,7 +331,7 @@ void change_rapid(Writer& w, const LineChange& change) {
 std::string krl_axes(const std::vector<double>& joints) {
   std::string list;
   for (std::size_t i = 0; i < joints.size(); ++i)
-    list += fmt::format("{}A{} {}", list.empty() ? "" : ",", i + 1, shortest(joints[i] / degree, 6));
+    list += fmt::format("{}A{} {}", list.empty() ? "" : ",", i + 1, pipeline::short_decimal(joints[i] / degree, 6));
   return list;
 }
 
@@ -366,13 +356,13 @@ void change_krl(Writer& w, const LineChange& change) {
   w.lines.now(line) += comment;
   std::string external;
   for (std::size_t i = 0; i < read.target.external_axes.size(); ++i)
-    external += fmt::format(",E{} {}", i + 1, shortest(read.target.external_axes[i], 4));
+    external += fmt::format(",E{} {}", i + 1, pipeline::short_decimal(read.target.external_axes[i], 4));
   if (change.configuration && read.target.joints.empty()) {
     const auto n = krl::numbers_of(read.target.pose);
     std::string frame;
     constexpr const char* names[] = {"X", "Y", "Z", "A", "B", "C"};
     for (std::size_t i = 0; i < 6; ++i)
-      frame += fmt::format("{}{} {}", i == 0 ? "" : ",", names[i], shortest(n[i], 6));
+      frame += fmt::format("{}{} {}", i == 0 ? "" : ",", names[i], pipeline::short_decimal(n[i], 6));
     w.replace(name + 1, last,
               fmt::format("{{{},S {},T {}{}}}", frame, change.configuration->numbers.at(0),
                           change.configuration->numbers.at(1), external),
@@ -385,7 +375,7 @@ void change_krl(Writer& w, const LineChange& change) {
   if (!change.speed) return;
   if (!read.speed.axis_percent) refuse(change, "its speed is not one percentage of all axes");
   const auto basics = [&](double percent) {
-    return fmt::format("{}BAS(#VEL_PTP,{})", margin, shortest(percent, 4));
+    return fmt::format("{}BAS(#VEL_PTP,{})", margin, pipeline::short_decimal(percent, 4));
   };
   w.lines.before(line, basics(*read.speed.axis_percent * *change.speed) + comment);
   w.lines.behind(line, basics(*read.speed.axis_percent) + " ; as before");
@@ -563,7 +553,7 @@ void change_script(Writer& w, const LineChange& change) {
   }
   if (end == 0) refuse(change, "its arguments are not found");
   w.lines.now(w.tokens[end].line) += "  # " + change.reason;
-  const std::string value = shortest(*speed * *change.speed, 6);
+  const std::string value = pipeline::short_decimal(*speed * *change.speed, 6);
   if (first > 0 && last >= first) return w.replace(first, last, value, change);
   w.replace(end, end, fmt::format(", v={})", value), change);
 }

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 
 #include "pipeline/arm/other_turns.h"
 #include "pipeline/base/constants.h"
+#include "pipeline/base/order.h"
 #include "sim/robot/inverse_kinematics.h"
 #include "sim/robot/legs.h"
 #include "sim/robot/robot.h"
@@ -54,10 +54,8 @@ class Lines {
   std::size_t of_step(std::size_t step) const { return of_step_[step]; }
 
   std::vector<std::size_t> costly(std::size_t most) const {
-    std::vector<std::size_t> order(lines_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](auto a, auto b) { return lines_[a].cost > lines_[b].cost; });
+    std::vector<std::size_t> order =
+        pipeline::largest_first(lines_.size(), [&](std::size_t k) { return lines_[k].cost; });
     std::erase_if(order, [&](std::size_t k) { return lines_[k].moves.empty() || !(lines_[k].cost > 0); });
     if (order.size() > most) order.resize(most);
     return order;

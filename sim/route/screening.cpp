@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "pipeline/base/statistics.h"
 #include "pipeline/job/setup.h"
 #include "sim/robot/robot.h"
 #include "sim/rod/start_curve.h"
@@ -191,11 +192,7 @@ double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3
   return (point - from - share * axis).norm();
 }
 
-double Screening::violation() const {
-  double sum = 0;
-  for (const double g : beyond) sum += std::max(0.0, g);
-  return sum;
-}
+double Screening::violation() const { return pipeline::sum_above_zero(beyond); }
 
 bool Screening::rejected() const {
   for (std::size_t k = 0; k < beyond.size(); ++k)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "pipeline/base/readable.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/catalogue.h"
@@ -154,12 +155,7 @@ void rehearse(std::vector<Verdict>& verdicts) {
 
 std::string vector_text(const pipeline::Vector3d& v, int decimals) {
   std::string text;
-  for (int k = 0; k < 3; ++k) {
-    std::string number = fmt::format("{:.{}f}", v[k] + 0.0, decimals);
-    number.erase(number.find_last_not_of('0') + 1);
-    if (number.ends_with('.')) number.pop_back();
-    text += (k ? ", " : "") + (number == "-0" ? "0" : number);
-  }
+  for (int k = 0; k < 3; ++k) text += (k ? ", " : "") + pipeline::short_decimal(v[k], decimals);
   return "[" + text + "]";
 }
 

@@ -4,13 +4,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 
 #include "pipeline/advise/improve/set_text.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/text.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
@@ -37,10 +37,8 @@ Node number_node(double value, double step) {
 }
 
 std::optional<double> number_of(const Node& node) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(node.text.data(), node.text.data() + node.text.size(), value);
-  const bool whole = node.is_scalar() && error == std::errc() && end == node.text.data() + node.text.size();
-  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+  const auto value = node.is_scalar() ? whole_number_in<double>(node.text) : std::nullopt;
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<Vector3d> vector_of(const Node& node) {
@@ -243,9 +241,8 @@ class Reader {
     throw InputError(written_.where, fmt::format("free.{} {}", path_, what), remedy);
   }
 
-  double number(std::string text) const {
-    text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
-    text.erase(text.find_last_not_of(' ') + 1);
+  double number(const std::string& written) const {
+    const std::string text(trimmed(written));
     if (const std::optional<double> value = number_of(scalar(text))) return *value;
     refuse(fmt::format("is '{}', in which '{}' is no number", written_.text, text));
   }

@@ -139,10 +139,8 @@ class Improver {
       const int left = request_.trials - static_cast<int>(done_.trials.size());
       const std::vector<VectorXd> asked = search.ask(std::min(left, request_.at_a_time));
       if (asked.empty()) break;  // it has given up
-      std::vector<std::vector<std::string>> sets;
-      for (const VectorXd& place : asked) sets.push_back(freedom_.sets_at(place));
       std::vector<Candidate> looks;
-      for (Trial& trial : tried(sets)) {
+      for (Trial& trial : tried(sets_at(asked))) {
         trial.place = asked[looks.size()];
         looks.push_back(look_of(trial, trial.place));
         done_.trials.push_back(std::move(trial));
@@ -177,6 +175,12 @@ class Improver {
       done_.trials.push_back(std::move(trial));
     }
     makers_.tell(done_);
+  }
+
+  std::vector<std::vector<std::string>> sets_at(const std::vector<VectorXd>& places) const {
+    std::vector<std::vector<std::string>> sets;
+    for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
+    return sets;
   }
 
   std::size_t aims() const { return request_.second == SecondAim::none ? 1 : 2; }
@@ -265,9 +269,7 @@ class Improver {
   /// (place) the worst of all jobs' short runs. A trial that does not run is graded by geometry in one (V1)
   /// to (V5).
   std::vector<Candidate> rehearsed(const std::vector<VectorXd>& places) {
-    std::vector<std::vector<std::string>> sets;
-    for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
-    const std::string candidates = list_of_changes(sets);
+    const std::string candidates = list_of_changes(sets_at(places));
     std::vector<Candidate> looks;
     for (const VectorXd& place : places) looks.push_back({place, true, {}, {}});
     std::vector<std::pair<double, std::string>> worst(places.size());  // how far beyond, by what
@@ -304,9 +306,7 @@ class Improver {
   std::vector<double> surely_beyond(const std::vector<VectorXd>& places) const {
     std::vector<double> beyond(places.size(), 0.0);
     if (screened_.empty()) return beyond;
-    std::vector<std::vector<std::string>> sets;
-    for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
-    const std::vector<ScreeningResult> results = screened(sets);
+    const std::vector<ScreeningResult> results = screened(sets_at(places));
     for (std::size_t k = 0; k < places.size(); ++k)
       beyond[k] = results[k].rejected ? results[k].violation : 0;
     return beyond;

@@ -14,16 +14,9 @@ namespace {
 constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double alike = 1.1;  // of two lives; the reason is at (M1)
 
-double own_life(const Outcome& as_it_is, const std::string& mode) {
-  if (!as_it_is.failure.empty()) return endless;
-  for (const ModeLife& of : as_it_is.modes)
-    if (of.mode == mode) return of.hours;
-  return endless;
-}
-
 /// (M1) A mode that comes earlier is worse.
 double least_life(const ModeLife& mode, const Outcome& outcome, const Outcome& as_it_is) {
-  return std::min({outcome.robot_life, outcome.hours, own_life(as_it_is, mode.mode) / alike});
+  return std::min({outcome.robot_life, outcome.hours, life_by(as_it_is, mode.mode) / alike});
 }
 
 std::vector<ModeLife> earliest_first(std::vector<ModeLife> modes) {
@@ -39,6 +32,13 @@ double smallest_margin(const Outcome& outcome) {
 }
 
 }  // namespace
+
+double life_by(const Outcome& outcome, const std::string& mode) {
+  if (!outcome.failure.empty()) return endless;
+  for (const ModeLife& of : outcome.modes)
+    if (of.mode == mode) return of.hours;
+  return endless;
+}
 
 std::vector<ModeLife> worse_modes(const Outcome& outcome, const Outcome& as_it_is) {
   std::vector<ModeLife> worse;

@@ -38,6 +38,9 @@ struct Merit {
 /// as_it_is: the job before any change. If it does not run, or lacks a mode, t_m0 is infinite.
 Merit merit_of(const Outcome& outcome, const Outcome& as_it_is);
 
+/// Hours until this mode; infinite: it does not come, or the job does not run.
+double life_by(const Outcome& outcome, const std::string& mode);
+
 /// The modes that get worse (M1), the earliest first.
 std::vector<ModeLife> worse_modes(const Outcome& outcome, const Outcome& as_it_is);
 

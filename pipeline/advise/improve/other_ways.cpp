@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <optional>
 
 #include "pipeline/advise/improve/set_text.h"
 #include "pipeline/arm/other_turns.h"
 #include "pipeline/base/constants.h"
 #include "pipeline/base/errors.h"
+#include "pipeline/base/order.h"
 #include "pipeline/job/job.h"
 #include "pipeline/settings/fields.h"
 
@@ -127,9 +127,7 @@ std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line
     throw InputError(job.motion.where, "the motion has no steps with joint targets",
                      "read the program into steps first: dresslife import PROGRAM");
   const std::vector<double> cost = cost_of_moves(lines, line_damage);
-  std::vector<std::size_t> costly(lines.size());
-  std::iota(costly.begin(), costly.end(), 0);
-  std::stable_sort(costly.begin(), costly.end(), [&](auto a, auto b) { return cost[a] > cost[b]; });
+  const std::vector<std::size_t> costly = largest_first(cost);
   std::vector<OtherWay> ways;
   const std::vector<NamedTurn> turns = other_turns(job.robot);
   for (const NamedTurn& turn : turns)

@@ -12,6 +12,7 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/statistics.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/files/checks.h"
@@ -209,11 +210,7 @@ void add_bends(std::vector<std::vector<double>>& pieces, const std::vector<doubl
 
 bool Outcome::feasible() const { return failure.empty() && violation() == 0; }
 
-double Outcome::violation() const {
-  double sum = 0;
-  for (const double g : beyond) sum += std::max(0.0, g);
-  return sum;
-}
+double Outcome::violation() const { return sum_above_zero(beyond); }
 
 std::string Outcome::words() const {
   if (!failure.empty()) return failure;

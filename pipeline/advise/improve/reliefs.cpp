@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/advise/improve/merit.h"
 #include "pipeline/base/readable.h"
 
 namespace dresslife::pipeline {
@@ -68,11 +69,7 @@ std::string earlier_failures(const Outcome& with, const Outcome& without) {
                           std::isinf(own) ? "never" : hours_text(own));
   };
   add("wires", with.hours, without.hours);
-  for (const ModeLife& mode : with.modes) {
-    const auto own = std::find_if(without.modes.begin(), without.modes.end(),
-                                  [&](const ModeLife& one) { return one.mode == mode.mode; });
-    add(mode.mode, mode.hours, own == without.modes.end() ? HUGE_VAL : own->hours);
-  }
+  for (const ModeLife& mode : with.modes) add(mode.mode, mode.hours, life_by(without, mode.mode));
   return text;
 }
 

@@ -6,6 +6,7 @@
 
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/base/stage_failed.h"
+#include "pipeline/base/statistics.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/files/files.h"
 #include "pipeline/resolve/job_text.h"
@@ -13,11 +14,7 @@
 
 namespace dresslife::pipeline {
 
-double ScreenedCandidate::violation() const {
-  double sum = 0;
-  for (const double g : beyond) sum += std::max(0.0, g);
-  return sum;
-}
+double ScreenedCandidate::violation() const { return sum_above_zero(beyond); }
 
 std::string ScreenedList::words(const ScreenedCandidate& candidate) const {
   std::string text;

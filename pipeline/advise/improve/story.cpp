@@ -58,11 +58,9 @@ std::string refused_words(const Improvement& found, const Outcome& best) {
   const Outcome& of = found.trials[*longest].worst;
   std::string modes;
   for (const ModeLife& mode : worse_modes(of, as_it_is)) {
-    const auto own = std::find_if(as_it_is.modes.begin(), as_it_is.modes.end(),
-                                  [&](const ModeLife& one) { return one.mode == mode.mode; });
-    const bool never = own == as_it_is.modes.end() || std::isinf(own->hours);
+    const double own = life_by(as_it_is, mode.mode);
     modes += fmt::format("{}{} comes after {} (as it is: {})", modes.empty() ? "" : ", ", mode.mode,
-                         hours_text(mode.hours), never ? "never" : "after " + hours_text(own->hours));
+                         hours_text(mode.hours), std::isinf(own) ? "never" : "after " + hours_text(own));
   }
   return fmt::format("Trial {} was not chosen: its wires live longer ({}), but {}.\n", *longest,
                      hours_text(of.hours), modes);

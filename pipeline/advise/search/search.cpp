@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
+#include "pipeline/base/statistics.h"
+
 namespace dresslife::pipeline {
 
-double Candidate::violation() const {
-  double sum = 0;
-  for (const double g : beyond) sum += std::max(0.0, g);
-  return sum;
-}
+double Candidate::violation() const { return sum_above_zero(beyond); }
 
 bool better(const Candidate& a, const Candidate& b) {
   if (a.ran != b.ran) return a.ran;

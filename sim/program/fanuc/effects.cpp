@@ -44,7 +44,7 @@ std::optional<int> constant_index(FanucCursor& at) {
   at.skip_blanks();
   const bool plain = number && !at.rest().empty() && std::string_view("]:,").find(at.rest()[0]) < 3;
   at.skip_to(']');
-  return plain ? std::optional(static_cast<int>(std::clamp(*number, 0.0, 1e6))) : std::nullopt;
+  return plain ? std::optional(whole_number(*number)) : std::nullopt;
 }
 
 }  // namespace

@@ -593,11 +593,7 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
     if (found == labels.end()) return complain("jumps to a label that is not there", "correct the label");
     jump_to(found->second, false);
   }
-  if (lower_case(statement().text).find("spot[") == std::string::npos) return;
-  Instruction weld;
-  weld.kind = Instruction::Kind::dwell;
-  weld.dwell = around_.options.spot_time;
-  emit(weld);
+  if (lower_case(statement().text).find("spot[") != std::string::npos) emit(dwell_of(around_.options.spot_time));
 }
 
 /// Skip,LBL[1],PR[5]=LPOS: the place is unknown.

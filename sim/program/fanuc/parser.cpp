@@ -145,7 +145,7 @@ class ListingParser {
       const std::string word = at.word();
       if (word == "lbl" && at.take_sign('[')) {
         if (const auto number = at.number())
-          listing_.labels.try_emplace(static_cast<int>(std::clamp(*number, 0.0, 1e6)), i);
+          listing_.labels.try_emplace(whole_number(*number), i);
       } else if (word == "if" && lower_case(statements[i].text).ends_with("then")) {
         ifs.push_back(i);
       } else if (word == "else" && at.at_end() && !ifs.empty()) {
@@ -200,7 +200,7 @@ class ListingParser {
                     "write six coordinates or the joint angles, in mm and deg");
       return;
     }
-    listing_.positions[static_cast<int>(std::clamp(*number, 0.0, 1e6))] = std::move(read);
+    listing_.positions[whole_number(*number)] = std::move(read);
   }
 
   /// What stands between { and }.
@@ -264,7 +264,7 @@ class ListingParser {
       if (name == "uf" || name == "ut") {
         if (group_ == 1)
           (name == "uf" ? read_.frame : read_.tool) =
-              number ? static_cast<int>(std::clamp(*number, 0.0, 1e6)) : -1;
+              number ? whole_number(*number) : -1;
         return "";
       }
       const double value = number.value_or(NAN);  // ****: not taught
@@ -340,6 +340,8 @@ std::optional<ArmConfiguration> fanuc_configuration(std::string_view text) {
   read.numbers.resize(6, 0);
   return at.at_end() ? std::optional(read) : std::nullopt;
 }
+
+int whole_number(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
 
 void FanucCursor::skip_blanks() {
   while (at_ < text_.size() && blank(text_[at_])) ++at_;

@@ -51,6 +51,9 @@ FanucListing parse_fanuc(const SourceFile& source, int file, Program& program, P
 /// 'N U T, 0, 0, 0' without the quotes; absent: like none that is read.
 std::optional<ArmConfiguration> fanuc_configuration(std::string_view text);
 
+/// The number without its fraction, 0 .. 1,000,000: an index, a count, a line.
+int whole_number(double number);
+
 /// A cursor over one statement or one position.
 class FanucCursor {
  public:

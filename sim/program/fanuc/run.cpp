@@ -1,7 +1,6 @@
 #include "sim/program/fanuc/run.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "pipeline/base/joined.h"
@@ -63,9 +62,7 @@ std::string FanucRun::line_name() const { return fmt::format("{}:{}", file_of(wh
 
 /// The program that runs, as its listing writes it.
 std::string FanucRun::program_name() const {
-  std::string name = routines_.empty() ? "" : routines_.back().listing->name;
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return name;
+  return routines_.empty() ? "" : upper_case(routines_.back().listing->name);
 }
 
 void FanucRun::complain(const std::string& what, const std::string& remedy) {
@@ -301,12 +298,7 @@ void FanucRun::action(const std::string& text) {
     skip_condition_ = std::string(at.rest());
     return note("SKIP: input, output or logic");
   }
-  if (word == "spot") {
-    Instruction weld;
-    weld.kind = Instruction::Kind::dwell;
-    weld.dwell = around_.options.spot_time;
-    return emit(weld);
-  }
+  if (word == "spot") return emit(dwell_of(around_.options.spot_time));
   assignment(word, at);
 }
 
@@ -487,11 +479,7 @@ void FanucRun::wait(FanucCursor& at) {
     }
     return note("WAIT: input");
   }
-  if (*time <= 0) return;
-  Instruction wait;
-  wait.kind = Instruction::Kind::dwell;
-  wait.dwell = *time;
-  emit(wait);
+  if (*time > 0) emit(dwell_of(*time));
 }
 
 // ---- assignments -----------------------------------------------------------------------------------------

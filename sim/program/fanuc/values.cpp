@@ -50,8 +50,6 @@ FanucNumber number_in(const std::string& text) {
 
 }  // namespace
 
-int whole_number(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
-
 void add_causes(FanucCauses& to, const FanucCauses& more) {
   constexpr std::size_t most = 12;  // of one value
   for (const FanucCause& cause : more)
@@ -217,9 +215,7 @@ bool FanucValues::has_named(const std::string& name) const {
 FanucNumber FanucValues::named(const std::string& name) {
   const auto found = named_.find(name);
   if (found != named_.end() && found->second) return found->second;
-  std::string written = name;
-  for (char& c : written) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return unknown(written);
+  return unknown(upper_case(name));
 }
 
 FanucNumber FanucValues::override_percent(const std::string& name) const {
@@ -303,7 +299,6 @@ FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
   if (word.empty()) return unknown("a value");
   if (word == "on") return 1;
   if (word == "off") return 0;
-  std::string name = word;
   if (word[0] == '$') {  // as written, with its fields
     while (at.take_sign('.') || at.take_sign('['))
       if (at.rest().starts_with("$") || !at.name().empty()) at.take_sign(']');
@@ -315,7 +310,7 @@ FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
   const auto read = index(at, depth);
   if (std::find(functions.begin(), functions.end(), word) != functions.end())
     return read ? function(word, read->number) : FanucNumber{};
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const std::string name = upper_case(word);
   if (!read || begin == at.offset()) return unknown(name);
   if (!read->number) return {};
   const int number = whole_number(*read->number);

@@ -121,7 +121,4 @@ class FanucValues {
 /// "R[ 5 :speed]" -> "r[5]".
 std::string plain_fanuc_name(std::string_view written);
 
-/// The number without its fraction, 0 .. 1,000,000: an index, a count, a line.
-int whole_number(double number);
-
 }  // namespace dresslife::sim

@@ -69,8 +69,7 @@ class Inform final : public Dialect {
   std::optional<Value> constant(const std::string& name) override {
     if (name == "on" || name == "off") return number_value(name == "on");
     if (std::optional<Value> value = run_->given(name)) return value;
-    std::string shown = name;
-    for (char& c : shown) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    const std::string shown = upper_case(name);
     if (name.find('#') != std::string::npos) return unknown_value(shown, "is an input of the controller");
     if (!is_variable(name)) return {};
     return unknown_value(shown, "has its value in the controller (VAR.DAT of the backup)");
@@ -118,7 +117,7 @@ class Inform final : public Dialect {
                                                  !run.given(given[0].text) &&
                                                  is_variable(given[0].text))  // in no file read
       run.set(given[0].text,
-              unknown_value(shown(given[0]), fmt::format("may be written by {} ({})", statement.text,
+              unknown_value(upper_case(given[0].text), fmt::format("may be written by {} ({})", statement.text,
                                                          run.short_place(statement.place))));
     return false;
   }
@@ -332,17 +331,11 @@ class Inform final : public Dialect {
     return made;
   }
 
-  std::string shown(const Expression& written) const {
-    std::string name = written.text;
-    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return name;
-  }
-
   std::optional<Position> position(const Expression& written) {
     const Value value = run_->answered(written);
     if (auto read = position_in(value)) return read;
     run_->ask_for(value, written.place,
-                  fmt::format("moves to {}, which is known only while the robot runs", shown(written)),
+                  fmt::format("moves to {}, which is known only while the robot runs", upper_case(written.text)),
                   "give VAR.DAT of the backup (--module), or the job that holds its value (///NPOS)",
                   position_form);
     for (const int tool : tools_of_jobs())
@@ -556,7 +549,7 @@ class Inform final : public Dialect {
     if (name == "movc" || name == "smovc")
       arc_points_[run.program().instructions.size()] = argument_of(statement, "fpt") != nullptr;
     if (const Expression* target = argument_of(statement, ""))
-      move.origins.push_back({"target", shown(*target), run.where(run.origin(*target))});
+      move.origins.push_back({"target", upper_case(target->text), run.where(run.origin(*target))});
     run.emit(move, statement);
     if (spots) weld(statement, run);
   }
@@ -621,18 +614,12 @@ class Inform final : public Dialect {
     const Expression& written = statement.arguments[0];
     const auto number = needed(written, "time");
     if (!number || !(*number > 0)) return;
-    Instruction wait;
-    wait.kind = Instruction::Kind::dwell;
-    wait.dwell = *number * (written.kind == Expression::Kind::number ? 1 : unit_of_variable("t"));
-    run.emit(wait, statement);
+    run.emit(dwell_of(*number * (written.kind == Expression::Kind::number ? 1 : unit_of_variable("t"))), statement);
   }
 
   void spot(const Statement& statement, Interpreter& run) { weld(statement, run); }
   static void weld(const Statement& statement, Interpreter& run) {
-    Instruction weld;
-    weld.kind = Instruction::Kind::dwell;
-    weld.dwell = run.options().spot_time;
-    if (weld.dwell > 0) run.emit(weld, statement);
+    if (run.options().spot_time > 0) run.emit(dwell_of(run.options().spot_time), statement);
   }
 
   void start_beside(const Statement& statement, Interpreter& run) {

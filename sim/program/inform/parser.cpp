@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "pipeline/base/text.h"
 #include "sim/program/inform/inform.h"
 #include "sim/program/interpreter/parser.h"
 
@@ -16,23 +17,6 @@ using Kind = Statement::Kind;
 
 bool letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '$'; }
 bool digit(char c) { return c >= '0' && c <= '9'; }
-
-Expression made(Expression::Kind kind, const Place& place, std::string text,
-                std::vector<Expression> items = {}) {
-  Expression e;
-  e.kind = kind;
-  e.place = place;
-  e.text = std::move(text);
-  e.items = std::move(items);
-  for (const Expression& item : e.items) e.depth = std::max(e.depth, item.depth + 1);
-  return e;
-}
-
-Expression number_at(const Place& place, double number) {
-  Expression e = made(Expression::Kind::number, place, "");
-  e.number = number;
-  return e;
-}
 
 /// Without what stands behind an instruction as a comment: SET P001 PX124 'start. A line that begins so is one as a whole.
 std::string_view without_comment(std::string_view line) {
@@ -134,7 +118,7 @@ class Words {
       const Place at = place();
       at_ += op->written.size();
       Expression right = level(op->level + 1, depth + 1);
-      left = made(Expression::Kind::binary, at, op->meaning, {std::move(left), std::move(right)});
+      left = expression_at(at, Expression::Kind::binary, op->meaning, {std::move(left), std::move(right)});
       if (left.depth > ImportLimits::nesting) fail("is an expression of too many levels");
     }
     return left;
@@ -143,7 +127,7 @@ class Words {
   Expression signed_value(int depth) {
     const Place at = place();
     if (!take_sign("-")) return value(depth);
-    return made(Expression::Kind::unary, at, "-", {value(depth)});
+    return expression_at(at, Expression::Kind::unary, "-", {value(depth)});
   }
 
   Expression value(int depth) {
@@ -174,7 +158,7 @@ class Words {
           inform_name(indexed ? fmt::format("{}{:.0f}", name.substr(0, name.size() - 2), index.number)
                               : fmt::format("{}({:.0f})", name, index.number)),
           at);
-    return made(Expression::Kind::call, at, name, {std::move(index)});
+    return expression_at(at, Expression::Kind::call, name, {std::move(index)});
   }
 
   Expression number(const Place& at) {
@@ -187,7 +171,7 @@ class Words {
 
   Expression text(const Place& at) {
     const std::size_t close = std::min(text_.find('"', at_ + 1), text_.size());
-    Expression e = made(Expression::Kind::text, at, std::string(text_.substr(at_ + 1, close - at_ - 1)));
+    Expression e = expression_at(at, Expression::Kind::text, std::string(text_.substr(at_ + 1, close - at_ - 1)));
     at_ = std::min(close + 1, text_.size());
     return e;
   }
@@ -267,18 +251,13 @@ class InformParser {
     const auto list = [&](const std::vector<double>& values) {
       std::vector<Expression> items;
       for (const double value : values) items.push_back(number_at(place(), value));
-      return made(Expression::Kind::aggregate, place(), "", std::move(items));
+      return expression_at(place(), Expression::Kind::aggregate, "", std::move(items));
     };
-    Statement s;
-    s.kind = Kind::declare;
-    s.place = place();
-    s.name = inform_name(name);
-    s.text = "position";
-    s.arguments.push_back(
-        made(Expression::Kind::aggregate, place(), "",
-             {list(*numbers), made(Expression::Kind::text, place(), head.type), number_at(place(), head.user),
-              number_at(place(), head.tool), list(head.configuration)}));
-    code_.data.push_back({std::move(s), module_, local});
+    Expression position = expression_at(
+        place(), Expression::Kind::aggregate, "",
+        {list(*numbers), expression_at(place(), Expression::Kind::text, head.type), number_at(place(), head.user),
+         number_at(place(), head.tool), list(head.configuration)});
+    code_.data.push_back({declaration_at(place(), inform_name(name), "position", std::move(position)), module_, local});
   }
 
   /// ///POSTYPE USER, ///RCONF 1,0,...: what holds from here on. Lines of other heads are skipped.
@@ -359,15 +338,7 @@ class InformParser {
           found.insert(name);
       }
     std::vector<Statement> declared;
-    for (const std::string& name : found) {
-      Statement s;
-      s.kind = Kind::declare;
-      s.place = routine.place;
-      s.name = name;
-      s.text = "number";
-      s.arguments.emplace_back();
-      declared.push_back(std::move(s));
-    }
+    for (const std::string& name : found) declared.push_back(declaration_at(routine.place, name, "number"));
     routine.body.insert(routine.body.begin(), std::make_move_iterator(declared.begin()),
                         std::make_move_iterator(declared.end()));
   }
@@ -402,18 +373,11 @@ class InformParser {
     return at.word();
   }
 
-  Statement begun(Kind kind, Words& at) const {
-    Statement s;
-    s.kind = kind;
-    s.place = at.place();
-    return s;
-  }
-
   void statement(const std::string& word, std::vector<Statement>& into) {
     Words at(lines_[at_], file_, static_cast<int>(at_) + 1);
     const std::string_view text = at.rest();
     if (text.empty() || text[0] == '\'' || text[0] == '/' || word == "nop" || word == "comm") return;
-    Statement s = begun(Kind::instruction, at);
+    Statement s = statement_at(at.place(), Kind::instruction);
     if (at.take_sign("*")) {
       s.kind = Kind::label;
       s.name = lower_case(at.item());
@@ -450,13 +414,9 @@ class InformParser {
   /// A statement with an IF behind it is a branch.
   void only_if(Words& at, Statement s, std::vector<Statement>& into) {
     if (!at.take("IF") && !at.take("IFEXPRESS")) return into.push_back(std::move(s));
-    Statement branch;
-    branch.kind = Kind::branch;
-    branch.place = s.place;
-    branch.branches.emplace_back();
-    branch.branches[0].place = s.place;
-    branch.branches[0].conditions.push_back(at.condition());
-    branch.branches[0].body.push_back(std::move(s));
+    const Place place = s.place;
+    Statement branch = statement_at(place, Kind::branch);
+    branch.branches.push_back({{at.condition()}, {std::move(s)}, place});
     into.push_back(std::move(branch));
   }
 
@@ -479,23 +439,18 @@ class InformParser {
     made.kind = Kind::choose;
     const std::string written = "LABEL: " + std::string(at.peek_word());
     made.arguments.push_back(at.operand());
+    const auto add_way = [&](std::vector<Expression> conditions, const std::string& label) {
+      Statement to_it = s;
+      to_it.kind = Kind::jump;
+      to_it.name = label;
+      made.branches.push_back({std::move(conditions), {std::move(to_it)}, s.place});
+    };
     for (const auto& [label, line] : numbered_labels()) {
-      Branch way;
-      way.place = s.place;
-      Words number(label, file_, s.place.line);
-      way.conditions.push_back(number.operand());
-      way.conditions.back().place = {file_, line, 2};  // behind its *
-      way.body.push_back(s);
-      way.body.back().kind = Kind::jump;
-      way.body.back().name = label;
-      made.branches.push_back(std::move(way));
+      Expression number = Words(label, file_, s.place.line).operand();
+      number.place = {file_, line, 2};  // behind its *
+      add_way({std::move(number)}, label);
     }
-    Branch none;
-    none.place = s.place;
-    none.body.push_back(s);
-    none.body.back().kind = Kind::jump;
-    none.body.back().name = written;
-    made.branches.push_back(std::move(none));
+    add_way({}, written);
     return made;
   }
 
@@ -556,28 +511,26 @@ class InformParser {
   }
 
   Statement branch(Words& at) {
-    Statement s = begun(Kind::branch, at);
-    Branch first;
-    first.place = s.place;
-    first.conditions.push_back(at.condition());
-    ++at_;
-    first.body = body({"endif", "else", "elseif", "elseifexp"});
-    s.branches.push_back(std::move(first));
+    Statement s = statement_at(at.place(), Kind::branch);
+    const auto add = [&](const Place& place, std::vector<Expression> conditions) {
+      ++at_;
+      s.branches.push_back({std::move(conditions), body({"endif", "else", "elseif", "elseifexp"}), place});
+    };
+    add(s.place, {at.condition()});
     while (!done() && first_word() != "endif") {
       Words next(lines_[at_], file_, static_cast<int>(at_) + 1);
-      Branch other;
-      other.place = next.place();
-      if (next.word() != "else") other.conditions.push_back(next.condition());
-      ++at_;
-      other.body = body({"endif", "else", "elseif", "elseifexp"});
-      s.branches.push_back(std::move(other));
+      const Place place = next.place();
+      if (next.word() == "else")
+        add(place, {});
+      else
+        add(place, {next.condition()});
     }
     return s;
   }
 
   /// SWITCH B000 CASE 1 ... CASE 2 ... DEFAULT ... ENDSWITCH; the first CASE may stand on the line of SWITCH.
   Statement choice(Words& at) {
-    Statement s = begun(Kind::choose, at);
+    Statement s = statement_at(at.place(), Kind::choose);
     s.arguments.push_back(at.operand());
     bool same_line = !at.at_end();
     if (!same_line) ++at_;
@@ -601,7 +554,7 @@ class InformParser {
   }
 
   Statement while_loop(Words& at) {
-    Statement s = begun(Kind::while_loop, at);
+    Statement s = statement_at(at.place(), Kind::while_loop);
     if (at.take("FOREVER"))
       s.kind = Kind::endless;
     else
@@ -614,7 +567,7 @@ class InformParser {
 
   /// FOR I000 START= 1 TO 10 STEP=2 ... NEXT I000
   Statement count(Words& at) {
-    Statement s = begun(Kind::count, at);
+    Statement s = statement_at(at.place(), Kind::count);
     s.keeps_counter = true;
     s.name = inform_name(at.word());
     const auto tag = [&](const char* word) {
@@ -672,7 +625,7 @@ class InformParser {
         s.arguments.push_back(std::move(word));
         if (same_word(next, "UNTIL")) at.condition();
       } else {
-        Expression word = made(Expression::Kind::text, at.place(), at.item());
+        Expression word = expression_at(at.place(), Expression::Kind::text, at.item());
         word.option = "unknown";
         s.arguments.push_back(std::move(word));
       }
@@ -722,13 +675,13 @@ class InformParser {
                                       [&](const auto& calculation) { return calculation.first == s.name; });
       const bool counts = s.name == "inc" || s.name == "dec";
       if (found == calculations.end() || position || !(counts ? one : two)) return;
-      value = made(Expression::Kind::binary, s.place, found->second,
+      value = expression_at(s.place, Expression::Kind::binary, found->second,
                    {given[0], counts ? number_at(s.place, 1) : given[1]});
     }
     const bool whole =
         !position && target.size() > 1 && std::string_view("bid").find(target[target[0] == 'l']) < 3;
     if (whole && value.kind != Expression::Kind::number)
-      value = made(Expression::Kind::call, s.place, "trunc", {value});
+      value = expression_at(s.place, Expression::Kind::call, "trunc", {value});
     s.kind = Kind::assign;
     s.arguments = {given[0], std::move(value)};
   }
@@ -777,13 +730,8 @@ class InformParser {
       } else if (section == "b" || section == "i" || section == "d" || section == "r") {
         const auto numbers = numbers_of(line);
         for (std::size_t i = 0; numbers && i < numbers->size(); ++i) {
-          Statement s;
-          s.kind = Kind::declare;
-          s.place = place();
-          s.name = fmt::format("{}{:03}", section, next++);
-          s.text = "number";
-          s.arguments.push_back(number_at(place(), (*numbers)[i]));
-          code_.data.push_back({std::move(s), module_, false, true});
+          const std::string name = fmt::format("{}{:03}", section, next++);
+          code_.data.push_back({declaration_at(place(), name, "number", number_at(place(), (*numbers)[i])), module_, false, true});
         }
       }
     }
@@ -871,11 +819,10 @@ std::string inform_name(const std::string& written) {
                                                "bp", "ex", "c",  "bc", "ec",  "lb",  "li",
                                                "ld", "lr", "ls", "lp", "lpx", "lbp", "lex"};
   if (digits == 0 || digits == name.size() || !variables.contains(letters)) return lower_case(written);
-  int number = 0;
-  const auto [end, failure] = std::from_chars(name.data() + digits, name.data() + name.size(), number);
-  if (failure != std::errc() || end != name.data() + name.size()) return lower_case(written);
+  const auto number = pipeline::whole_number_in<int>(std::string_view(name).substr(digits));
+  if (!number) return lower_case(written);
   return fmt::format("{}{:03}", letters.ends_with("px") ? letters.substr(0, letters.size() - 1) : letters,
-                     number);
+                     *number);
 }
 
 }  // namespace dresslife::sim

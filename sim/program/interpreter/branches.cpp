@@ -185,7 +185,7 @@ Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value
                                    : nullptr};
   if (!why.behind || why.behind->name.empty()) why.behind = nullptr;
   std::set<const Routine*> done;
-  if (statement.kind == Kind::count && statement.keeps_counter) make_unknown(counter_of(statement), why);
+  if (statement.kind == Kind::count && statement.keeps_counter) make_unknown(name_at(statement.name, statement.place), why);
   for (const Branch& branch : statement.branches) forget_assigned(branch.body, why, done);
   const bool goes = leaves(statement, false);
   // What follows in the routine may run or not, and moves nothing either (see matters()).

@@ -1,13 +1,42 @@
 #include "sim/program/interpreter/code.h"
 
+#include <algorithm>
+
 namespace dresslife::sim {
 
-Expression name_at(const std::string& name, const Place& place) {
+Expression expression_at(const Place& place, Expression::Kind kind, std::string text, std::vector<Expression> items) {
   Expression e;
-  e.kind = Expression::Kind::name;
-  e.text = name;
+  e.kind = kind;
   e.place = place;
+  e.text = std::move(text);
+  e.items = std::move(items);
+  for (const Expression& item : e.items) e.depth = std::max(e.depth, item.depth + 1);
   return e;
+}
+
+Expression name_at(const std::string& name, const Place& place) {
+  return expression_at(place, Expression::Kind::name, name);
+}
+
+Expression number_at(const Place& place, double number) {
+  Expression e = expression_at(place, Expression::Kind::number);
+  e.number = number;
+  return e;
+}
+
+Statement statement_at(const Place& place, Statement::Kind kind, std::string name) {
+  Statement s;
+  s.kind = kind;
+  s.place = place;
+  s.name = std::move(name);
+  return s;
+}
+
+Statement declaration_at(const Place& place, const std::string& name, const std::string& type, Expression value) {
+  Statement s = statement_at(place, Statement::Kind::declare, name);
+  s.text = type;
+  s.arguments.push_back(std::move(value));
+  return s;
 }
 
 void Code::index() {

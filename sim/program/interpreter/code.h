@@ -41,8 +41,12 @@ struct Expression {
   int depth = 1;  ///< levels of items
 };
 
+/// An expression whose depth is that of its items and one more.
+Expression expression_at(const Place& place, Expression::Kind kind, std::string text = "",
+                         std::vector<Expression> items = {});
 /// The variable of that name.
 Expression name_at(const std::string& name, const Place& place);
+Expression number_at(const Place& place, double number);
 
 struct Statement;
 
@@ -82,6 +86,10 @@ struct Statement {
   bool continued = false;      ///< KRL's CONTINUE stands before it
   Place place;
 };
+
+Statement statement_at(const Place& place, Statement::Kind kind, std::string name = "");
+/// value: Expression::Kind::none: it has none.
+Statement declaration_at(const Place& place, const std::string& name, const std::string& type, Expression value = {});
 
 struct Parameter {
   std::string name;

@@ -115,7 +115,7 @@ void Interpreter::forget_assigned(const std::vector<Statement>& body, const Caus
   for (const Statement& statement : body) {
     charge(1);
     if (statement.kind == Kind::assign) make_unknown(statement.arguments[0], why);
-    if (statement.kind == Kind::count && statement.keeps_counter) make_unknown(counter_of(statement), why);
+    if (statement.kind == Kind::count && statement.keeps_counter) make_unknown(name_at(statement.name, statement.place), why);
     if (statement.kind == Kind::instruction) {
       dialect_.may_have_run(statement, why, *this);
       forget_written(statement, why, done);

@@ -198,10 +198,8 @@ Value* Interpreter::ready(Variable& variable) {
   locals_.emplace_back();  // a declaration outside of routines sees no routine's variables
   std::optional<Value> value = given_for(*variable.datum);
   if (!value && copies) {
-    std::string name = statement.name;
-    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     value = unknown_value(
-        name, fmt::format("is another one in {}", where(variable.rival->statement.place).text()), *copies);
+        upper_case(statement.name), fmt::format("is another one in {}", where(variable.rival->statement.place).text()), *copies);
   }
   if (!value) value = declared_value(statement);
   locals_.pop_back();

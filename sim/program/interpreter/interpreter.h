@@ -263,7 +263,6 @@ class Interpreter {
   void declare(const Statement& statement);
   static const Parameter* parameter_of(const Routine& routine, const Expression& argument,
                                        std::size_t& position);
-  static Expression counter_of(const Statement& statement);
   Value call(const Routine& routine, const std::vector<Expression>& arguments, const Place& place);
   std::uint64_t state(bool with_locals = true) const;
   void call_within_itself(const Routine& routine);

@@ -114,19 +114,11 @@ bool Interpreter::jumps_for_ever(const std::vector<Statement>& body, std::size_t
   return !holds_loop_exit(round);
 }
 
-Expression Interpreter::counter_of(const Statement& statement) {
-  Expression counter;
-  counter.kind = Expression::Kind::name;
-  counter.text = statement.name;
-  counter.place = statement.place;
-  return counter;
-}
-
 Interpreter::Flow Interpreter::run_count(const Statement& statement) {
   std::optional<bool> decision = assumed(statement.place);
   const auto end_unknown = [&] {  // where the counter stands behind a loop whose end is not known
     if (statement.keeps_counter)
-      make_unknown(counter_of(statement),
+      make_unknown(name_at(statement.name, statement.place),
                    {"", "is the counter of the loop in " + short_place(statement.place)});
     return Flow::next;
   };
@@ -152,7 +144,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
       before == variables.end() ? std::nullopt : std::optional(before->second);
   const auto count = [&](double value) {
     if (statement.keeps_counter) {
-      assign(counter_of(statement), number_value(value));
+      assign(name_at(statement.name, statement.place), number_value(value));
     } else {
       variables.insert_or_assign(statement.name, Variable{.state = Variable::State::ready,
                                                           .value = number_value(value),
@@ -169,7 +161,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
     flow = execute(statement.branches[0].body);
     value = first + static_cast<double>(++k) * by;
     if (!statement.keeps_counter || flow != Flow::next) continue;
-    const Value counter = evaluate(counter_of(statement));  // the body may have changed it
+    const Value counter = evaluate(name_at(statement.name, statement.place));  // the body may have changed it
     if (!counter.is_number()) {
       ask(statement.place, "counts with a variable that is known only while the robot runs", counter,
           "then or =else", 2, true, "a number");

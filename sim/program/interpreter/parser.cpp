@@ -28,15 +28,8 @@ Expression counted_from_one(Expression index) {
     index.number += 1;
     return index;
   }
-  Expression one, sum;
-  one.kind = Form::number;
-  one.number = 1;
-  sum.kind = Form::binary;
-  sum.text = "+";
-  one.place = sum.place = index.place;
-  sum.depth = index.depth + 1;
-  sum.items = {std::move(index), std::move(one)};
-  return sum;
+  const Place place = index.place;
+  return expression_at(place, Form::binary, "+", {std::move(index), number_at(place, 1)});
 }
 
 }  // namespace
@@ -128,9 +121,7 @@ Expression Cursor::expression(int lowest) {
   while (true) {
     const int level = precedence(peek(), grammar_);
     if (level < lowest || level == 0 || (at_sign(":") && !krl_)) return left;
-    Expression both;
-    both.kind = Form::binary;
-    both.place = place();
+    Expression both = expression_at(place(), Form::binary);
     both.text = lower_case(next().text);
     if (both.text == "%" || both.text == "!=") both.text = both.text == "%" ? "mod" : "<>";
     both.items.push_back(std::move(left));
@@ -144,9 +135,7 @@ Expression Cursor::unary(int lowest) {
   const Deeper deeper(*this);
   const bool negation = at_word("not") || at_word("b_not");
   if (!negation && !at_sign("-") && !at_sign("+")) return primary();
-  Expression e;
-  e.kind = Form::unary;
-  e.place = place();
+  Expression e = expression_at(place(), Form::unary);
   e.text = lower_case(next().text);
   const int operand = grammar_ == Grammar::rapid && lowest <= 1 ? 2 : 3;
   e.items.push_back(negation && !krl_ ? expression(operand) : unary(precedence_of_signs));
@@ -196,9 +185,7 @@ Expression Cursor::primary() {
 
 Expression Cursor::aggregate_in_order() {
   const Deeper deeper(*this);
-  Expression e;
-  e.kind = Form::aggregate;
-  e.place = place();
+  Expression e = expression_at(place(), Form::aggregate);
   need_sign("[");
   if (!at_sign("]")) {
     do e.items.push_back(expression());
@@ -210,9 +197,7 @@ Expression Cursor::aggregate_in_order() {
 
 Expression Cursor::aggregate_with_names() {
   const Deeper deeper(*this);
-  Expression e;
-  e.kind = Form::aggregate;
-  e.place = place();
+  Expression e = expression_at(place(), Form::aggregate);
   need_sign("{");
   if (peek().kind == Token::Kind::word && at_sign(":", 1)) {  // {E6POS: X 1, ...}
     e.text = word("a type");
@@ -231,9 +216,7 @@ Expression Cursor::aggregate_with_names() {
 
 Expression Cursor::reference() {
   const Deeper deeper(*this);
-  Expression e;
-  e.place = place();
-  e.kind = Form::name;
+  Expression e = expression_at(place(), Form::name);
   e.text = word("a name");
   const bool rapid = grammar_ == Grammar::rapid;
   const std::string_view open = rapid ? "{" : "[", close = rapid ? "}" : "]";
@@ -338,18 +321,14 @@ bool StatementParser::at_any(const std::vector<const char*>& words) const {
   return std::any_of(words.begin(), words.end(), [&](const char* word) { return at_.at_word(word); });
 }
 
-void StatementParser::fail_at_end(std::string word) const {
-  for (char& c : word)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+void StatementParser::fail_at_end(std::string_view end) const {
+  const std::string word = upper_case(end);
   at_.fail(fmt::format("has {} before {}", at_.seen(), word), fmt::format("close the block with {}", word));
 }
 
 Statement StatementParser::labelled(Statement::Kind kind) {
-  Statement s;
-  s.kind = kind;
-  s.place = at_.place();
-  s.name = at_.word("a label");
-  return s;
+  const Place place = at_.place();
+  return statement_at(place, kind, at_.word("a label"));
 }
 
 }  // namespace dresslife::sim

@@ -126,7 +126,7 @@ class StatementParser {
   Problems& problems_;
 
  private:
-  [[noreturn]] void fail_at_end(std::string word) const;
+  [[noreturn]] void fail_at_end(std::string_view end) const;
   int depth_ = 0;
 };
 

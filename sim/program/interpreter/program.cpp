@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <filesystem>
 #include <sstream>
+
+#include "pipeline/base/text.h"
 
 namespace dresslife::sim {
 
@@ -50,10 +51,9 @@ std::optional<ArmConfiguration> arm_configuration(const std::string& text) {
     }
   }
   while (words >> word) {
-    int number = 0;
-    const auto end = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (end.ec != std::errc() || end.ptr != word.data() + word.size()) return {};
-    read.numbers.push_back(number);
+    const auto number = pipeline::whole_number_in<int>(word);
+    if (!number) return {};
+    read.numbers.push_back(*number);
   }
   const std::size_t count = read.numbers.size();
   if (kind == "abb") read.kind = ArmConfiguration::Kind::abb;

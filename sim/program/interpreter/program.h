@@ -101,6 +101,14 @@ struct Instruction {
   std::vector<Origin> origins;
 };
 
+/// The robot stands still for so long [s].
+inline Instruction dwell_of(double seconds) {
+  Instruction made;
+  made.kind = Instruction::Kind::dwell;
+  made.dwell = seconds;
+  return made;
+}
+
 /// Something that the reader left out.
 struct Skipped {
   pipeline::Where where;

@@ -20,14 +20,6 @@ bool is_latin_letter(std::string_view text, std::size_t at) {
          !(first == 0xC3 && (second == 0x97 || second == 0xB7));  // times, divided by
 }
 
-/// As lower(char), and U+00C0 .. U+00DE: the small letter is 0x20 further on.
-char lower(std::string_view text, std::size_t at) {
-  const auto c = static_cast<unsigned char>(text[at]);
-  if (at > 0 && text[at - 1] == '\xC3' && c >= 0x80 && c <= 0x9E && c != 0x97)
-    return static_cast<char>(c + 0x20);
-  return lower(text[at]);
-}
-
 class Cutter {
  public:
   Cutter(const SourceFile& source, const TokenRules& rules, Problems& problems)
@@ -194,25 +186,6 @@ class Cutter {
 
 std::vector<Token> tokens_of(const SourceFile& source, const TokenRules& rules, Problems& problems) {
   return Cutter(source, rules, problems).run();
-}
-
-bool same_word(std::string_view a, std::string_view b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (lower(a, i) != lower(b, i)) return false;
-  return true;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && static_cast<unsigned char>(text.front()) <= ' ') text.remove_prefix(1);
-  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
-  return text;
-}
-
-std::string lower_case(std::string_view word) {
-  std::string result(word);
-  for (std::size_t i = 0; i < word.size(); ++i) result[i] = lower(word, i);
-  return result;
 }
 
 }  // namespace dresslife::sim

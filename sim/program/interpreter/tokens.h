@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/text.h"
 #include "sim/program/interpreter/program.h"
 
 namespace dresslife::sim {
@@ -28,10 +29,9 @@ struct TokenRules {
 /// Kind::end. The tokens point into `source`.
 std::vector<Token> tokens_of(const SourceFile& source, const TokenRules& rules, Problems& problems);
 
-/// Whether two words are the same but for case.
-bool same_word(std::string_view a, std::string_view b);
-std::string lower_case(std::string_view word);
-/// Without spaces and control characters at both ends.
-std::string_view trimmed(std::string_view text);
+using pipeline::lower_case;
+using pipeline::same_word;
+using pipeline::trimmed;
+using pipeline::upper_case;
 
 }  // namespace dresslife::sim

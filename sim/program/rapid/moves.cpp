@@ -453,10 +453,7 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
                  "correct the instruction");
     return;
   }
-  Expression world;  // without \WObj
-  world.kind = Expression::Kind::name;
-  world.text = "wobj0";
-  world.place = statement.place;
+  const Expression world = name_at("wobj0", statement.place);  // without \WObj
   std::optional<Value> from = typed(*programmed, "robtarget", "a programmed point", run);
   std::optional<Value> to = executed ? typed(*executed, "robtarget", "a point that was reached", run)
                                      : position_with(tool, work_object ? work_object : &world, run);

@@ -90,15 +90,13 @@ class RapidParser : StatementParser {
   }
 
   Statement declaration() {
-    Statement statement;
-    statement.kind = Kind::declare;
     const bool persistent = at_.at_word("pers");
-    statement.constant = at_.at_word("const");
+    const bool constant = at_.at_word("const");
     at_.next();  // CONST, VAR, PERS
-    statement.text = at_.word("a type");
-    statement.place = at_.place();
-    statement.name = at_.word("a name");
-    statement.arguments.emplace_back();
+    const std::string type = at_.word("a type");
+    const Place place = at_.place();
+    Statement statement = declaration_at(place, at_.word("a name"), type);
+    statement.constant = constant;
     if (at_.take_sign("{")) {
       do statement.arguments.push_back(at_.expression());
       while (at_.take_sign(","));
@@ -251,18 +249,11 @@ class RapidParser : StatementParser {
 
   void if_statement(Statement& s) {
     s.kind = Kind::branch;
-    Branch branch;
-    branch.place = s.place;
-    branch.conditions.push_back(at_.expression());
-    if (!at_.take_word("then")) {  // the compact IF
-      statement(branch.body);
-      s.branches.push_back(std::move(branch));
-      return;
-    }
-    branch.body = body({"endif", "else", "elseif"});
-    s.branches.push_back(std::move(branch));
-    while (!at_.at_word("endif")) {
-      Branch next;
+    s.branches.push_back({{at_.expression()}, {}, s.place});
+    if (!at_.take_word("then")) return statement(s.branches[0].body);  // the compact IF
+    s.branches[0].body = body({"endif", "else", "elseif"});
+    while (!at_.take_word("endif")) {
+      Branch& next = s.branches.emplace_back();
       next.place = at_.place();
       if (at_.take_word("elseif")) {
         next.conditions.push_back(at_.expression());
@@ -271,9 +262,7 @@ class RapidParser : StatementParser {
         at_.need_word("else");
       }
       next.body = body({"endif", "else", "elseif"});
-      s.branches.push_back(std::move(next));
     }
-    at_.need_word("endif");
   }
 
   void loop_body(Statement& s, const char* end) {

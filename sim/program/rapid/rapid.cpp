@@ -1,12 +1,12 @@
 #include "sim/program/rapid/rapid.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <numbers>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/text.h"
 #include "sim/program/interpreter/tokens.h"
 #include "sim/program/rapid/dialect.h"
 #include "sim/program/rapid/functions.h"
@@ -166,12 +166,8 @@ void Rapid::wait(const Statement& statement, Interpreter& run) {
   else if (!time.is_number() || !(time.number >= 0))
     run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
                 "write it as a constant", "a time in s");
-  else if (time.number > 0) {
-    Instruction instruction;
-    instruction.kind = Instruction::Kind::dwell;
-    instruction.dwell = time.number;
-    run.emit(instruction, statement);
-  }
+  else if (time.number > 0)
+    run.emit(dwell_of(time.number), statement);
 }
 
 /// Incr n; Decr n; Clear n; Add n, by.
@@ -202,10 +198,7 @@ bool Rapid::named_data(const Statement& statement, Interpreter& run) {
   if ((!get && statement.name != "setdataval") || statement.arguments.size() < 2) return false;
   const Value name = run.evaluate(statement.arguments[0]);
   const Expression& value = statement.arguments.back();
-  Expression data;
-  data.kind = Expression::Kind::name;
-  data.text = lower_case(name.text);
-  data.place = statement.place;
+  const Expression data = name_at(lower_case(name.text), statement.place);
   if (name.kind != Value::Kind::text || !run.variable(data.text)) {
     if (get)
       run.make_unknown(value, {"", "is read by GetDataVal under a name that no file read declares"});
@@ -336,12 +329,10 @@ Value Rapid::text_to_value(const Expression& call, Interpreter& run) {
   const Value text = call.items.empty() ? Value{} : run.evaluate(call.items[0]);
   if (call.items.size() != 2) return Value{};
   if (text.kind == Value::Kind::text) {
-    double number = 0;
-    const char* end = text.text.data() + text.text.size();
-    const auto read = std::from_chars(text.text.data(), end, number);
+    const auto number = pipeline::whole_number_in<double>(text.text);
     const std::string word = lower_case(text.text);
-    if (!text.text.empty() && read.ec == std::errc() && read.ptr == end && std::isfinite(number))
-      return run.assign(call.items[1], number_value(number)), truth_value(true);
+    if (number && std::isfinite(*number))
+      return run.assign(call.items[1], number_value(*number)), truth_value(true);
     if (word == "true" || word == "false")
       return run.assign(call.items[1], truth_value(word == "true")), truth_value(true);
   }

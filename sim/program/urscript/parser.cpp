@@ -200,7 +200,7 @@ class ScriptParser : StatementParser {
         const Place place = at_.place();
         read.parameters.push_back({at_.word("a parameter"), false, false});
         if (at_.take_sign("="))
-          usual.push_back(declaration(read.parameters.back().name, place, at_.expression()));
+          usual.push_back(declaration_at(place, read.parameters.back().name, "", at_.expression()));
       }
     at_.take_sign(":");
     routines_[index].written = read.written;
@@ -246,11 +246,7 @@ class ScriptParser : StatementParser {
     loops_.push_back(fmt::format("continue {}", s.place.line));
     s.branches.emplace_back();
     s.branches[0].body = body({"end"});
-    Statement label;
-    label.kind = Kind::label;
-    label.place = at_.place();
-    label.name = loops_.back();
-    s.branches[0].body.push_back(std::move(label));
+    s.branches[0].body.push_back(statement_at(at_.place(), Kind::label, loops_.back()));
     loops_.pop_back();
     at_.need_word("end");
   }
@@ -268,16 +264,7 @@ class ScriptParser : StatementParser {
       if (!globals_.contains(name)) own.insert(name);
     for (const Parameter& parameter : routine.parameters) own.erase(parameter.name);
     for (const std::string& name : own)
-      routine.body.insert(routine.body.begin(), declaration(name, routine.place, {}));
-  }
-
-  static Statement declaration(const std::string& name, const Place& place, Expression value) {
-    Statement s;
-    s.kind = Kind::declare;
-    s.place = place;
-    s.name = name;
-    s.arguments.push_back(std::move(value));
-    return s;
+      routine.body.insert(routine.body.begin(), declaration_at(routine.place, name, ""));
   }
 
   int module_ = -1, threads_ = 0;

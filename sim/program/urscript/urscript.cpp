@@ -411,10 +411,7 @@ class Script final : public Dialect {
                          "", "a number, in s");
     if (!time.is_number() || !(time.number >= 0))
       return run.complain(statement.place, "waits for what is no time", "write seconds from 0 on");
-    Instruction wait;
-    wait.kind = Instruction::Kind::dwell;
-    wait.dwell = time.number;
-    if (wait.dwell > 0) run.emit(wait, statement);
+    if (time.number > 0) run.emit(dwell_of(time.number), statement);
   }
 
   void set_tcp(const Statement& statement, Interpreter& run) {

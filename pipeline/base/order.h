@@ -1,0 +1,38 @@
+// The order of a list as indices, where the list itself stays as it is.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace dresslife::pipeline {
+
+/// 0 .. size - 1.
+inline std::vector<std::size_t> indices_of(std::size_t size) {
+  std::vector<std::size_t> all(size);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+/// 0 .. size - 1 with rising key(index). Indices with equal keys keep their order.
+template <class Key>
+std::vector<std::size_t> smallest_first(std::size_t size, const Key& key) {
+  std::vector<std::size_t> order = indices_of(size);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
+}
+
+/// 0 .. size - 1 with falling key(index). Indices with equal keys keep their order.
+template <class Key>
+std::vector<std::size_t> largest_first(std::size_t size, const Key& key) {
+  std::vector<std::size_t> order = indices_of(size);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) > key(b); });
+  return order;
+}
+
+inline std::vector<std::size_t> largest_first(const std::vector<double>& values) {
+  return largest_first(values.size(), [&](std::size_t k) { return values[k]; });
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,43 @@
+#include "pipeline/base/text.h"
+
+#include <cctype>
+
+namespace dresslife::pipeline {
+namespace {
+
+/// In UTF-8, U+00C0 .. U+00DE but for the sign of multiplication: the small letter is 0x20 further on.
+char lower(std::string_view text, std::size_t at) {
+  const auto c = static_cast<unsigned char>(text[at]);
+  if (at > 0 && text[at - 1] == '\xC3' && c >= 0x80 && c <= 0x9E && c != 0x97)
+    return static_cast<char>(c + 0x20);
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : text[at];
+}
+
+}  // namespace
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (std::size_t i = 0; i < text.size(); ++i) result[i] = lower(text, i);
+  return result;
+}
+
+std::string upper_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return result;
+}
+
+bool same_word(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (lower(a, i) != lower(b, i)) return false;
+  return true;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && static_cast<unsigned char>(text.front()) <= ' ') text.remove_prefix(1);
+  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
+  return text;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,61 @@
+// The motion block by block, with the deformation of every segment.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipeline/files/motion_layout.h"
+#include "pipeline/job/job.h"
+#include "strain/cable_paths.h"
+#include "strain/deformation.h"
+
+namespace dresslife::strain {
+
+constexpr std::size_t motion_block_samples = 512;  // rows read at a time
+
+/// Some samples of all segments.
+struct MotionBlock {
+  std::size_t first;                         ///< sample
+  std::span<const Deformation> deformation;  ///< (sample, segment) at its centre
+  std::span<const Deformation> at_wires;     ///< (sample, segment) where its wires are evaluated (W39)
+  std::span<const double> pull;              ///< (sample, segment, 2), see SpanBlock; empty: not asked for
+};
+
+class MotionReader {
+ public:
+  /// group: of the places of segments and clamps; empty: of the job's own motion. file: stays the caller's.
+  MotionReader(const pipeline::FileReader& file, const pipeline::Job& job, std::string group = "");
+
+  std::size_t samples() const { return samples_; }
+  double step() const { return step_; }                             ///< between samples [s]
+  const std::vector<double>& lengths() const { return lengths_; }  ///< (segment) [m]
+  const std::vector<pipeline::MotionSpan>& spans() const { return spans_; }
+  std::vector<double> lengths_of(const pipeline::MotionSpan& span) const;
+  KnownEnds known_ends(std::size_t span) const { return gauges_[span].knows_ends(); }
+  /// Whether no clamp holds the tool end of span k.
+  bool ends_freely(const pipeline::Job& job, std::size_t k) const;
+
+  /// One block after the other, of all samples or of those in [from, end). with_pull: gives that, too.
+  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put) { run(with_pull, put, 0, samples_); }
+  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put, std::size_t from, std::size_t end);
+
+ private:
+  void measure_pull(std::size_t first, std::size_t count, const std::vector<double>& orientation,
+                    std::vector<double>& pull) const;
+  std::optional<Eigen::Vector3d> free_end(const pipeline::Job& job, std::size_t k) const;
+
+  const pipeline::FileReader& file_;
+  std::string group_;
+  std::vector<double> lengths_;
+  std::size_t samples_;
+  double step_;
+  Eigen::Vector3d gravity_;
+  std::vector<pipeline::MotionSpan> spans_;
+  std::vector<DeformationGauge> gauges_;  // (span)
+};
+
+}  // namespace dresslife::strain

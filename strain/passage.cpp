@@ -1,0 +1,146 @@
+#include "strain/passage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/base/threads.h"
+
+namespace dresslife::strain {
+
+HistoryWindow::HistoryWindow(std::size_t segments, std::size_t samples, std::size_t bytes)
+    : segments_(segments),
+      size_(std::clamp<std::size_t>(bytes / (samples * sizeof(Deformation)), 1, segments)),
+      history_(size_, samples) {}
+
+void HistoryWindow::keep(std::size_t first_segment, const MotionBlock& block) {
+  for (std::size_t k = 0; k < block.at_wires.size(); ++k)
+    if (const std::size_t segment = k % segments_; segment >= first_segment && segment < first_segment + size_)
+      history_.set(segment - first_segment, block.first + k / segments_, block.at_wires[k]);
+}
+
+Passage::Passage(MotionReader& motion, Starts& starts, HistoryWindow& window, std::size_t threads)
+    : motion_(motion),
+      starts_(starts),
+      window_(window),
+      threads_(threads),
+      loose_(std::ranges::any_of(starts.spans(0), [](const auto& evaluation) { return evaluation->any_loose(); })) {}
+
+std::vector<Evaluation*> Passage::of_starts(std::size_t span) const {
+  std::vector<Evaluation*> all{starts_.spans(0)[span].get()};
+  for (Evaluation* const placed : starts_.placed(span)) all.push_back(placed);
+  return all;
+}
+
+std::vector<Evaluation*> Passage::evaluated(std::size_t span) const {
+  std::vector<Evaluation*> all = of_starts(span);
+  if (variations_)
+    for (Evaluation* const placed : variations_->placed(span)) all.push_back(placed);
+  return all;
+}
+
+/// (thread) Those that share loose cables in one.
+std::vector<std::vector<Evaluation*>> Passage::shared_out(std::size_t span) const {
+  std::vector<std::vector<Evaluation*>> of_thread(threads_);
+  std::size_t next = 0;
+  for (Evaluation* const evaluation : evaluated(span)) {
+    const auto found = std::ranges::find_if(of_thread, [&](const std::vector<Evaluation*>& own) {
+      return std::ranges::any_of(
+          own, [&](const Evaluation* other) { return other->cables().shares_loose(evaluation->cables()); });
+    });
+    (found != of_thread.end() ? *found : of_thread[next++ % threads_]).push_back(evaluation);
+  }
+  return of_thread;
+}
+
+/// use: evaluations of a span that go through the same motion.
+void Passage::each_span(const MotionBlock& block, const Use& use) const {
+  const std::size_t segments = motion_.lengths().size(), count = block.deformation.size() / segments;
+  std::vector<double> pull;
+  std::vector<Deformation> ends;
+  for (std::size_t k = 0; k < motion_.spans().size(); ++k) {
+    const auto [begin, size] = std::pair(motion_.spans()[k].first_segment, motion_.spans()[k].segments);
+    DeformationHistory of_span(size, count);
+    pull.clear();
+    ends.clear();
+    for (std::size_t t = 0; t < count; ++t) {
+      for (std::size_t i = 0; i < size; ++i) of_span.set(i, t, block.deformation[t * segments + begin + i]);
+      for (const std::size_t i : {begin, begin + size - 1}) ends.push_back(block.at_wires[t * segments + i]);
+      if (block.pull.empty()) continue;
+      const auto own = block.pull.subspan((t * segments + begin) * 2, size * 2);
+      pull.insert(pull.end(), own.begin(), own.end());
+    }
+    const SpanBlock span_block{of_span, pull, motion_.step(), ends};
+    const std::vector<std::vector<Evaluation*>> of_thread = shared_out(k);
+    pipeline::in_parallel(threads_, [&](std::size_t part) {
+      if (!of_thread[part].empty()) use(of_thread[part], span_block);
+    });
+  }
+}
+
+void Passage::rehearse(double from, double until) {
+  const std::size_t samples = motion_.samples();
+  if (!loose_ || samples < 2) return;
+  const auto samples_of = [&](double seconds) { return static_cast<std::size_t>(std::ceil(seconds / motion_.step())); };
+  const std::size_t end = samples_of(until);
+  for (std::size_t left = samples_of(from); left > end;) {
+    const std::size_t first = (samples - left % samples) % samples, count = std::min(left - end, samples - first);
+    const auto move = [&](const MotionBlock& block) {
+      each_span(block, Evaluation::rehearse);
+      starts_.merge();
+    };
+    motion_.run(true, move, first, first + count);
+    left -= count;
+  }
+}
+
+void Passage::record_rubbing() const {
+  for (std::size_t k = 0; k < motion_.spans().size(); ++k)
+    for (Evaluation* const evaluation : of_starts(k)) evaluation->record_rubbing();
+}
+
+void Passage::run(const std::function<void(const MotionBlock&)>& put) {
+  motion_.run(loose_, [&](const MotionBlock& block) {
+    put(block);
+    each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) { Evaluation::add(own, of_span); });
+    starts_.merge();
+    window_.keep(0, block);
+  });
+  for (std::size_t k = 0; k < motion_.spans().size(); ++k)
+    for (Evaluation* const evaluation : evaluated(k)) evaluation->end_first_pass();
+  if (std::ranges::none_of(starts_.spans(0), [](const auto& evaluation) { return evaluation->wants_again(); })) return;
+  motion_.run(false, [&](const MotionBlock& block) {
+    each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
+      for (Evaluation* const evaluation : own)
+        if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
+    });
+  });
+}
+
+void Passage::refill(std::size_t first_segment) {
+  motion_.run(false, [&](const MotionBlock& block) { window_.keep(first_segment, block); });
+}
+
+void Passage::choose(double z) {
+  if (starts_.rests() == 1) return;
+  for (std::size_t rest = 0; rest < starts_.rests(); ++rest)
+    for (const auto& evaluation : starts_.spans(rest)) evaluation->find_bent();
+  std::vector<double> damage(starts_.rests(), 0.0);
+  each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
+    for (std::size_t rest = 0; rest < starts_.rests(); ++rest)
+      damage[rest] = std::max<double>(
+          damage[rest], starts_.spans(rest)[span]->damage_of_bent(segment, window_.history(), row));
+  });
+  starts_.choose(z, damage);
+  if (window_.size() < motion_.lengths().size()) refill(0);
+}
+
+void Passage::each_segment(const std::function<void(std::size_t, std::size_t, std::size_t)>& use) {
+  const std::vector<pipeline::MotionSpan>& spans = motion_.spans();
+  for (std::size_t k = 0, span = 0; k < motion_.lengths().size(); ++k) {
+    if (k == spans[span].first_segment + spans[span].segments) ++span;
+    if (k % window_.size() == 0 && k > 0) refill(k);
+    use(span, k - spans[span].first_segment, k % window_.size());
+  }
+}
+
+}  // namespace dresslife::strain
