@@ -197,7 +197,7 @@ class ListingParser {
     if (close == window.size()) complain("ends in a position", "close it with }");
     if (std::string problem = PositionFields(body, read).run(); !problem.empty()) {
       problems_.add({source_.name(), line, 1}, problem,
-                    "write six coordinates or the joint angles, in mm and deg");
+                    "write six coordinates or the joint angles, in mm and deg, with decimal points");
       return;
     }
     listing_.positions[whole_number(*number)] = std::move(read);
@@ -261,6 +261,8 @@ class ListingParser {
 
     std::string field(const std::string& name) {
       const auto number = at_.number();
+      if (const std::string_view rest = at_.rest(); number && rest.size() > 1 && rest[0] == ',' && digit(rest[1]))
+        return fmt::format("has a decimal comma in {}", upper_case(name));
       if (name == "uf" || name == "ut") {
         if (group_ == 1)
           (name == "uf" ? read_.frame : read_.tool) =

@@ -159,3 +159,10 @@ TEST_CASE("fanuc: joint angles are offset one by one, and only by joint angles")
   CHECK(moved("X 0 Y 0 Z 0 W 0 P 0 R 0").move(0).target.joints[1] == Approx(20 * degree));
   CHECK(moved("X 1 Y 0 Z 0 W 0 P 0 R 0").problems.at(0).what == "is offset in space from joint angles");
 }
+
+TEST_CASE("fanuc: a decimal comma in a position is refused") {
+  std::string listing = "/PROG CELL\n/MN\n   1:J P[1] 50% FINE ;\n" + positions;
+  listing.replace(listing.find("20.000"), 6, "20,5");
+  const Reading r = Reader{Language::fanuc}({{"cell.ls", listing}});
+  CHECK(r.problem() == "cell.ls:5:1: error: has a decimal comma in J2; write six coordinates or the joint angles, in mm and deg, with decimal points");
+}
