@@ -85,6 +85,7 @@ struct StrainFile {
   double twist = 0;             // of all segments at the last sample, rising evenly to there [rad/m]
   std::vector<double> hose_moment;  // (span) at the last sample, as the strains
   double curvature = 0;        // about d1 at samples 20 and, to the other side, 60; else 0 [1/m]
+  double curvature_d2 = 0;     // with curvature about d1, of the first segment alone, at sample 20 [1/m]
   std::vector<Rubbed> rubbed;  // by link_4, 5 mm long, in one sector of 5 degrees; empty: no table
 };
 
@@ -137,6 +138,10 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
   std::vector<double> pairs(2 * samples * segments, 0.0);
   for (std::size_t k = 0; k < segments; ++k)
     pairs[2 * (20 * segments + k)] = f.curvature, pairs[2 * (60 * segments + k)] = -f.curvature;
+  if (f.curvature_d2 > 0) {
+    std::fill(pairs.begin(), pairs.end(), 0.0);
+    pairs[2 * 20 * segments] = f.curvature, pairs[2 * 20 * segments + 1] = f.curvature_d2;
+  }
   file.append("/time", std::span<const double>(time));
   file.append("/program/step", std::span<const std::int32_t>(f.step));
   file.append("/program/text", std::span<const std::string>(text));
@@ -580,6 +585,24 @@ TEST_CASE("life.h5: a material whose cyclic curve contradicts its life curve is 
   CHECK_THAT(cyclic.notes.warnings[0].words, Catch::Contains("material copper: K' 100 MPa"));
   job.fatigue.stress = pipeline::Stress::elastic;  // then they are not used
   CHECK(run(folder, example(), job).notes.warnings.empty());
+}
+
+TEST_CASE("life.h5: a job beyond the curvature or twist of its calibration's tests is warned of") {
+  const Folder folder;
+  StrainFile f = example();
+  f.curvature = 3, f.curvature_d2 = 4, f.twist = -2;  // 5/m in one segment alone
+  pipeline::Job job = test_job();
+  const auto doubted = [&](double curvature, double twist) {
+    job.calibration.emplace();
+    job.calibration->within.largest_curvature = curvature, job.calibration->within.largest_twist = twist;
+    std::string words;
+    for (const pipeline::Warning& warning : run(folder, f, job).notes.warnings)
+      if (warning.kind == pipeline::WarningKind::calibration) words += warning.words + "\n";
+    return words;
+  };
+  CHECK(doubted(5 / 1.04, 2 / 1.04).empty());
+  CHECK_THAT(doubted(5 / 1.06, 2 / 1.04), Catch::Contains("a curvature [1/m] of 5.0 "));
+  CHECK_THAT(doubted(5 / 1.04, 2 / 1.06), Catch::Contains("a twist [rad/m] of 2.0 "));
 }
 
 TEST_CASE("life.h5: the damage is shared out among the joints and told by clamp") {

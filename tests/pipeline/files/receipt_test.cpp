@@ -46,3 +46,12 @@ TEST_CASE("a receipt is read as it was written, also texts with line ends and ba
   CHECK(read->results == written.results);
   CHECK(read->made_with == written.made_with);
 }
+
+TEST_CASE("a file's state suffices where the file exists and the receipt is younger than its last change") {
+  Receipt receipt{.recipe = "r", .input = "i", .output = "o", .state = {.size = 1, .changed_ns = 5}, .written_ns = 6};
+  CHECK(receipt.state_suffices());
+  receipt.written_ns = 5;  // the clock's step may hide a change
+  CHECK_FALSE(receipt.state_suffices());
+  receipt.written_ns = 6, receipt.state.size = -1;  // no file
+  CHECK_FALSE(receipt.state_suffices());
+}

@@ -405,6 +405,9 @@ TEST_CASE("shares as words are whole per cents that add up to 100") {
   CHECK(share_words(share) == "friction_inside 34 %; strength 33 %; model 33 %");
   CHECK(largest_share(share) == friction);
   share = {};
+  share[slack] = share[friction] = share[strength] = share[model] = 0.25;  // equal ones in the order of the parameters
+  CHECK(share_words(share) == "friction_inside 25 %; slack 25 %; strength 25 %; model 25 %");
+  share = {};
   share[slack] = 0.01, share[uncertain_count] = 0.99;
   CHECK(share_words(share) == "scatter of wires 99 %; slack 1 %");
   share = {};

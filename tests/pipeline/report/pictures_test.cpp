@@ -4,6 +4,8 @@
 #include <regex>
 
 #include "pipeline/files/motion_layout.h"
+#include "pipeline/report/duty_page.h"
+#include "pipeline/report/file_summary.h"
 #include "pipeline/report/motion_data.h"
 #include "pipeline/report/plan_page.h"
 #include "pipeline/report/scene.h"
@@ -94,6 +96,45 @@ TEST_CASE("pictures: a plan's failures are stairs, a step per week from today to
        {std::pair("p2", "2026-11-30"), std::pair("p3", "2026-12-07"), std::pair("p4", "2026-12-14")})
     CHECK(std::regex_search(
         page, std::regex(fmt::format("class=\"{}\"[^\n]*\n?[^\n]*robot 7, {} \\.\\.", style, day))));
+}
+
+TEST_CASE("pictures: each program of a duty has its own name and its own bars") {
+  DutyResult duty;
+  duty.name = "shift", duty.robot_life_hours = 40000;
+  duty.parts = {{"easy", 30, 0.8, {}, {}, {{0, {5e4, 9e4}}, {1, {2e4, 4e4}}}},
+                {"hard", 10, 0.2, {}, {}, {{0, {5e4, 9e4}}, {1, {1e3, 2e3}}}}};
+  duty.modes = {"wires"}, duty.changes = {1}, duty.damage.same_place = {1};
+  duty.lives.share = {0.25, 0.75};
+  duty.lives.percentiles = {1e4, 2e4};
+  std::string chart = duty_page("duties.yaml", {duty}, "duty.csv");
+  const std::size_t begin = chart.find("Share of the time and of the damage");
+  REQUIRE(begin != std::string::npos);
+  chart = chart.substr(begin, chart.find("</svg>", begin) - begin);
+  std::vector<std::string> names;
+  const std::regex name("<text class=\"name\"[^>]*>([^<]*)</text>");
+  for (std::sregex_iterator at(chart.begin(), chart.end(), name), end; at != end; ++at) names.push_back((*at)[1]);
+  CHECK(names == std::vector<std::string>{"easy", "hard"});
+  const auto widths = [&](const std::string& style) {
+    std::vector<double> found;
+    const std::regex box("<rect class=\"" + style + "\"[^>]* width=\"([^\"]*)\"");
+    for (std::sregex_iterator at(chart.begin(), chart.end(), box), end; at != end; ++at) found.push_back(std::stod((*at)[1]));
+    return found;
+  };
+  const std::vector<double> times = widths("dark"), damages = widths("bar-hot");  // the first is the legend's
+  REQUIRE(times.size() == 3);
+  REQUIRE(damages.size() == 3);
+  constexpr double printed = 0.01;  // places have a digit of a pixel
+  CHECK(times[1] / times[2] == Approx(0.8 / 0.2).epsilon(printed));
+  CHECK(damages[1] / damages[2] == Approx(0.25 / 0.75).epsilon(printed));
+}
+
+TEST_CASE("a file's summary has its numbers as they are") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  const std::string text = file_summary(scratch / "motion.h5");
+  INFO(text);
+  CHECK(std::regex_search(text, std::regex("\n/segment/length +\\(segment 3\\) 0\\.2(0)*  m\n")));
+  CHECK(std::regex_search(text, std::regex("\n/segment/position +\\(sample 2, segment 3, 3\\) 1 \\.\\. 2  m\n")));
 }
 
 TEST_CASE("pictures: of a scene's hose one segment is hot, counted from the tool") {

@@ -3,6 +3,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/stage/program_manual.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
 
@@ -108,6 +109,23 @@ TEST_CASE("command line: values outside their rules end with status 2") {
     Values values;
     INFO(line[0] << " " << line.back());
     CHECK(read(values, line) == 2);
+  }
+}
+
+TEST_CASE("command line: only a number right behind a flag is named as one that the flag does not take") {
+  for (const auto& [line, named] :
+       std::vector<std::pair<std::vector<std::string>, bool>>{{{"in", "-f", "2"}, true},
+                                                              {{"in", "--flag", "2"}, true},
+                                                              {{"in", "-f", "more"}, false},
+                                                              {{"in", "--whole", "9"}, false},
+                                                              {{"in", "2"}, false}}) {
+    Values values;
+    Captured errors(STDERR_FILENO);
+    const std::optional<int> status = read(values, line);
+    const std::string words = errors.text();
+    INFO(line[1] << "\n" << words);
+    CHECK(status == 2);
+    CHECK((words.find(fmt::format("leave out '{}'", line.back())) != std::string::npos) == named);
   }
 }
 

@@ -273,6 +273,25 @@ TEST_CASE("stage: the warnings of an output that is kept are printed again") {
   CHECK_THAT(second.errors, Catch::Contains("the hose swings"));
 }
 
+TEST_CASE("stage: warnings of the input stand before a stage's own, and nothing is noted where the input does not say its own") {
+  const Scratch scratch;
+  const Warning swings{WarningKind::motion, "job.yaml", "the hose swings"}, strained{WarningKind::strain, "", "wires yield"};
+  const StageCall call{.info = info, .quiet = true};
+  Progress progress("", true);
+  const auto noted = [&](const char* name, const std::vector<Warning>& own, const FileReader* before) {
+    write_still_motion(scratch / name, 2, 2,
+                       [&](FileWriter& file) { note_warnings(file, call, progress, own, before); });
+    return std::make_unique<FileReader>(scratch / name, motion_format());
+  };
+  Captured errors(STDERR_FILENO);
+  const auto first = noted("first.h5", {swings}, nullptr), second = noted("second.h5", {strained}, first.get());
+  CHECK(first->text_attribute("warnings") == warnings_text({swings}));
+  CHECK(second->text_attribute("warnings") == warnings_text({swings, strained}));
+  write_still_motion(scratch / "older.h5", 2, 2, [](FileWriter&) {});
+  const FileReader older(scratch / "older.h5", motion_format());
+  CHECK_FALSE(noted("third.h5", {strained}, &older)->has_attribute("warnings"));
+}
+
 TEST_CASE("stage: an output with a receipt is made again when its settings, its input or itself changed, and else not") {
   const Scratch scratch;
   const auto job = scratch.write("job.yaml", sample_job).string(), note = (scratch / "note").string(),

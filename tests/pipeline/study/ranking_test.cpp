@@ -843,6 +843,21 @@ TEST_CASE("ranking: the joint that a strain follows is no cause, and the words n
   CHECK_THAT(held_words(row), Catch::StartsWith("joint_4 is held") && Catch::Contains("not with other jobs"));
 }
 
+TEST_CASE("ranking: jobs whose repeats differ by more than 2 % are compared by repeats") {
+  const auto row_with = [](double seconds) {
+    RankingRow row;
+    row.damage_per_repeat = 1, row.repeat_seconds = seconds;
+    return row;
+  };
+  for (const auto& rows : {std::vector{row_with(10), row_with(30)}, std::vector{row_with(30), row_with(10)}})
+    CHECK_THAT(different_repeats_words(rows), Catch::Contains("10.0 .. 30.0 s"));
+  CHECK(different_repeats_words({row_with(100), row_with(101)}).empty());
+  CHECK_FALSE(different_repeats_words({row_with(100), row_with(103)}).empty());
+  RankingRow failed = row_with(1);
+  failed.failure = "no motion";
+  CHECK(different_repeats_words({row_with(10), failed}).empty());
+}
+
 TEST_CASE("ranking: the legend explains none and - where a line has them") {
   ModeLine line;
   line.hours = {"300", "over 40,000", "over 40,000"};
@@ -893,6 +908,12 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
         "5 jobs, skipped instructions: warned: warning: a.mod:3: skipped: \"SearchL\", and waits\n"
         "5 jobs, twist: warned: warning: largest twist: 200 deg/m\n"
         "15 warnings in all: in ranking.csv, in the report and in the jobs' logs\n");
+  std::vector<RankingRow> two = many;  // 6 of them do
+  for (std::size_t k = 2; k < two.size(); ++k) two[k].warnings.emplace();
+  two[0].warnings->insert(two[0].warnings->end(), 10, two[0].warnings->back());
+  CHECK_THAT(warning_lines(two), Catch::StartsWith("2 jobs, skipped instructions: ") && Catch::Contains("\n2 jobs, twist: "));
+  two[1].warnings.emplace();
+  CHECK_THAT(warning_lines(two), Catch::StartsWith("warned: ") && Catch::Contains("\nwarned: "));
 }
 
 }  // namespace dresslife::pipeline

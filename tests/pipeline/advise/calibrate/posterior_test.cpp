@@ -51,6 +51,16 @@ TEST_CASE("posterior: without data it is the prior") {
   }
 }
 
+TEST_CASE("posterior: how far chains disagree and what draws are worth, of numbers with closed forms") {
+  // Eight halves of +-1, one after the other, half of them shifted by 1: within 8/7, between 2/7; batches of one draw.
+  Posterior posterior;
+  posterior.draws.resize(64, 1);
+  for (Index k = 0; k < 64; ++k) posterior.draws(k, 0) = (k % 2 ? 1 : -1) + (k < 32 ? 0 : 1);
+  summarise(posterior);
+  CHECK(posterior.chains_disagree == Approx(std::sqrt(9.0 / 8)));
+  CHECK(posterior.worth == Approx(9.0 / 7 / (80.0 / 63) * 64));
+}
+
 TEST_CASE("posterior: lives that broke, under a straight model, have a closed form") {
   // Precision I + sum of slope slope'/s^2.
   std::mt19937 random(5);

@@ -128,6 +128,10 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
        "plant.csv:1:26: error: column 'hours in a week' may mean hours_per_week, and is not known", "name it hours_per_week"},
       {"robot,installed,replaced,hours_per_week\nA,2024-02-03,,200\n",
        "plant.csv:2:15: error: hours_per_week is '200'", "hours"}};
+  // One that failed on its first day ends where the next begins: no overlap. The same row twice is one.
+  const std::string first_day = "A,a,2024-02-03,2024-02-03,failed\n";
+  CHECK(refusal(titles + first_day + "A,a,2024-02-03,2025-01-03,failed\nA,a,2025-01-03,,\n") == "read");
+  CHECK_THAT(refusal(titles + first_day + first_day), Contains("plant.csv:3:1: error: 'A, a' is in use from 2024-02-03"));
   for (const auto& [table, problem, remedy] : cases) {
     const std::string words = refusal(table);
     CHECK_THAT(words, Contains(problem) && Contains(remedy));

@@ -4,7 +4,11 @@
 #include <limits>
 #include <random>
 
+#include "pipeline/files/check_names.h"
+#include "pipeline/files/receipt.h"
+#include "pipeline/study/build_graph.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -18,6 +22,28 @@ Outcome outcome(double hours, std::vector<ModeLife> modes = {}, double beyond = 
   of.beyond.assign(outcome_limits, -1.0);
   of.beyond[0] = beyond;
   return of;
+}
+
+TEST_CASE("outcome: slack beyond its limits counts as a share of the hose's length") {
+  const auto beyond = [](const char* check, double slack, double limit, std::size_t of) {
+    const Scratch scratch;
+    const auto file = scratch.folder() / files_of_stage(0).receipt;
+    std::filesystem::create_directories(file.parent_path());
+    const std::string line = fmt::format("{} {} {}\n", slack, limit, check);
+    write_receipt(file, {.recipe = "", .input = "", .output = "", .state = {}, .results = {{"checks", line}}},
+                  scratch.write("output", ""));
+    return outcome_of(RankingRow{}, scratch.folder()).beyond.at(of);
+  };
+  const auto place = [](const char* name) {
+    const std::vector<std::string>& names = outcome_limit_names();
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  constexpr double length = 1.5;  // [m]; 2 % and a third of it are the limits
+  for (const double missing : {0.004, -0.004})
+    CHECK(beyond(check_name::too_short, 0.02 * length - missing, 0.02 * length, place("too short")) ==
+          Approx(missing / length));
+  for (const double more : {0.2, -0.2})
+    CHECK(beyond(check_name::too_long, length / 3 + more, length / 3, place("too long")) == Approx(more / length));
 }
 
 TEST_CASE("merit: wires that live longer than the robot gain nothing by wearing the hose through") {
