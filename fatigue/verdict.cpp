@@ -184,6 +184,7 @@ PathInJob path_in_job(const pipeline::Job& job, const std::string& component) {
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     const std::string name = pipeline::name_among(job, d);
     if (name.empty()) return {d, component};
+    if (component == name) return {d, ""};  // its wires form one conductor
     if (component.starts_with(name + "/")) return {d, component.substr(name.size() + 1)};
   }
   throw pipeline::InputError({},
