@@ -32,7 +32,7 @@ void add_relative_lives(const Study& study, const StudyPlaces& of_study, const R
 struct OwnFolder {
   StudyPlaces places;
   FolderLock lock;
-  /// file: of which the folder notes that it holds results. Errors: those of FolderLock and claim_folder().
+  /// file: the folder notes it as the source of its results. Errors: those of FolderLock and claim_folder().
   OwnFolder(const StudyOptions& options, const std::string& name, const std::filesystem::path& file);
 };
 

@@ -84,7 +84,7 @@ void describe(Fields& f, DutyProgram& program) {
   f.number("deviation_percent", program.deviation_percent, Need::optional, between(0, 100),
            "The standard deviation of the number of repeats, from one dresspack to the next.");
   f.text("recording_of", program.recording_of, Need::optional,
-         "A name that several programs share which are recordings of one cycle. The answer states how much their damages differ.");
+         "Programs with the same name here are recordings of one cycle. The answer states how much their damages differ.");
 }
 
 void describe(Fields& f, OrderedProgram& program) {

@@ -140,9 +140,8 @@ std::string recording_words(const DutyResult& duty) {
                                 name, least, most, readable(100 * std::sqrt(squares / (count - 1) / count), 2)),
                     118, "  ");
   }
-  return text.empty() ? text : text + wrapped("With held cables such a cycle has the damage of one motion of all its repeats within 3 % (five measured groups). Where cables lie loose "
-                                              "in the hose, it depends on the places at which they rest: four measured groups differed by -20 to +33 %, and 4 of 8 cycles as one motion had "
-                                              "66 % more than the other 4.",
+  return text.empty() ? text : text + wrapped("Where cables lie loose in the hose, the damage of a cycle also depends on the places at which they rest before it. "
+                                              "The standard error leaves that out: it may be several times too small.",
                                               118, "  ");
 }
 
