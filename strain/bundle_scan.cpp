@@ -12,7 +12,7 @@
 namespace dresslife::strain {
 namespace {
 
-/// Share of node `node` in the value at one angle of the waves through a layer's nodes: Dirichlet's kernel.
+/// Returns the share of node `node` in the value at one angle of the waves through a layer's nodes: Dirichlet's kernel.
 double nodal_share(double angle, int node) {
   const double away = angle - 2 * pi * node / waves_per_layer;
   return (1 + 2 * std::cos(away) + 2 * std::cos(2 * away)) / waves_per_layer;
@@ -85,7 +85,7 @@ void BundleScan::list_groups(const std::vector<int>& layers) {
       Group& group = groups_.emplace_back(Group{k, lane_group.mirrors, {}, {}, {}, lists});
       for (const int wire : lane_group.wires) {
         place_[first_wire + wire] = {groups_.size() - 1, group.angles.size()};
-        const int turned = lane_group.mirrors ? wire - count : wire;  // exactly the opposite of its image
+        const int turned = lane_group.mirrors ? wire - count : wire;  // exactly the opposite angle of its image
         group.angles.push_back(2 * pi * turned / count);
       }
       for (int f = 0; f < settings_.fibre_count; ++f) group.scans.emplace_back(group.angles, settings_.gate);
@@ -95,7 +95,7 @@ void BundleScan::list_groups(const std::vector<int>& layers) {
   lists_.resize(lists);
 }
 
-/// Bundles of the same layers, one after the other, keep their groups.
+/// Prepares a bundle. The groups are kept if the previous bundle has the same layers.
 void BundleScan::start(const Bundle& bundle, const std::vector<LayerSlip>& plan,
                        const BundlePointers& nesting, bool mixed) {
   if (bundle.wire_layers != layers_) list_groups(bundle.wire_layers);
@@ -122,7 +122,7 @@ LaneRun& BundleScan::add_run(Group& group, int fibre, std::size_t count, Wanted 
 void BundleScan::scan_waves(std::size_t count, Wanted wanted) {
   const int fibres = settings_.fibre_count;
   runs_.clear();
-  for (int f = 0; f < fibres; ++f)  // groups inside: images follow their wires
+  for (int f = 0; f < fibres; ++f)  // groups in the inner loop: image groups directly follow their wires
     for (Group& group : groups_) {
       LaneRun& run = add_run(group, f, count, wanted);
       run.mirrors = group.mirrors;
@@ -175,7 +175,7 @@ void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wa
   }
 }
 
-/// Goes back from the end of the motion only until the slip there does not depend on what was before.
+/// Goes back from the end of the motion until the slip there no longer depends on earlier samples.
 void BundleScan::settle(const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
                         const DeformationColumns& columns, std::size_t samples) {
   constexpr std::size_t of_layer = (deviation + 1) * waves_per_layer * block_samples;
@@ -194,7 +194,7 @@ void BundleScan::settle(const std::vector<LayerSlip>& plan, const BundlePointers
     });
     end = first;
   }
-  for (const MixedRun& run : all)  // the motion begins without slip
+  for (const MixedRun& run : all)  // the motion starts without slip
     for (int lane = 0; lane < lanes; ++lane)
       run.state->slip[lane] = std::clamp(0.0f, run.state->least_slip[lane], run.state->most_slip[lane]);
 }

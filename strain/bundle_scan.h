@@ -1,5 +1,5 @@
-// All wires of one bundle in one segment, run over the motion in blocks of samples that stay in cache: waves
-// of strain (W13), or strains put together wire by wire (W18), and their turning points (W14).
+// Strains of all wires of one bundle in one segment, in blocks of samples that stay in cache, and their turning points (W14).
+// Strains are evaluated from the waves of a layer (W13) or composed wire by wire (W18).
 #pragma once
 
 #include <cstddef>
@@ -11,48 +11,47 @@
 
 namespace dresslife::strain {
 
-/// The part of the job that the scan of a bundle needs.
+/// Settings of the job for the scan of a bundle.
 struct ScanSettings {
   int fibre_count = 1;
   float gate = 0;
   bool with_shear = false;  ///< W19
-  bool on_axis = false;     ///< fibres are the wires' axes
+  bool on_axis = false;     ///< evaluates the axes of the wires
 };
 
-/// Shear (fibre null) or bending of the undeformed wire, as the ingredients hold them.
+/// Returns bending of the undeformed wire at the fibre, or for fibre == null its shear, in the form of the ingredients.
 double rest_ingredient(const WireNode& node, const Fibre* fibre);
 FibreShape shape_of(const Fibre& fibre, const WireNode& node);
 
-/// Reused from bundle to bundle by one thread.
+/// One thread uses this object for one bundle after the other.
 class BundleScan {
  public:
   BundleScan(const Construction& construction, const ScanSettings& settings)
       : construction_(construction), settings_(settings) {}
 
-  /// nesting: with the nodes of the bundle's layers. mixed: strains are put together wire by wire.
+  /// Scans a bundle. nesting: contains the nodes of the bundle's layers. mixed: strains are composed wire by wire.
   void run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
            bool mixed, const DeformationColumns& columns, std::size_t samples);
-  /// After run(): calls found(wire, fibre, points) for every site, wire by wire; wires count through the
-  /// bundle.
+  /// Calls found(wire, fibre, points) for every site, wire by wire. Wires are numbered through the bundle. Precondition: run().
   void for_each_site(const std::function<void(std::size_t, int, std::span<const TurningPoint>)>& found) const;
 
-  /// The same without turning points.
+  /// Scans a bundle for its strain measures without listing turning points.
   void rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
             bool mixed, const DeformationColumns& columns, std::size_t samples);
-  /// After rank().
+  /// Calls found(wire, fibre, measures) for every site. Precondition: rank().
   void for_each_rank(const std::function<void(std::size_t, int, const StrainMeasures&)>& found) const;
 
  private:
   /// Up to sixteen wires of one layer.
   struct Group {
-    std::size_t layer;  ///< in the bundle
-    bool mirrors;       ///< wires at the opposite angles of those of the group before
+    std::size_t layer;  ///< index in the bundle
+    bool mirrors;       ///< its wires are at the opposite angles of the wires of the previous group
     std::vector<double> angles;
     MixedLanes mixed;
     std::vector<LaneScan> scans;  ///< (fibre)
-    std::size_t first_list;       ///< of (fibre, wire) lists
+    std::size_t first_list;       ///< index of its first list; its lists are (fibre, wire)
   };
-  /// Where a wire of the bundle is scanned.
+  /// Group and lane in which a wire of the bundle is scanned.
   struct Place {
     std::size_t group, lane;
   };
@@ -68,17 +67,17 @@ class BundleScan {
                bool mixed, const DeformationColumns& columns, std::size_t samples, Wanted wanted);
   void run_blocks(const BundlePointers& nesting, bool mixed, Wanted wanted, const DeformationColumns& columns,
                   std::size_t samples);
-  /// Sliders to where one repeat of the motion leaves them.
+  /// Puts the sliders into the state in which one repeat of the motion leaves them.
   void settle(const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
               const DeformationColumns& columns, std::size_t samples);
-  /// The next `count` samples of all groups, from the waves of the block.
+  /// Scans the next `count` samples of all groups, from the waves of the block.
   void scan_waves(std::size_t count, Wanted wanted);
   void scan_mixed(std::size_t count, Wanted wanted);
   LaneRun& add_run(Group& group, int fibre, std::size_t count, Wanted wanted);
 
   const Construction& construction_;
   ScanSettings settings_;
-  std::vector<int> layers_;  ///< for whose wires the groups are
+  std::vector<int> layers_;  ///< wire layers of the groups
   std::vector<Group> groups_;
   std::vector<Place> place_;  ///< (wire)
   std::vector<TurningList> lists_;

@@ -12,30 +12,30 @@
 namespace dresslife::strain {
 namespace {
 
-constexpr std::size_t most_offset_samples = 64;  // pictures of where cables lie
-// Of loose cables in a segment: its curvature is their mean, and one piece is bent at its ends alone.
+constexpr std::size_t most_offset_samples = 64;  // at which places of cables are stored for pictures
+// Least number of elements of a loose cable in a segment. The segment's curvature is their mean; one element alone would have
+// only the curvatures of its ends.
 constexpr std::size_t least_elements = 2;
-// Beyond the forces of any cable: what is limited by no less is glued. Not infinite, so that limits add up.
+// Exceeds the forces of any cable: a limit of this size means glued. It is finite so that limits can be added.
 constexpr double no_force_reaches = 1e7;  // [N]
 
-constexpr double settled = 1e-6;  // change of strain from repeat to repeat: 1 N of a cable of 1 MN
-constexpr double closed = 1e-12;  // the same, by rounding: one more repeat would give the same strains
-// Between a grip and friction a part settles by a share of what is left in each repeat; a few are enough for
-// friction alone.
+constexpr double settled = 1e-6;  // [strain] change from repeat to repeat: 1 N in a cable of 1 MN
+constexpr double closed = 1e-12;  // [strain] change by rounding only: one more repeat would give the same strains
+// Between a grip and friction, each repeat leaves a share of the remaining error. With friction alone a few repeats are enough.
 constexpr int most_repeats = 30;
-// A limit follows its tension by the friction of a node's bend, mu kappa l, 0.05 at 1 1/m and 64 segments: each
-// attempt leaves that share of the error.
+// The limit depends on the tension by the friction of a node's bend, mu kappa l, 0.05 at 1 1/m and 64 segments. Each attempt
+// leaves this share of the error.
 constexpr int most_attempts = 20;
 
-// Samples of a rehearsal that are one step: a quarter of the cost. Lives of hard and easy differ by 0.6 and 0.8 % from those
-// after a rehearsal of all samples, where both come to the same cycle.
+// Samples of a rehearsal that are one step, which costs a quarter. The lives of the programs hard and easy differ by 0.6 and
+// 0.8 % from those after a rehearsal of all samples, where both come to the same cycle.
 constexpr std::size_t rehearsed_at_once = 4;
-// In which cables that go on with another slack get it [s]: all at once it would lie in short waves.
+// Time in which cables with another slack get this slack [s]. All of it at once would lie in short waves.
 constexpr double feeding = 15;
-// Of the largest sum of eighth powers of curvature: a cable that bends half as much is far from being the worst.
+// Least share of the largest sum of eighth powers of curvature. A cable with half of its curvature is far from being the worst.
 constexpr double near_most = 1e-2;
 
-/// Place of a part in the cross-section at an arc along the dresspack.
+/// Returns the place of a part in the cross-section at an arc along the dresspack.
 std::array<double, 2> place_of(const Construction& construction, int part, double arc) {
   const Part& in = construction.parts()[part];
   const double radius = construction.layers()[in.layer].helix_radius;
@@ -43,7 +43,7 @@ std::array<double, 2> place_of(const Construction& construction, int part, doubl
   return {radius * std::cos(phase), radius * std::sin(phase)};
 }
 
-/// Share 1: at the end, 0: at the centre of the outermost segment.
+/// Returns the hose between end and centre of the outermost segment. share: 1 at the end, 0 at the centre.
 HoseNode between_end(const Deformation& end, const DeformationColumns& centre, std::size_t t, double share) {
   const auto between = [&](double from, double to) { return from + share * (to - from); };
   return {between(centre.curvature1[t], end.curvature1),
@@ -71,7 +71,7 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     const Part& in = construction.parts()[part];
     const Layer& layer = construction.layers()[in.layer];
     if (plan[in.layer].sliding == Sliding::glued && !plan[in.layer].loose) continue;
-    const auto grip = [&](const std::optional<double>& force) {  // elastic force at the strain that it makes
+    const auto grip = [&](const std::optional<double>& force) {  // elastic force at the strain that the grip force causes
       return force ? layer.axial_stiffness * layer.force.strain_at(*force) : without_limit;
     };
     Cable cable{part,
@@ -170,7 +170,7 @@ void CablePaths::go_on_from(const CablePaths& other) {
   fed_ = 0;
 }
 
-/// The slack that a rehearsal feeds in within a step [s].
+/// Feeds in the slack of one step of a rehearsal. step: [s].
 void CablePaths::feed_slack(double step) {
   if (first_share_ == 1) return;
   fed_ += step;
@@ -267,7 +267,7 @@ double CablePaths::pulled_by_twist(const Cable& cable, double twist) const {
   return layer.shortening.at(twist * layer.lay_cosine * layer.lay_cosine);
 }
 
-/// path: length in the segment (sample of the block) [m]. rest: that at rest [m]. twist: of the hose there [rad/m].
+/// path: length in the segment (sample of the block) [m]. rest: length at rest [m]. twist: of the hose (sample) [rad/m].
 void CablePaths::add_stuck(Cable& cable, std::size_t segment, const double* twist, std::span<const double> path,
                            double rest) {
   auto& [largest, at_base, at_tool] = cable.pulled.strain;
@@ -283,10 +283,10 @@ void CablePaths::rehearse(std::span<CablePaths* const> all, const SpanBlock& blo
   std::vector<CablePaths*> own;
   std::vector<LooseCables*> cables;
   for (CablePaths* const of : all)
-    if (of->loose_ && std::ranges::find(cables, of->loose_.get()) == cables.end()) {  // of those that share, the first
+    if (of->loose_ && std::ranges::find(cables, of->loose_.get()) == cables.end()) {  // one of those that share
       own.push_back(of);
       cables.push_back(&*of->loose_);
-      of->add_hose(block);  // its twist; add() writes over it
+      of->add_hose(block);  // for its twist; add() overwrites it
     }
   const std::size_t samples = own.empty() ? 0 : block.deformation.samples();
   for (std::size_t first = 0; first < samples; first += rehearsed_at_once) {
@@ -302,7 +302,7 @@ void CablePaths::rehearse(std::span<CablePaths* const> all, const SpanBlock& blo
 }
 
 void CablePaths::add_loose(std::span<CablePaths* const> all, const SpanBlock& block) {
-  std::vector<CablePaths*> moved;  // of those that share, the first
+  std::vector<CablePaths*> moved;  // the first of each set that shares loose cables
   std::vector<LooseCables*> cables;
   for (CablePaths* const of : all) {
     if (std::ranges::find(cables, of->loose_.get()) != cables.end()) continue;
@@ -322,12 +322,12 @@ void CablePaths::add_loose(std::span<CablePaths* const> all, const SpanBlock& bl
   for (CablePaths* const of : moved) of->curvature_->end();
 }
 
-/// Of the hose at sample t of the block.
+/// Writes the hose's state at all nodes, at sample t of the block.
 void CablePaths::find_nodes(const SpanBlock& block, std::size_t t) {
   const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
   const DeformationHistory& deformation = block.deformation;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    // between the centres of two segments or a centre and a known end; else on in a line beyond the last ones
+    // linear between two segment centres or a centre and a known end; extrapolated beyond the outermost centres
     const double along = static_cast<double>(i) / static_cast<double>(elements) * segments - 0.5;
     const auto low = segments < 2 ? 0
                                   : std::min(static_cast<std::size_t>(std::max(0.0, std::floor(along))),
@@ -356,7 +356,7 @@ void CablePaths::see_gain(Cable& cable, std::size_t sample, double gain, double 
   cable.path_gain[1] = std::max(cable.path_gain[1], gain - relief);
 }
 
-/// Of loose cables at sample t of the block, by (W32) with b = 0. nodes: of the hose there.
+/// Updates path_gain of loose cables at sample t of the block, by (W32) with b = 0. nodes: of the hose at this sample.
 void CablePaths::see_gains(const std::vector<HoseNode>& nodes, std::size_t t) {
   const double count = static_cast<double>(nodes.size());
   HoseNode mean;
@@ -374,7 +374,7 @@ void CablePaths::see_gains(const std::vector<HoseNode>& nodes, std::size_t t) {
     const auto [a1, a2] = lies.place;
     const double square = a1 * a1 + a2 * a2, lay = lies.lay_rate;
     double across = mean.curvature1 * a2 - mean.curvature2 * a1;
-    if (lay != 0) {  // its place turns along the hose
+    if (lay != 0) {  // the place rotates along the hose
       across = 0;
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         const double turn = lay * loose_->length() * static_cast<double>(i) / (count - 1);
@@ -384,7 +384,7 @@ void CablePaths::see_gains(const std::vector<HoseNode>& nodes, std::size_t t) {
     }
     const double gain =
         mean.elongation + across + square * (lay * lay + 2 * lay * mean.twist + twisted) / 2;
-    // Alone around the axis it goes to either side of it; then its own place does not matter.
+    // A cable alone around the axis can go to any side of it; its own place then has no influence.
     const bool around = lies.ring == no_ring && lies.play == without_limit;
     const double relief = around ? lies.farthest : std::min(lies.play, lies.ring == no_ring ? without_limit : lies.gap);
     see_gain(cables_[loosened_[k]], next_ + t, (1 + gain - (around ? across : 0)) / (1 + loose_->laid_in(k)) - 1,
@@ -392,7 +392,7 @@ void CablePaths::see_gains(const std::vector<HoseNode>& nodes, std::size_t t) {
   }
 }
 
-/// Before they slide along their paths.
+/// Updates path_gain of held cables. Call before they slide along their paths.
 void CablePaths::see_held_gains() {
   const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
   for (const std::size_t k : held_) {
@@ -408,7 +408,7 @@ void CablePaths::see_held_gains() {
   }
 }
 
-/// t: sample of the block at hand.
+/// t: sample of the present block.
 void CablePaths::shorten_loose(std::size_t t) {
   for (std::size_t k = 0; k < loosened_.size(); ++k)
     loose_->shorten(k, pulled_by_twist(cables_[loosened_[k]], hose_twist_[next_ + t]));
@@ -443,7 +443,7 @@ void CablePaths::put_curvature(std::size_t t) {
       for (std::size_t i = 0; i < segments; ++i) {
         const std::size_t first = i * elements / segments,
                           end = std::max(first + 1, (i + 1) * elements / segments);
-        double sum = 0;  // trapezoids over its elements
+        double sum = 0;  // trapezoidal rule over the elements
         for (std::size_t e = first; e < end; ++e)
           sum += (curvature[2 * e + d] + curvature[2 * (e + 1) + d]) / 2;
         curvature_->at(i, 2 * k + d, t) = static_cast<float>(sum / (end - first));
@@ -497,7 +497,7 @@ class BendingSum {
 
 }  // namespace
 
-/// Of curvature_, where the wires of a segment are evaluated.
+/// Returns the row of curvature_ at which the wires of a segment are evaluated.
 std::size_t CablePaths::wires_at(std::size_t segment) const {
   const std::size_t last = lengths_.size() - 1;
   return known_ends_[0] && segment == 0 ? last + 1 : known_ends_[1] && segment == last ? last + 2 : segment;
@@ -558,9 +558,9 @@ void CablePaths::finish() {
   if (any() && next_ > 0) ask_for_forces();
 }
 
-/// Goes through the motion again and again until it ends as it ended before: what is in memory then is where a
-/// repeat begins. Mostly the last quarter of the motion (repeat -1) leads there, and repeat 0 closes. Else repeat 1 begins with no
-/// memory at the first sample.
+/// Repeats the motion until it ends in the state in which the previous repeat ended. This state is the start of the repeat that
+/// counts. Usually the last quarter of the motion (repeat -1) leads to it, and repeat 0 closes. Otherwise repeat 1 starts
+/// at the first sample without any memory.
 void CablePaths::slide(Cable& cable) {
   const std::size_t segments = cable.rubs ? lengths_.size() : 1;
   std::vector<double> lengths = lengths_;
@@ -594,7 +594,7 @@ void CablePaths::slide(Cable& cable) {
           held[i] = cable.elastic * (cable.along[along_at(i, t)] - mean);
           unslid[i] = cable.along[along_at(i, t)] + by_twist - held[i];
         }
-        for (int attempt = 0; attempt < most_attempts; ++attempt) {  // limits depend on the tension itself
+        for (int attempt = 0; attempt < most_attempts; ++attempt) {  // limits depend on the tension
           double changed = 0;
           for (std::size_t i = 1; i < segments; ++i) {
             const double pressing = (cable.pressing[along_at(i - 1, t)] + cable.pressing[along_at(i, t)]) / 2;
@@ -607,7 +607,7 @@ void CablePaths::slide(Cable& cable) {
           }
           if (attempt > 0 && changed < settled * cable.axial_stiffness) break;
           line.attempt(unslid, limits);
-          if (cable.loose) break;  // its limits do not depend on its tension
+          if (cable.loose) break;  // the limits of a loose cable do not depend on its tension
         }
         line.keep();
         if (cable.rubbing) record_slide(cable, line, unslid, t);
@@ -626,7 +626,7 @@ void CablePaths::slide(Cable& cable) {
   strain = std::move(slid);
 }
 
-/// A sample's sliding along the hose (W41). unslid: strains if nothing slid.
+/// Records the sliding along the hose of one sample (W41). unslid: strains without sliding.
 void CablePaths::record_slide(Cable& cable, const SlidingLine& line, std::span<const double> unslid,
                               std::size_t sample) const {
   double begin = line.let_in_at_base();
@@ -639,8 +639,8 @@ void CablePaths::record_slide(Cable& cable, const SlidingLine& line, std::span<c
   }
 }
 
-/// Strains that cause forces. A cable's force grows with its strain, so the largest strain gives the largest force.
-/// Twist also strains its wires. A cable that shortens by this amount has no force (a weight at its end instead of a
+/// Stores the strains that cause forces. A cable's force grows with its strain, so the largest strain gives the largest force.
+/// Twist also strains its wires. A cable that shortens by this amount is free of force (a weight at its end instead of a
 /// second clamp).
 void CablePaths::ask_for_forces() {
   const std::size_t last = lengths_.size() - 1;

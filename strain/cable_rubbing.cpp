@@ -9,7 +9,8 @@ namespace dresslife::strain {
 
 double CableRubbing::width() { return 2 * std::numbers::pi / sectors; }
 
-/// guess: a sector that it may be. A cable stays in its sector for many samples: then no angle is computed.
+/// Returns the sector of a direction. guess: is tested first without computing an angle, because a cable stays in its sector for
+/// many samples.
 std::size_t CableRubbing::sector_of(double x, double y, std::size_t guess) {
   static const auto borders = [] {
     std::array<std::array<double, 2>, sectors + 1> of;
@@ -38,7 +39,7 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
       laid_.push_back({std::cos(turn) * cable.place[0] - std::sin(turn) * cable.place[1],
                        std::sin(turn) * cable.place[0] + std::cos(turn) * cable.place[1]});
     }
-  // At the core it touches with its inner side.
+  // Within this radius the cable is nearer to the core, and touches with its inner side.
   const double between = cable.farthest < without_limit ? (cable.nearest + cable.farthest) / 2 : 0;
   const auto pressing = [](const std::vector<double>& of, std::size_t element) {
     return (of[element] + of[element + 1]) / 2;

@@ -91,7 +91,7 @@ const double* ClampMeans::of_node(int part, int layer, int node) const {
 std::vector<double> ClampMeans::at_angle(int part, int layer, double turn) const {
   std::vector<double> strain(stride_, 0.0);
   for (int node = 0; node < waves_per_layer; ++node) {
-    // the value at one angle of the five waves through the nodes: Dirichlet's kernel
+    // value at one angle of the five waves through the nodes: Dirichlet's kernel
     const double away = turn - 2 * std::numbers::pi * node / waves_per_layer;
     const double share = (1 + 2 * std::cos(away) + 2 * std::cos(2 * away)) / waves_per_layer;
     const double* of = of_node(part, layer, node);

@@ -1,6 +1,6 @@
-// The axial strain of what slides from clamp to clamp and is no cable: (path length now)/(path length at
-// rest) - 1 over all segments (README W10). Built sample by sample in blocks that hold every segment, read
-// per segment afterwards.
+// Axial strain of parts that slide from clamp to clamp and are no cables: (path length now)/(path length at rest) - 1 over all
+// segments ((W10) in strain/theory.md). It is computed in blocks of samples that contain every segment, and read per segment
+// later.
 #pragma once
 
 #include <limits>
@@ -15,39 +15,39 @@ namespace dresslife::strain {
 
 class ClampMeans {
  public:
-  /// lengths, arcs: rest length and centre of each segment [m]. samples: of the whole history.
+  /// lengths, arcs: rest length and centre of each segment [m]. samples: number in the whole history.
   ClampMeans(const Construction& construction, std::vector<LayerSlip> plan, std::vector<double> lengths,
              std::vector<double> arcs, std::size_t samples);
 
-  /// The next samples: of one segment after the other, then next_block(). motion: of these samples.
+  /// Adds the next samples of one segment. Call for each segment, then next_block(). motion: of these samples.
   void add(std::size_t segment, const SegmentMotion& motion);
   void next_block();
 
   const std::vector<LayerSlip>& plan() const { return plan_; }
-  /// Friction gathers over no more than this length (shortened()); returns the longest length of the plan.
+  /// Limits the length over which friction gathers (shortened()). Returns the longest evening length of the plan.
   ShortenedPlan shorten(double bend_wave);
-  /// The same with so many times the friction. glued: nothing slips, not even where compression takes the pressure
-  /// away, on which any finite friction acts. Precondition: all samples have been added.
+  /// Returns these means with `factor` times the friction. glued: nothing slips, not even where compression removes the pressure
+  /// and any finite friction with it. Precondition: all samples were added.
   static constexpr double glued = std::numeric_limits<double>::infinity();
   ClampMeans rubbing(double factor) const;
   bool needed() const { return !groups_.empty(); }
 
-  /// (sample) strain of a part; null when it does not slide from clamp to clamp.
+  /// Returns the strain of a part (sample); null if it does not slide from clamp to clamp.
   const double* of_part(int part) const;
-  /// (sample) strain of node `node` of the waves_per_layer nodes around wire layer `layer` in `part`.
+  /// Returns the strain (sample) of node `node` of the waves_per_layer nodes of wire layer `layer` in `part`.
   const double* of_node(int part, int layer, int node) const;
-  /// (sample) strain at any angle around the layer, from its nodes; `turn` counts from wire 1.
+  /// Returns the strain (sample) at any angle around the layer, from its nodes. turn: counted from wire 1 [rad].
   std::vector<double> at_angle(int part, int layer, double turn) const;
 
-  /// Gives each sliding step of `nesting` its strains, from sample `first` on; motion: there, for cables.
+  /// Gives each sliding step of `nesting` its strains from sample `first` on. motion: at these samples, for cables.
   void attach(BundleNesting& nesting, int part, const SegmentMotion& motion, std::size_t first = 0) const;
 
  private:
-  struct Group {  ///< what slides in one parent
+  struct Group {  ///< the sliding parts of one parent
     int parent;
     PathRates rates;
-    std::vector<std::size_t> rows;  ///< of strain_, one per member
-    std::vector<double> path{};     ///< (member, sample) of the block so far [m]
+    std::vector<std::size_t> rows;  ///< (member) index into strain_
+    std::vector<double> path{};     ///< (member, sample) sum over the segments of the present block [m]
     std::vector<double> rest{};     ///< (member) [m]
   };
 

@@ -52,7 +52,7 @@ Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinem
   list_parts(dresspack_itself, dresspack_itself);
 }
 
-/// After friction_level(): a factor on what a measured stiffness has set, too.
+/// Applies the factors. Call after friction_level(), because they also scale the values that a measured stiffness has set.
 void Construction::scale(Layer& layer, const pipeline::StrainFactors& factors) const {
   const bool in_hose = layer.is_cable() && section_.inner_radius < without_limit;
   layer.friction *= in_hose ? factors.hose_friction : factors.friction;
@@ -157,7 +157,7 @@ int Construction::cable_of(int part) const {
   return static_cast<int>(std::lower_bound(cables_.begin(), cables_.end(), part) - cables_.begin());
 }
 
-/// The thesis knows no hands: all its lay angles are positive.
+/// Returns the lay angle of the kinematics. The thesis does not know hands: all its lay angles are positive.
 double Construction::lay_angle(const Layer& layer) const {
   return is_thesis(kinematics_) ? std::abs(layer.lay_angle) : layer.lay_angle;
 }

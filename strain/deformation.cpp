@@ -20,21 +20,21 @@ Quaterniond orientation_at(std::span<const double> orientations, std::size_t i) 
   return {orientations[4 * i], orientations[4 * i + 1], orientations[4 * i + 2], orientations[4 * i + 3]};
 }
 
-/// The rotation vector of a quaternion, the shorter way round. Scale of the quaternion does not matter.
+/// Returns the rotation vector of a quaternion, at most half a turn. The norm of the quaternion has no influence.
 Vector3d logarithm(const Quaterniond& q) {
   const double side = q.w() < 0 ? -1 : 1, sine = q.vec().norm();
-  // angle/sine of the half angle tends to 2/w; below 1e-9 the difference is lost in rounding
+  // angle/sine of the half angle tends to 2/w; below 1e-9 the difference is less than rounding
   if (sine < 1e-9 * std::abs(q.w())) return 2 / q.w() * q.vec();
   return side * 2 * std::atan2(sine, side * q.w()) / sine * q.vec();
 }
 
-/// The part of a rotation about body z, in (-pi, pi].
+/// Returns the rotation about body z that a quaternion contains, in (-pi, pi].
 double angle_about_tangent(const Quaterniond& q) {
   const double side = q.w() < 0 ? -1 : 1;
   return 2 * std::atan2(side * q.z(), side * q.w());
 }
 
-/// Value at `at` on the line through (from, a) and (to, b).
+/// Returns the value at `at` on the line through (from, a) and (to, b).
 Vector3d on_line(double at, double from, const Vector3d& a, double to, const Vector3d& b) {
   return a + (at - from) / (to - from) * (b - a);
 }
@@ -45,22 +45,22 @@ void set(Deformation& deformation, const Vector3d& rate) {
   deformation.twist = rate[2];
 }
 
-/// Curvature vector of the circle through b and its neighbours a and c, in the frame of b: t x (direction to
-/// the centre)/r. 4 K / (A B C) with K the triangle's area (24).
+/// Returns the curvature vector of the circle through b and its neighbours a and c, in the frame of b: t x (direction to
+/// the centre)/r. Its size is 4 K / (A B C), K the area of the triangle (24).
 Vector3d circle_curvature(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Quaterniond& frame) {
   const Vector3d before = b - a, after = c - b, across = c - a;
-  const Vector3d normal = before.cross(after);  // twice the area, about the axis of the bend
+  const Vector3d normal = before.cross(after);  // length: twice the area; direction: axis of the bend
   return frame.conjugate() * (2 * normal / (before.norm() * after.norm() * across.norm()));
 }
 
 constexpr std::size_t fewest_for_curves = 7;
 
-/// The parabola p through (5/12 p(0) + 13/12 p(1)) / (3/2), p(2) and p(3) at 1/2, 3/2 and 5/2: factors of
-/// these three.
+/// Values at 1/2, 3/2 and 5/2 of the parabola p through (5/12 p(0) + 13/12 p(1)) / (3/2), p(2) and p(3): factors of
+/// these three data.
 constexpr std::array<std::array<double, 3>, 3> end_weights{{{135.0 / 112, -55.0 / 224, 9.0 / 224},
                                                             {27.0 / 112, 213.0 / 224, -43.0 / 224},
                                                             {-9.0 / 112, 153.0 / 224, 89.0 / 224}}};
-/// The same parabola at 0.
+/// Factors for the value of this parabola at 0.
 constexpr std::array<double, 3> clamp_weights{54.0 / 28, -39.0 / 28, 13.0 / 28};
 
 }  // namespace
@@ -73,7 +73,7 @@ DeformationGauge::DeformationGauge(std::vector<double> lengths, pipeline::Deform
       links_(lengths_.size() + 1) {
   assert(!lengths_.empty());
   const auto [shortest, longest] = std::minmax_element(lengths_.begin(), lengths_.end());
-  equal_lengths_ = *longest - *shortest <= 1e-9 * *longest;  // rounding of a length divided by a number
+  equal_lengths_ = *longest - *shortest <= 1e-9 * *longest;  // rounding when a length is divided by the number of segments
   link_lengths_.push_back(lengths_.front() / 2);
   for (std::size_t i = 1; i < lengths_.size(); ++i)
     link_lengths_.push_back((lengths_[i - 1] + lengths_[i]) / 2);
@@ -157,11 +157,11 @@ void DeformationGauge::rotation_vectors(std::span<Deformation> out) const {
   set(out[segments - 1], (3 * *free_end_ + 6 * rate(segments - 1) - rate(segments - 2)) / 8);
 }
 
-/// The same for unequal lengths or few segments: the value at the centre on the line through the two links,
-/// where the two outermost links are one in the middle of their sum.
+/// Rotation rates for unequal lengths or few segments: the value at the centre, on the line through two links. The two outermost
+/// links of an end are merged into one at the middle of their common length.
 void DeformationGauge::rotation_vectors_on_lines(std::span<Deformation> out) const {
   const std::size_t segments = lengths_.size();
-  if (segments < 4) {  // too few links for a line beside the merged end links: plain means
+  if (segments < 4) {  // too few links for a line beside the merged end links: mean values
     for (std::size_t i = 0; i < segments; ++i)
       set(out[i], (links_[i].rotation + links_[i + 1].rotation) / (link_lengths_[i] + link_lengths_[i + 1]));
     return;

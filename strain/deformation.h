@@ -1,32 +1,30 @@
-// From the poses of the segments to curvature, twist and elongation of the dresspack in each segment (README
-// W1-W4).
+// Curvature, twist and elongation of the dresspack in each segment, from the poses of the segments ((W1) to (W4), (W39)).
 //
-// Links: 0 ties the base clamp to segment 0, link i segment i-1 to segment i, link N the last segment to the
-// tool clamp. A link spans the rest length between what it ties: half a segment at a clamp.
+// Links: link 0 connects the base clamp to segment 0, link i segment i-1 to segment i, link N the last segment to the tool
+// clamp. A link has the rest length between the poses that it connects: half a segment at a clamp.
 //
-// `rotation_vector` (default): phi_i = log(q_a^* q_b) of link i, in the frame both sides share (a rotation
-// leaves its axis where it is), over the link's length: (curvature1, curvature2, twist) at the link (W1). In
-// the simulated chain that is the curvature there to the accuracy of the simulation, but for the two
-// outermost links, whose compliances are 5/12 and 13/12 of a segment instead of 1/2 and 1 (Gregory's end
-// correction). They enter through their sum only,
-//     (phi_0 + phi_1) / (3/2 l) = (5/12 kappa(0) + 13/12 kappa(l)) / (3/2),
-// which is also right for a uniform curve whose clamp links are half a segment. A segment takes the value at
-// its centre of the cubic through the four links around it, the outermost three segments of the parabola
-// through that sum and the next two links (W2): fourth and third order in l for the simulated chain. On poses
-// sampled from a smooth curve phi_i is the mean over the link: second order inside; 0.03 of the change of
-// curvature over one segment in the outermost ones.
+// `rotation_vector` (default): phi_i = log(q_a^* q_b) of link i, in the frame that both sides share (a rotation does not
+// change its axis). phi_i over the link's length is (curvature1, curvature2, twist) at the link (W1). In the simulated chain
+// this is the curvature to the accuracy of the simulation, except at the two outermost links. Their compliances are 5/12 and
+// 13/12 of a segment instead of 1/2 and 1 (Gregory's end correction). They enter by their sum only:
+//     (phi_0 + phi_1) / (3/2 l) = (5/12 kappa(0) + 13/12 kappa(l)) / (3/2).
+// This holds also for a uniform curve whose clamp links are half a segment. The value of a segment (W2) is that of a curve at
+// the segment's centre: of the cubic through the four links around it, or in the outermost three segments of the parabola
+// through this sum and the next two links. For the simulated chain the errors are of fourth and third order in l. For poses
+// sampled from a smooth curve phi_i is the mean over the link: second order inside, and in the outermost segments an error of
+// 0.03 of the change of curvature over one segment.
 //
-// A hose bends most at its clamps, half a segment beyond the centre of its outermost segment. The same parabola gives
-// the rates there, with third order in l (W39):
+// A hose bends most at its clamps, half a segment beyond the centre of its outermost segment. The same parabola gives the rates
+// at the clamp, with an error of third order in l (W39):
 //     rate at the clamp = (54 (phi_0 + phi_1)/(3/2 l) - 39 phi_2/l + 13 phi_3/l) / 28.
 //
-// `thesis` (Backman 3.2): 1/r = 4 K/(A B C) of the circle through three successive centres (24), pointing to
-// the side of the neighbours in the segment's own frame; twist = the angle of q_{i-1}^* q_i about the tangent
-// over the length, mean of both sides (W4). End segments take the curvature of their neighbour. Error of
-// second order inside, of first at the ends.
+// `thesis` (Backman 3.2): 1/r = 4 K/(A B C) of the circle through three successive centres (24), directed to the side of the
+// neighbours in the segment's own frame. Twist = the angle of q_{i-1}^* q_i about the tangent over the length, mean of both
+// sides (W4). End segments have the curvature of their neighbour. The error is of second order inside, of first order at the
+// ends.
 //
-// Elongation, both: gap between the ends that a link ties, along the tangent, over the link's length, mean of
-// both sides (W3).
+// Elongation, in both: distance between the poses that a link connects, along the tangent, over the link's length; mean of both
+// sides (W3).
 #pragma once
 
 #include <Eigen/Core>
@@ -46,7 +44,7 @@ struct Deformation {
   double elongation = 0;                  ///< relative change of length
 };
 
-/// Poses at one sample, laid out as in motion.h5: clamps are the base end (first) and the tool end (last).
+/// Poses at one sample, in the layout of motion.h5. Of the clamps, the first is the base end and the last the tool end.
 struct ChainPose {
   std::span<const double> segment_position;     ///< (segment, xyz) [m]
   std::span<const double> segment_orientation;  ///< (segment, wxyz), body to world, body z = tangent
@@ -56,21 +54,21 @@ struct ChainPose {
 
 class DeformationGauge {
  public:
-  /// lengths: rest length of each segment [m]. free_end: where the tool end is free, the rotation rates of
-  /// the unloaded dresspack about d1, d2, d3, which it has there [1/m].
+  /// lengths: rest length of each segment [m]. free_end: rotation rates of the unloaded dresspack about d1, d2, d3 [1/m], which
+  /// a free tool end has; empty: a clamp holds the tool end.
   DeformationGauge(std::vector<double> lengths, pipeline::DeformationMeasure measure,
                    std::optional<Eigen::Vector3d> free_end = {});
 
-  /// The deformation of every segment. Precondition: `pose` has as many segments, `out` too.
+  /// Writes the deformation of every segment. Precondition: `pose` and `out` have one entry per segment of `lengths`.
   void measure(const ChainPose& pose, std::span<Deformation> out);
-  /// Whether base and tool end have a deformation of their own (W39). A free end does not need one, and `thesis`, unequal
-  /// lengths and fewer than seven segments do not give one.
+  /// Returns whether the deformation at the base end and at the tool end is known (W39). A free end does not need it. `thesis`,
+  /// unequal lengths and fewer than seven segments do not give it.
   std::array<bool, 2> knows_ends() const;
-  /// Replaces the outermost segments' deformation, as measure() gave it last, by that at the ends which knows_ends() names.
+  /// Replaces the outermost segments' deformation of the last measure() by that at the ends for which knows_ends() is true.
   void move_to_ends(std::span<Deformation> out) const;
 
  private:
-  /// Per link: what ties a to b.
+  /// One link, which connects pose a to pose b.
   struct Link {
     Eigen::Vector3d rotation;  ///< log(q_a^* q_b) [rad]
     double tangent_angle;      ///< of q_a^* q_b about the tangent [rad]

@@ -16,7 +16,7 @@
 namespace dresslife::strain {
 namespace {
 
-// Of the bundles whose results wait to be written, half for each thread: enough to bridge a slow write.
+// Per thread, twice as many bundles as have this number of samples may wait to be written: enough to bridge a slow write.
 constexpr std::size_t samples_at_a_time = 1 << 14;
 
 std::vector<double> centres(const std::vector<double>& lengths, double start) {
@@ -43,8 +43,8 @@ double clamped(const SpanPlace& place, const std::vector<double>& lengths) {
   return std::max(place.clamped_length, total(lengths));
 }
 
-/// Inside the cables everything sticks or slides; cables themselves do what the job has them do, or where
-/// they stick in the job, what is inside does: stuck to the hose, or sliding at their places.
+/// Returns a plan in which all parts inside the cables stick or slide. Cables that slide in the job keep their plan. Cables that
+/// stick in the job stick, or slide at their own places, like the parts inside.
 std::vector<LayerSlip> bound_plan(const Construction& construction, const std::vector<LayerSlip>& own,
                                   pipeline::Slip inside, double free_length) {
   std::vector<LayerSlip> plan = plan_slip(construction, {inside}, free_length);
@@ -65,9 +65,9 @@ bool slips_only(const pipeline::Strain& settings, pipeline::Slip slip) {
   return std::ranges::all_of(settings.slip, [&](pipeline::Slip own) { return own == slip; });
 }
 
-/// Something like the damage of Smith, Watson and Topper where the metal yields: sum of (range times stress
-/// of the tensile peak)^2.5 between neighbours, stress growing as the fifth root of strain (copper's n' is
-/// 0.19). It finds wires that many middling cycles damage, which StrainMeasures::cycle_sum misses.
+/// Returns a measure of the damage of Smith, Watson and Topper for a yielding metal: the sum of (range times stress of the
+/// tensile peak)^2.5 between neighbours; stress grows as the fifth root of strain (copper's n' is 0.19). It finds wires that
+/// many medium cycles damage, which StrainMeasures::cycle_sum misses.
 float yielding_cycle_sum(std::span<const float> strains) {
   float sum = 0;
   for (std::size_t k = 1; k < strains.size(); ++k) {
@@ -306,8 +306,7 @@ BundleNesting Evaluation::layer_nesting(const Bundle& bundle, std::size_t segmen
   return nesting;
 }
 
-/// Whether every part that is moved on along its pitch in this nesting lies in the nesting's last part's
-/// parent or below.
+/// Returns whether every part that the nesting moves along its pitch is the parent of the nesting's last part or lies in it.
 bool parent_suffices(const BundleNesting& nesting) {
   const int steps = static_cast<int>(nesting.steps.size());
   auto reaches_above = [&](const SlidingNumbers& slide) {
@@ -374,7 +373,7 @@ void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, cons
   if (found_.size() < ahead) found_.resize(ahead);
   pipeline::in_order(
       threads, bundles, ahead,
-      [&](std::size_t part, std::size_t b) {  // alone: who takes it makes no difference
+      [&](std::size_t part, std::size_t b) {  // no shared state: the thread has no influence on the result
         scan_bundle(b, segment, means, motion, with_rows, workers_[part], found_[b % ahead]);
       },
       [&](std::size_t b) { use(found_[b % ahead]); });
@@ -400,7 +399,7 @@ BundleNesting Evaluation::site_nesting(std::span<const Site> sites, std::size_t 
 
 namespace {
 
-/// Its strain as one that counts shear, too.
+/// Replaces the strain by the equivalent strain with shear.
 void count_shear(FibreHistory& both) {
   for (std::size_t t = 0; t < both.strain.size(); ++t)
     both.strain[t] =
@@ -480,7 +479,7 @@ std::vector<FibreHistory> Evaluation::fibre_histories(std::span<const Site> site
   return all;
 }
 
-/// What Kernels::mix does, of one fibre in double precision. rows: its ingredients.
+/// Does the work of Kernels::mix for one fibre in double precision. rows: its ingredients.
 FibreHistory Evaluation::mixed_history(const WireNode& node, const Fibre& fibre, const LayerSlip& slip,
                                        const double* rows, std::size_t samples, bool with_shear) const {
   const std::size_t stride = padded(samples);
@@ -508,7 +507,7 @@ FibreHistory Evaluation::mixed_history(const WireNode& node, const Fibre& fibre,
   return both;
 }
 
-/// Radius, lay angle and phase of every level down to `part`; wires' own level and those below are 0.
+/// Returns radius, lay angle and phase of every level down to `part`; 0 for the level of the wires and below.
 std::vector<double> Evaluation::helix_of(int part, std::size_t segment) const {
   std::vector<double> helix(3 * place_.levels, 0.0);
   for (int inner = part; inner != dresspack_itself; inner = construction_.parts()[inner].parent) {
@@ -538,7 +537,7 @@ void Evaluation::append_site(SiteRows& rows, Site site, std::size_t segment,
                     {on_axis ? 0 : layer.part_radius, fibre_angle(site.fibre, surface_fibres_)});
 }
 
-/// Returns their strains.
+/// Returns the strains of the appended points.
 std::span<const float> Evaluation::append_points(SiteRows& rows, std::span<const TurningPoint> points) {
   const std::size_t first = rows.strain.size();
   rows.turning.push_back(points.size());
@@ -562,7 +561,7 @@ Evaluation::SiteMeasures Evaluation::seen(Site site, const StrainMeasures& of) {
   seen.by[Worst::range_times_tension] = range * tension;
   seen.by[Worst::cycles] = of.cycle_sum;
   seen.by[Worst::ranges] = of.range_sum;
-  seen.by[Worst::yielding_cycles] = -1;  // asked of wires only whose planes are judged
+  seen.by[Worst::yielding_cycles] = -1;  // set only for wires whose planes are evaluated
   return seen;
 }
 
@@ -606,7 +605,7 @@ void Evaluation::find_likely(const std::vector<const Worst*>& wires) {
   float most = 0;
   for (const Worst* const layer : wires) most = std::max(most, layer->value[Worst::cycles]);
   constexpr float near =
-      1e-2f;  // of a sum of sixth powers: a layer that sees less than half as much stays behind
+      1e-2f;  // share of a sum of sixth powers: layers with less than half of the largest strain are dropped
   for (const Worst* const layer : wires) {
     if (layer->value[Worst::cycles] < near * most) continue;
     for (const Worst::By by : {Worst::range, Worst::range_times_tension}) likely_.push_back(layer->site[by]);
@@ -632,8 +631,8 @@ std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const
       worst_segment_ = segment;
     }
   }
-  // Two of either: in three of the four shipped programs the wire that is damaged most of all is among them,
-  // in the fourth it is the 19th by cycles.
+  // Two of each sum: in three of the four shipped programs the wire with the largest damage is among them, in the fourth it is
+  // the 19th by cycles.
   constexpr std::size_t by_sum = 2;
   for (std::size_t sum = 0; sum < Worst::sums.size(); ++sum) {
     std::vector<std::pair<float, Site>> most;
@@ -742,7 +741,7 @@ void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment,
 std::vector<Evaluation::Site> Evaluation::sites_of_bound(const std::vector<Worst>& worst,
                                                          Bound& bound) const {
   constexpr float nearly =
-      0.7f;  // where all slides, hundreds of wires have sums so near the largest, and any may be the worst
+      0.7f;  // in the free bound hundreds of wires have sums this near the largest, and any of them can be the worst
   bound.most.resize(worst.size());
   std::set<Site> sites;
   for (std::size_t k = 0; k < worst.size(); ++k) {
@@ -775,7 +774,7 @@ std::vector<std::vector<TurningList>> Evaluation::turning_of(const std::vector<S
                                                              std::size_t segment,
                                                              const std::vector<const ClampMeans*>& ways,
                                                              const SegmentMotion& motion) {
-  std::vector<std::size_t> cuts;  // where the fibre or the bundle changes: one nesting for all of a piece
+  std::vector<std::size_t> cuts;  // indices at which the fibre or the bundle changes: one nesting serves a whole piece
   const auto piece = [&](std::size_t k) { return std::pair(list[k].fibre, wires_[list[k].wire].bundle); };
   for (std::size_t k = 0; k < list.size(); ++k)
     if (k == 0 || piece(k) != piece(k - 1)) cuts.push_back(k);

@@ -6,8 +6,8 @@
 namespace dresslife::strain {
 namespace {
 
-/// Rows of deviations (mean, then the powers) to what is held of them (the powers), from where one repeat
-/// leaves them.
+/// Computes the held strain `held` (its powers) from the rows of deviations (the mean, then the powers), from the state in which
+/// one repeat leaves the slider.
 void hold(const std::vector<double>& deviations, int powers, std::size_t stride, std::size_t samples,
           const LayerSlip& slip, std::vector<double>& held) {
   held.assign(powers * stride, 0.0);
@@ -17,7 +17,7 @@ void hold(const std::vector<double>& deviations, int powers, std::size_t stride,
   const auto cap = [&](std::size_t t) { return cap_at(slip.cap, deviations[t]); };
   Slider slider(settled_slip(samples, deviation, cap));
   double before = slider.slip();
-  for (std::size_t t = 0; t < samples; ++t) {  // slips alone: each waits for the one before, in a register as long as nothing is called
+  for (std::size_t t = 0; t < samples; ++t) {  // slips only: the previous one stays in a register, since no function is called
     slider.next(deviation(t), cap(t));
     held[t] = slider.slip();
   }
@@ -27,8 +27,8 @@ void hold(const std::vector<double>& deviations, int powers, std::size_t stride,
     before = held[t];
     held[t] = deviation(t) - held[t] + slip.elastic * away[t];
   }
-  // The slope of the held strain follows the deviation's while the slider sticks. While it slides it is that of the cap,
-  // none. The last slide may lie in the first repeat, with the slip at one of its limits.
+  // While the slider sticks, the slope of the held strain changes with that of the deviation. While it slides, the slope is that
+  // of the cap, zero. The last slide may lie in the previous repeat, with the slip at one of its limits.
   std::optional<std::size_t> last;
   if (!slid.empty()) last = slid.back();
   for (std::size_t t = samples; !last && before != 0 && t-- > 0;)
@@ -49,7 +49,7 @@ void hold(const std::vector<double>& deviations, int powers, std::size_t stride,
   }
 }
 
-/// Level of the nearest helical ancestor of the last part of `line`; 0: the part itself, or there is none.
+/// Returns the level of the nearest helical ancestor of the last part of `line`; 0: the part itself is helical, or no ancestor.
 int turned_level(const Construction& construction, const std::vector<int>& line) {
   for (int k = static_cast<int>(line.size()) - 1; k >= 0; --k) {
     const Layer& layer = construction.layers()[construction.parts()[line[k]].layer];
@@ -97,7 +97,7 @@ const HeldStrains::Rows& HeldStrains::rows_of(int part, int level) {
   return rows;
 }
 
-/// The parts above are asked for on the way, each of them at a level of its own.
+/// Returns the nesting to a part. Requests the held strains of the parts above, each of which is stored at its own level.
 BundleNesting HeldStrains::nesting_of(int part) {
   BundleNesting nesting = nesting_to(construction_, means_.plan(), part, arc_, surface_fibres(0));
   means_.attach(nesting, part, *motion_);

@@ -1,15 +1,13 @@
-// Friction between a component and what it lies against (README W16, W17).
+// Friction between a component and its contact partners ((W16) and (W17) in strain/theory.md).
 //
-// A glued component's strain deviates from its mean over the length within which it evens out
-// (strain/slip.h). Friction holds that deviation up to a cap. Along the component its force changes by at
-// most mu p per length, p the radial line load; from where the deviation is zero to where it is largest is a
-// quarter of the evening length s, so
+// The strain of a glued component deviates from its mean over the length within which it evens out (strain/slip.h). Friction
+// holds this deviation up to a cap. Along the component its force changes by at most mu p per length; p is the radial line
+// load. The distance from zero to largest deviation is a quarter of the evening length s, therefore
 //     cap = mu p s / (4 E A),   p = q + T sin^2(alpha) / R,   T = T0 + E A x mean strain, not below 0   (W16)
-// which for a helix, s = 2 pi R / sin(alpha), is Papailiou's (pi/2) k_slip R cos^2(alpha) with
-// k_slip = mu p / (E A cos^2(alpha) sin(alpha)), and holds for straight components as well.
-// The deviation goes through an elastic-perfectly-plastic slider (W17): held = deviation - slip, and the slip
-// gives way when |held| would exceed the cap. E A x held x d(slip) >= 0 is the friction's work per length:
-// a closed loop can only lose energy.
+// For a helix, s = 2 pi R / sin(alpha), this is Papailiou's (pi/2) k_slip R cos^2(alpha) with
+// k_slip = mu p / (E A cos^2(alpha) sin(alpha)). It holds for straight components as well.
+// The deviation passes through an elastic-perfectly-plastic slider (W17): held = deviation - slip. The slip changes when |held|
+// would exceed the cap. E A x held x d(slip) >= 0 is the work of friction per length: a closed loop only loses energy.
 //
 // Source: K. Papailiou, On the bending stiffness of transmission line conductors, IEEE Trans. Power Delivery
 // 12 (1997); F. Foti and L. Martinelli, J. Sound Vib. 370 (2016).
@@ -29,9 +27,9 @@ class Slider {
  public:
   Slider() = default;
   explicit Slider(double slip) : slip_(slip) {}
-  /// What is held of the next deviation. cap >= 0.
+  /// Returns the held part of the next deviation. cap >= 0.
   double next(double deviation, double cap) {
-    slip_ = std::clamp(slip_, deviation - cap, deviation + cap);  // not a rounding changes the slip while it sticks
+    slip_ = std::clamp(slip_, deviation - cap, deviation + cap);  // a stuck slip is not changed by rounding
     return deviation - slip_;
   }
   double slip() const { return slip_; }
@@ -40,9 +38,9 @@ class Slider {
   double slip_ = 0;
 };
 
-/// Slip of a slider at the end of the first repeat of the motion (W17). Every sample keeps the slip between its
-/// deviation less and plus its cap. From the last sample backward these limits close, mostly within a few
-/// samples, and then no earlier sample counts. deviation(t), cap(t) >= 0: of sample t, strains; infinite: glued.
+/// Returns the slip of a slider at the end of the first repeat of the motion (W17). Every sample limits the slip to its
+/// deviation minus and plus its cap. From the last sample backward these limits close, usually within a few samples; earlier
+/// samples then have no influence. deviation(t), cap(t) >= 0: strains at sample t; an infinite cap: glued.
 double settled_slip(std::size_t samples, const auto& deviation, const auto& cap) {
   constexpr double none = std::numeric_limits<double>::infinity();
   double low = -none, high = none;
@@ -59,13 +57,13 @@ inline double cap_at(const FrictionCap& cap, double mean) {
   return std::max(0.0, cap.constant + cap.per_mean * mean);
 }
 
-/// What friction holds a share of: the mean of a part and its deviation from it as a series, (1 + power,
-/// sample). Of the part asked for last, and of its parent the state from which all parts in it go on.
+/// Input of friction: mean of a part, and its deviation from the mean as a series: (1 + power, sample). Stores the part of the
+/// last request, and the state of its parent, from which all parts in the parent are computed.
 struct PartDeviations {
   struct Of {
     int part = -1, turn = -1;
     const ClampMeans* means =
-        nullptr;  ///< null: the same for any friction, since it holds nothing of the parts above
+        nullptr;  ///< null: independent of friction, because no part above has friction
     bool operator==(const Of&) const = default;
   };
   Of of;
@@ -74,14 +72,14 @@ struct PartDeviations {
   PartStates parent;
 };
 
-/// What friction holds of the strains of the parts on the way to one bundle, over the whole motion. The
-/// sliders start where one repeat of the motion leaves them: slip settles in the first, and life is counted
-/// in many. Of every level the part asked for last is kept: bundles come part by part, and all parts of a
-/// segment would be hundreds of histories.
+/// The strains that friction holds in the parts from the dresspack to one bundle, over the whole motion. The sliders start in
+/// the state in which one repeat of the motion leaves them: slip settles in the first repeat, and life counts many. For each
+/// level only the part of the last request is stored: bundles come part by part, and all parts of a segment would need
+/// hundreds of histories.
 class HeldStrains {
  public:
-  /// shared: by those that differ in how hard friction is, and in nothing else; they begin together. order: of the
-  /// series that the wires need of the part in which they lie (order_for()).
+  /// shared: used by all objects that differ only in the friction factor; begin() is called for all of them together. order: of
+  /// the series that the wires need of the part that contains them (order_for()).
   HeldStrains(const Construction& construction, const ClampMeans& means,
               std::shared_ptr<PartDeviations> shared = std::make_shared<PartDeviations>(), int order = 1)
       : construction_(construction),
@@ -90,14 +88,14 @@ class HeldStrains {
         kept_(construction.levels()),
         deviations_(std::move(shared)) {}
 
-  /// Memory that it takes in the end, for a motion of so many samples.
+  /// Returns the memory after all requests [bytes], for a motion with this number of samples.
   std::size_t bytes(std::size_t samples) const;
 
-  /// Forgets all. motion: of the segment whose centre lies at `arc` [m]; it is read until the next begin().
+  /// Discards all results. motion: of the segment whose centre lies at `arc` [m]; it is read until the next begin().
   void begin(double arc, const SegmentMotion& motion);
 
-  /// Gives each part of `nesting`, which ends in `part`, what friction holds of it: good until a part beside
-  /// one of them is asked for.
+  /// Gives each part of `nesting`, which ends in `part`, its held strain. The pointers are valid until another part of one of
+  /// these levels is requested.
   void attach(BundleNesting& nesting, int part);
 
  private:
@@ -109,7 +107,7 @@ class HeldStrains {
   };
 
   bool any_turned() const;
-  /// Of the series of a part of this level, from 0: each level below takes one order.
+  /// Returns the number of powers of the series of a part of this level (from 0): each level below needs one order more.
   int powers(int level) const { return construction_.levels() - 1 - level + order_; }
   const Rows& rows_of(int part, int level);
   void fill(Rows& rows, int part);

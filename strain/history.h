@@ -1,5 +1,4 @@
-// The deformation of segments over time, laid out for the kernels: one padded row of samples per segment and
-// channel.
+// The deformation of segments over time, in the layout of the kernels: for each segment and channel one row of samples, padded.
 #pragma once
 
 #include <vector>
@@ -9,7 +8,7 @@
 
 namespace dresslife::strain {
 
-/// Samples up to what the kernels work on at a time.
+/// Returns the number of samples, rounded up to a multiple of the number that the kernels process at a time.
 inline std::size_t padded(std::size_t samples) { return (samples + padding - 1) / padding * padding; }
 
 class DeformationHistory {

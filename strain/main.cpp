@@ -1,4 +1,4 @@
-// dresslife-strain: motion.h5 in, strain.h5 out.
+// dresslife-strain: reads motion.h5 and writes strain.h5.
 #include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"

@@ -22,10 +22,10 @@ namespace {
 
 constexpr double value = sizeof(double);
 
-/// Counts of one dresspack's construction.
+/// Counts of the construction of one dresspack.
 struct Counts {
   double widest_bundle = 0, bundles = 0, cables = 0, rubbing = 0, loose = 0;
-  double clamp_rows = 0;  ///< histories of what slides from clamp to clamp, in the job and in both bounds
+  double clamp_rows = 0;  ///< histories of parts that slide from clamp to clamp, in the job and in the free bound
   double depth = 0;       ///< levels
   double most_fibres = 1;
 };
@@ -62,7 +62,7 @@ Counts counts_of(const pipeline::Dresspack& dresspack, const pipeline::Strain& s
   return counts;
 }
 
-/// Parts of all levels and wires below these components, counted and not listed.
+/// Numbers of parts of all levels and of wires in these components, computed without listing them.
 struct Parts {
   double parts = 0, wires = 0;
 };
@@ -94,7 +94,7 @@ void check_counts(const pipeline::Where& where, double samples, double sites) {
 
 pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job,
                                std::size_t threads) {
-  constexpr double program = 18 << 20;  // itself, its libraries and a job: the smallest jobs take 18.8 MB in all
+  constexpr double program = 18 << 20;  // program, libraries and a job: the smallest jobs take 18.8 MB in total
   const std::size_t samples = motion.rows("/time"), segments = motion.rows("/segment/length");
   const double rows = static_cast<double>(samples), workers = static_cast<double>(threads);
   const std::vector<double> lengths = motion.read<double>("/segment/length");
@@ -102,7 +102,7 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   need.add(program, "the program");
   if (samples == 0 || segments == 0) return need;  // write_strain() reports it
 
-  // Of each span: lists of parts and wires with their names.
+  // For each span: lists of parts and wires with their names.
   double sites = 0, listed = 0;
   constexpr double of_a_part = 400, of_a_wire = 120;
   const std::vector<pipeline::MotionSpan> spans = pipeline::motion_spans(motion);
@@ -115,9 +115,9 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   check_counts(motion.where(), rows, sites);
   need.add(listed, "parts and wires", "fewer of them (dresspack.components)");
   if (need.megabytes() > static_cast<double>(pipeline::installed_memory_mb()))
-    return need;  // too many to be listed
+    return need;  // too many for the lists
 
-  // Every other way in which cables lie is kept beside the job's own, each with four frictions and two bounds; other starts
+  // Each other set of cable places is kept in addition to the job's own, each with four frictions and two bounds. Other starts
   // have one friction.
   const double laid = 1 + static_cast<double>(placements_at_most(job)),
                frictions = job.uncertainty.enabled ? 6 : 1;
@@ -131,17 +131,17 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
         counts_of(job.dresspacks[span.dresspack].dresspack, job.strain, std::max(length, clamped_length(job)));
     const double in_span = static_cast<double>(span.segments);
     const double begun = laid + (counts.loose > 1 ? static_cast<double>(other_starts_at_most(job)) : 0);
-    // Strain of each cable and the three that make its force, strain and pressing along one that rubs
-    // (cable_paths.h); curvature along a loose one (segment_rows.h), and the rows of one segment.
+    // Strain of each cable and the three strains that make its force; strain and pressing along a cable with friction
+    // (cable_paths.h); curvature along a loose cable (segment_rows.h), and the rows of one segment.
     cable_rows += begun * (4 * counts.cables + in_span * 1.5 * counts.rubbing + 2 * counts.loose);
     cable_rows += (begun - laid + 1) * in_span * counts.rubbing / value;  // sides that rub (cable_rubbing.h)
     bent_rows += begun * in_span * counts.loose;
     part_rows = std::max(part_rows, laid * frictions * counts.clamp_rows);
-    // A thread's states of a part and of its parent, and what friction holds of every level.
+    // Per thread: states of a part and of its parent, and the held strains of every level.
     constexpr double states = 4, in_single = 3, turned = 1 + phases_per_pitch;
     found = std::max(found, workers * (2 * states * (counts.depth + 1) + in_single +
                                        laid * frictions * counts.depth * turned));
-    // Bundles that wait to be written: every site's turning points, in lists and in rows (evaluation.cpp).
+    // Bundles that wait to be written: turning points of every site, in lists and in rows (evaluation.cpp).
     constexpr double turns_of_samples = 0.25, point = 16;
     const double ahead = threads == 1 ? 1 : std::min(counts.bundles, 2 * workers);
     found =
@@ -164,7 +164,7 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
                                                 {"site", static_cast<std::size_t>(sites)},
                                                 {"probe", 2 * segments}};
   need.add(pipeline::file_buffers(pipeline::strain_format(), axes) +
-               pipeline::file_buffers(pipeline::motion_format(), axes) / 4,  // a quarter of it is read
+               pipeline::file_buffers(pipeline::motion_format(), axes) / 4,  // a quarter of motion.h5 is read
            "what is being read and written");
   return need;
 }

@@ -1,4 +1,4 @@
-// The memory of a strain evaluation, from the sizes of its motion and its dresspacks (pipeline/stage/memory.h).
+// Memory of a strain evaluation, from the sizes of its motion and its dresspacks (pipeline/stage/memory.h).
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@ class FileReader;
 
 namespace dresslife::strain {
 
-/// Errors: InputError for more samples or sites than strain.h5 can number, and those of Construction.
+/// Errors: InputError if the samples or sites exceed the numbers of strain.h5, and the errors of Construction.
 pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job,
                                std::size_t threads);
 
-/// strain.h5 numbers samples and sites in 32 bits, and the largest number stands for none.
+/// strain.h5 numbers samples and sites in 32 bits. The largest 32-bit number means "none".
 inline constexpr double most_numbered = 4294967294.0;
-/// Errors: InputError at `where`.
+/// Throws InputError at `where` if one of the numbers exceeds most_numbered.
 void check_counts(const pipeline::Where& where, double samples, double sites);
 
 }  // namespace dresslife::strain

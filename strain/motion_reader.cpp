@@ -60,7 +60,7 @@ void MotionReader::run(bool with_pull, const std::function<void(const MotionBloc
       };
       for (std::size_t k = 0; k < spans_.size(); ++k) {
         const auto& [dresspack, begin, size, base, tool] = spans_[k];
-        const std::size_t held = tool - base + 1;  // the first and the last count
+        const std::size_t held = tool - base + 1;  // includes the first and the last clamp of the span
         const auto own = [&, first = t * segments + begin, count = size](std::vector<Deformation>& of) {
           return std::span(of).subspan(first, count);
         };
@@ -78,8 +78,8 @@ void MotionReader::run(bool with_pull, const std::function<void(const MotionBloc
   }
 }
 
-/// Gravity less acceleration in each segment's frame; the first and the last sample have their neighbour's
-/// acceleration.
+/// Computes gravity minus acceleration in each segment's frame. The first and the last sample get the acceleration of their
+/// neighbour.
 void MotionReader::measure_pull(std::size_t first, std::size_t count, const std::vector<double>& orientation,
                   std::vector<double>& pull) const {
   const std::size_t segments = lengths_.size(), row = 3 * segments;
@@ -104,7 +104,7 @@ void MotionReader::measure_pull(std::size_t first, std::size_t count, const std:
   }
 }
 
-/// Rates of the unloaded dresspack, if it ends freely at the tool end of span k.
+/// Returns the rates of the unloaded dresspack if the tool end of span k is free; else std::nullopt.
 std::optional<Eigen::Vector3d> MotionReader::free_end(const pipeline::Job& job, std::size_t k) const {
   if (!ends_freely(job, k)) return {};
   return Eigen::Vector3d(0, job.dresspacks[spans_[k].dresspack].dresspack.rest_curvature, 0);

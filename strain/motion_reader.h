@@ -1,4 +1,4 @@
-// The motion block by block, with the deformation of every segment.
+// Reads the motion block by block and computes the deformation of every segment.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,31 +15,31 @@
 
 namespace dresslife::strain {
 
-constexpr std::size_t motion_block_samples = 512;  // rows read at a time
+constexpr std::size_t motion_block_samples = 512;  // rows per read
 
-/// Some samples of all segments.
+/// Consecutive samples of all segments.
 struct MotionBlock {
-  std::size_t first;                         ///< sample
-  std::span<const Deformation> deformation;  ///< (sample, segment) at its centre
-  std::span<const Deformation> at_wires;     ///< (sample, segment) where its wires are evaluated (W39)
-  std::span<const double> pull;              ///< (sample, segment, 2), see SpanBlock; empty: not asked for
+  std::size_t first;                         ///< number of its first sample
+  std::span<const Deformation> deformation;  ///< (sample, segment) deformation at the segment's centre
+  std::span<const Deformation> at_wires;     ///< (sample, segment) deformation where the segment's wires are evaluated (W39)
+  std::span<const double> pull;              ///< (sample, segment, 2), see SpanBlock; empty: not wanted
 };
 
 class MotionReader {
  public:
-  /// group: of the places of segments and clamps; empty: of the job's own motion. file: stays the caller's.
+  /// group: group of motion.h5 with the poses of segments and clamps; empty: the job's own motion. file: must outlive the reader.
   MotionReader(const pipeline::FileReader& file, const pipeline::Job& job, std::string group = "");
 
   std::size_t samples() const { return samples_; }
-  double step() const { return step_; }                             ///< between samples [s]
+  double step() const { return step_; }                             ///< time between samples [s]
   const std::vector<double>& lengths() const { return lengths_; }  ///< (segment) [m]
   const std::vector<pipeline::MotionSpan>& spans() const { return spans_; }
   std::vector<double> lengths_of(const pipeline::MotionSpan& span) const;
   KnownEnds known_ends(std::size_t span) const { return gauges_[span].knows_ends(); }
-  /// Whether no clamp holds the tool end of span k.
+  /// Returns whether no clamp holds the tool end of span k.
   bool ends_freely(const pipeline::Job& job, std::size_t k) const;
 
-  /// One block after the other, of all samples or of those in [from, end). with_pull: gives that, too.
+  /// Calls put() for one block after the other, over all samples or over [from, end). with_pull: fills MotionBlock::pull.
   void run(bool with_pull, const std::function<void(const MotionBlock&)>& put) { run(with_pull, put, 0, samples_); }
   void run(bool with_pull, const std::function<void(const MotionBlock&)>& put, std::size_t from, std::size_t end);
 

@@ -8,8 +8,8 @@
 namespace dresslife::strain {
 namespace {
 
-/// The undeformed parent at the end of a nesting; turn < 0: as it is, else with the helical ancestor moved
-/// on.
+/// Returns the undeformed parent at the end of a nesting. turn < 0: at its own phase; else with its helical ancestor moved by
+/// `turn`.
 const ComponentState<double>& rest_at_end(const BundleNesting& nesting, int turn = -1) {
   if (nesting.steps.empty()) return nesting.dresspack_at_rest;
   return turn < 0 ? nesting.steps.back().rest : nesting.steps.back().turned_rest[turn];
@@ -30,7 +30,7 @@ SlidingNumbers sliding_numbers(const LayerSlip& slip, const BundleNesting& nesti
   return slide;
 }
 
-/// What a node is at rest where its place is.
+/// Sets the state of a node at rest at its place.
 void put_at_rest(WireNode& node, const ComponentState<double>& parent) {
   node.rest = wire_state(parent, node.place);
   node.inverse_rest_stretch = 1 / node.rest.stretch;
@@ -38,7 +38,7 @@ void put_at_rest(WireNode& node, const ComponentState<double>& parent) {
   node.rest_rate = exact ? node.rest.stretch / node.place.lay_cosine : node.rest.stretch;
 }
 
-/// Moves a place on around its layer.
+/// Moves a place around its layer by an angle.
 void turn_place(Placement& place, double sine, double cosine) {
   const double before = place.sine.at[0];
   place.sine.at[0] = before * cosine + place.cosine.at[0] * sine;
@@ -59,7 +59,7 @@ bool helical(const Layer& layer) { return layer.helix_radius > 0 && layer.lay_an
 
 BundleNesting nesting_to(const Construction& construction, const std::vector<LayerSlip>& plan, int part,
                          double arc, const std::vector<Fibre>& fibres) {
-  // Each level takes one order, and fibres that feel bend1 ask for one more.
+  // Each level needs one order, and fibres that depend on bend1 need one more.
   const int order = std::min(construction.levels() + 1, Series<double>::capacity - 1);
   BundleNesting nesting;
   nesting.fibres = fibres;
@@ -73,7 +73,7 @@ BundleNesting nesting_to(const Construction& construction, const std::vector<Lay
   for (const int level_part : line) {
     const Part& of = construction.parts()[level_part];
     NestingLevel step;
-    // A loose cable does not turn about itself, laid or not, so its phase is that at the clamp (W32).
+    // A loose cable does not turn about itself, with or without lay. Its phase is that at the clamp (W32).
     step.place = plan[of.layer].loose
                      ? make_placement(construction.kinematics(), 0.0, 0.0, 1.0,
                                       construction.phase(of.layer, of.number, of.parent, 0), order)
@@ -101,7 +101,7 @@ WireNode node_at(const Construction& construction, const std::vector<LayerSlip>&
   node.slide = sliding_numbers(plan[layer], nesting, node.place);
   const Layer& of = construction.layers()[layer];
   node.shear_radius =
-      of.part_radius * of.shear_factor / of.strain_factor;  // the kernels multiply by the latter
+      of.part_radius * of.shear_factor / of.strain_factor;  // the kernels multiply by strain_factor
   node.wire_radius = of.is_hose ? 0 : of.part_radius;
   node.strain_factor = of.strain_factor;
   return node;

@@ -10,7 +10,7 @@ void PartStates::fill(const BundleNesting& nesting, const DeformationColumns& co
   const bool from_dresspack =
       nesting.steps.size() == 1 && slopes_in_single(last) && single_suffices(last, nullptr, 0, 0);
   in_double_ = in_double || !from_dresspack;
-  if (from_dresspack)  // the same numbers whatever else is wanted
+  if (from_dresspack)  // the result must not depend on in_double
     kernels().part_rows_of_dresspack(pointers(nesting), columns, 0, samples, single_.data(), stride_);
   if (!in_double_) return;
   rows_.resize(part_state_rows(nesting.order) * stride_);

@@ -1,4 +1,4 @@
-// The state of a part over the motion, from which all parts in it go on.
+// State of a part over the motion, from which all parts in it are computed.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@ namespace dresslife::strain {
 
 class PartStates {
  public:
-  /// nesting: down to the part, its order that of its parts plus one. in_double: whether that is wanted too.
+  /// nesting: to the part; its order is that of its parts plus one. in_double: computes double precision also.
   void fill(const BundleNesting& nesting, const DeformationColumns& columns, std::size_t samples,
             bool in_double);
   bool in_double() const { return in_double_; }
-  /// To the nesting of one of its parts.
+  /// Makes the nesting of one of its parts start from this state.
   void lend(BundlePointers& nesting) const;
 
  private:

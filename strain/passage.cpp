@@ -38,7 +38,7 @@ std::vector<Evaluation*> Passage::evaluated(std::size_t span) const {
   return all;
 }
 
-/// (thread) Those that share loose cables in one.
+/// Returns the evaluations of each thread: (thread). Evaluations that share loose cables are in one thread.
 std::vector<std::vector<Evaluation*>> Passage::shared_out(std::size_t span) const {
   std::vector<std::vector<Evaluation*>> of_thread(threads_);
   std::size_t next = 0;
@@ -52,7 +52,7 @@ std::vector<std::vector<Evaluation*>> Passage::shared_out(std::size_t span) cons
   return of_thread;
 }
 
-/// use: evaluations of a span that go through the same motion.
+/// Calls use() with the evaluations of each span, for one block of the motion.
 void Passage::each_span(const MotionBlock& block, const Use& use) const {
   const std::size_t segments = motion_.lengths().size(), count = block.deformation.size() / segments;
   std::vector<double> pull;

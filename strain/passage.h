@@ -1,5 +1,5 @@
-// Evaluations go through one motion: samples before the first one for loose cables, then the first pass, then the choice of a
-// rest among those of the starts, then segment by segment.
+// Moves evaluations through one motion: samples before the first one for loose cables, the first pass, the choice of a rest
+// among those of the starts, then segment by segment.
 #pragma once
 
 #include <functional>
@@ -16,11 +16,11 @@ namespace dresslife::strain {
 /// Deformation over time of as many consecutive segments as fit into memory.
 class HistoryWindow {
  public:
-  /// bytes: that it may take, at least those of one segment.
+  /// bytes: memory limit; one segment always fits.
   HistoryWindow(std::size_t segments, std::size_t samples, std::size_t bytes);
-  std::size_t size() const { return size_; }  ///< segments in it
+  std::size_t size() const { return size_; }  ///< number of segments in it
   const DeformationHistory& history() const { return history_; }
-  /// Takes from a block what belongs to the segments from first_segment on.
+  /// Copies the segments from first_segment on out of a block.
   void keep(std::size_t first_segment, const MotionBlock& block);
 
  private:
@@ -30,22 +30,23 @@ class HistoryWindow {
 
 class Passage {
  public:
-  /// All stay the caller's. threads: any number gives the same.
+  /// The caller owns all arguments. threads: does not change the result.
   Passage(MotionReader& motion, Starts& starts, HistoryWindow& window, std::size_t threads);
-  /// From now on these go through the motion, too.
+  /// From now on the evaluations of `variations` also go through the motion.
   void take_along(const Variations& variations) { variations_ = &variations; }
 
   bool any_loose() const { return loose_; }
-  /// Loose cables go through the time from `from` to `until` before the first sample [s]: the end of the motion, or whole
-  /// repeats. Nothing where no cable is loose.
+  /// Moves loose cables through the time from `from` to `until` before the first sample [s]: the end of the motion, or whole
+  /// repeats. Does nothing if no cable is loose.
   void rehearse(double from, double until);
-  /// Every start, since each may become the job's own.
+  /// Records rubbing for every start, because each can become the job's own.
   void record_rubbing() const;
-  /// The first pass. put: gets every block before the evaluations.
+  /// First pass. put: receives every block before the evaluations.
   void run(const std::function<void(const MotionBlock&)>& put);
   /// The rest at the standard normal quantile z becomes the job's own (Starts::choose()).
   void choose(double z);
-  /// use: of every segment its span, its number there, and its row in the window. The window has the first segments before.
+  /// Calls use() for every segment: its span, its number in the span, its row in the window. Precondition: the window contains
+  /// the first segments.
   void each_segment(const std::function<void(std::size_t span, std::size_t segment, std::size_t row)>& use);
 
  private:

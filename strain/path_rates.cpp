@@ -8,7 +8,7 @@ namespace {
 
 constexpr double places_per_turn = 6, least_places = 4;
 
-/// Of the shortest turn along the dresspack on the way to a member [m].
+/// Returns the length along the dresspack of the shortest turn of any part from the dresspack to a member [m].
 double shortest_turn(const Construction& construction, int parent, const std::vector<PathMember>& members) {
   double shortest = std::numeric_limits<double>::infinity();
   const auto consider = [&](int layer, int in) {

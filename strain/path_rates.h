@@ -1,11 +1,10 @@
-// How long the paths of parts are that lie in one parent, segment by segment: what those need that slide from
-// clamp to clamp (README W10, W34).
+// Path lengths of the parts in one parent, segment by segment, for parts that slide from clamp to clamp ((W10) and (W34) in
+// strain/theory.md).
 //
-// Within a segment the parent's deformation is that of its centre, and the phase of what has a lay goes on:
-// the path rate is the mean over places along the segment, close enough that a turn has at least six of them,
-// and at least four; one where nothing on the way has a lay. The mean over evenly spaced places of a turn is
-// exact for its first harmonics, and what is left over of a turn at a segment's ends is known to (pi/6)^2 / 6
-// of it.
+// The parent has the deformation of the segment's centre in the whole segment; the phases of laid parts advance. The path rate
+// is the mean over places along the segment: at least four places, and at least six per turn. One place is enough if no part
+// from the dresspack to the member has a lay. The mean over evenly spaced places of a turn is exact for its first harmonics.
+// The error from the incomplete turn at a segment's ends is (pi/6)^2 / 6 of its contribution.
 #pragma once
 
 #include <vector>
@@ -32,8 +31,8 @@ class PathRates {
   /// Path length of member n in a segment at rest [m].
   double rest(std::size_t segment, std::size_t member) const { return rest_[segment * count_ + member]; }
 
-  /// attach: gives the nesting to the parent what its parts that slide need. Adds the path lengths in a
-  /// segment at samples [0, samples) of the columns to path (member, sample) with stride [m].
+  /// Adds the path lengths in a segment at samples [0, samples) of the columns to `path` (member, sample) with `stride` [m].
+  /// attach: gives the nesting to the parent the strains of its sliding parts.
   template <class Attach>
   void add(std::size_t segment, const DeformationColumns& columns, std::size_t samples, const Attach& attach,
            double* path, std::size_t stride) {
@@ -46,7 +45,7 @@ class PathRates {
  private:
   std::size_t count_;
   std::vector<std::vector<BundleNesting>> places_;  ///< (segment, place)
-  std::vector<double> weights_;                     ///< (segment) length that a place stands for [m]
+  std::vector<double> weights_;                     ///< (segment) length that one place represents [m]
   std::vector<double> rest_;                        ///< (segment, member) [m]
 };
 

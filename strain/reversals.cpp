@@ -6,7 +6,7 @@
 
 namespace dresslife::strain {
 
-/// Until the first range as wide as the gate gives a direction.
+/// Takes samples until the first range of at least the gate sets the direction.
 void TurningPoints::begin(float strain, TurningList& out) {
   const std::uint32_t now = sample_++;
   last_ = strain;
@@ -31,7 +31,7 @@ void TurningPoints::next(std::span<const float> strains, TurningList& out) {
   while (k < strains.size() && direction_ == 0) begin(strains[k++], out);
   const std::uint32_t first = sample_ - static_cast<std::uint32_t>(k);
   float direction = static_cast<float>(direction_),
-        extreme = extreme_;  // in registers: most samples move nothing
+        extreme = extreme_;  // in registers, because most samples change neither
   std::uint32_t extreme_at = extreme_at_;
   for (; k < strains.size(); ++k) {
     const float beyond = direction * (strains[k] - extreme);

@@ -1,11 +1,11 @@
-// Turning points of a strain history (README W14).
+// Turning points of a strain history ((W14) in strain/theory.md).
 //
-// Kept: the first and last sample, and every turning point whose rises and falls reach the gate: a hysteresis
-// filter. It drops only cycles with a range below the gate; rainflow counting of what is kept finds every
-// cycle of range >= gate with its true extremes. A plateau counts at its first sample.
+// A hysteresis filter keeps the first and last sample and every turning point between rises and falls of at least the gate. It
+// drops only cycles with a range below the gate. Rainflow counting of the kept points finds every cycle of range >= gate with
+// its true extremes. A plateau counts at its first sample.
 //
-// `TurningPoints` is the plain filter of one history; `LaneScan` runs it on the wires of a layer, sixteen
-// side by side, from the five waves of the layer (W13):
+// `TurningPoints` filters one history. `LaneScan` filters the wires of a layer, sixteen side by side, from the five waves of
+// the layer (W13):
 //     strain_j(t) = w0 + w1 sin(theta_j) + w2 cos(theta_j) + w3 sin(2 theta_j) + w4 cos(2 theta_j).
 #pragma once
 
@@ -17,13 +17,13 @@
 
 namespace dresslife::strain {
 
-/// Precondition of both: finite strains.
+/// Precondition of both classes: finite strains.
 class TurningPoints {
  public:
   /// gate: smallest range kept, >= 0.
   explicit TurningPoints(float gate) : gate_(gate) {}
 
-  void next(std::span<const float> strains, TurningList& out);  ///< the next samples, one after the other
+  void next(std::span<const float> strains, TurningList& out);  ///< the next samples, in order
   void finish(TurningList& out) const;                          ///< after the last sample
 
  private:
@@ -42,17 +42,17 @@ class LaneScan {
   /// angles: theta_j of up to 16 wires, relative to the angle from which the waves count [rad].
   LaneScan(std::span<const double> angles, float gate);
 
-  /// What the kernels scan for the next `count` samples, turning points of wire j to out[j]; the caller sets
-  /// waves or strains. done() follows the scan.
+  /// Returns the input of the kernels for the next `count` samples. Turning points of wire j go to out[j]. The caller sets waves
+  /// or strains, and calls done() after the scan.
   LaneRun next(std::size_t count, std::span<TurningList> out);
   void done(std::span<TurningList> out) const;
   void finish(std::span<TurningList> out);  ///< after the last sample
 
-  /// In place of these where wires are only ranked.
+  /// Replaces next() and done() for wires that are only ranked.
   LaneRun next_to_rank();
   StrainMeasures measures(std::size_t wire) const;
 
-  void restart();  ///< for another history of the same wires
+  void restart();  ///< before another history of the same wires
 
   int wires() const { return state_.used; }
 

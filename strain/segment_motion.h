@@ -1,6 +1,5 @@
-// What happens in one segment over time: the deformation of the hose, and of every cable in it. A cable that
-// keeps its place follows from the hose's deformation and its own strain; one that lies loose has a
-// deformation of its own, as if it were a hose itself.
+// The deformation of the hose and of every cable in one segment over time. The state of a held cable follows from the hose's
+// deformation and the cable's own strain. A loose cable has its own deformation, like a hose.
 #pragma once
 
 #include <vector>
@@ -14,10 +13,10 @@ namespace dresslife::strain {
 struct SegmentMotion {
   std::size_t samples = 0;
   DeformationColumns hose{};
-  std::vector<const double*> strain{};  ///< (cable) of (sample); null: it sticks to the hose in every plan
-  std::vector<DeformationColumns> loose{};  ///< (cable) its own deformation, where it can lie loose
+  std::vector<const double*> strain{};  ///< (cable) pointer to (sample); null: it sticks to the hose in every plan
+  std::vector<DeformationColumns> loose{};  ///< (cable) its own deformation, if it can lie loose
 
-  /// What the nesting to a part starts from.
+  /// Returns the deformation from which the nesting to a part starts.
   const DeformationColumns& columns(const Construction& construction, const std::vector<LayerSlip>& plan,
                                     int part) const {
     const int cable = construction.cable_of(part);

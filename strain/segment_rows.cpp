@@ -11,7 +11,7 @@ SegmentRows::SegmentRows(std::size_t segments, std::size_t rows, std::size_t sam
     : segments_(segments), rows_(rows) {
   if (scratch.beside.empty()) return;
   std::filesystem::path name = scratch.beside;
-  pipeline::remove_leftovers(name += ".paths");  // of a run that was killed
+  pipeline::remove_leftovers(name += ".paths");  // of a killed run
   if (segments * rows * samples * sizeof(float) > scratch.room)
     file_ = std::make_unique<pipeline::WholeFile>(name);
 }
@@ -28,7 +28,7 @@ void SegmentRows::end() {
     block.first = before.first + before.samples;
     block.offset = before.offset + before.samples * segments_ * rows_;
   }
-  constexpr std::size_t at_once = 16;  // samples: a cache line of each row
+  constexpr std::size_t at_once = 16;  // samples per tile: a cache line of each row
   const std::size_t rows = segments_ * rows_;
   block.values.resize(block_.size());
   for (std::size_t first = 0; first < block_samples_; first += at_once)

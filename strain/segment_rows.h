@@ -1,6 +1,6 @@
-// Numbers that come sample by sample for all segments, and are asked for segment by segment over the whole
-// motion: where loose cables bend. In memory while there is room, else in a file of their own that vanishes
-// with them, so that memory does not grow with the motion's length.
+// Values that arrive sample by sample for all segments, and are read segment by segment over the whole motion (curvature of
+// loose cables). They stay in memory if they fit. Otherwise they go to a temporary file, which is deleted with this object, so
+// that memory does not grow with the motion's length.
 #pragma once
 
 #include <cstddef>
@@ -12,38 +12,38 @@
 
 namespace dresslife::strain {
 
-/// Where long histories go.
+/// Memory limit and place of a temporary file for long histories.
 struct Scratch {
-  std::size_t room = static_cast<std::size_t>(-1);  ///< in memory [bytes]
-  std::filesystem::path beside{};  ///< the file that they go beside when they have no room; empty: none
+  std::size_t room = static_cast<std::size_t>(-1);  ///< limit in memory [bytes]
+  std::filesystem::path beside{};  ///< file beside which the temporary file is created; empty: no temporary file
 };
 
 class SegmentRows {
  public:
-  /// Of so many rows in each segment. Errors: InputError when its file cannot be made.
+  /// rows: per segment. Errors: InputError when the temporary file cannot be created.
   SegmentRows(std::size_t segments, std::size_t rows, std::size_t samples, const Scratch& scratch);
 
   void begin(std::size_t samples);  ///< the next block
   float& at(std::size_t segment, std::size_t row, std::size_t sample_of_block) {
     return block_[(sample_of_block * segments_ + segment) * rows_ + row];
   }
-  void end();  ///< of the block. Errors: InputError when the disk is full.
+  void end();  ///< ends the block. Errors: InputError when the disk is full.
 
-  /// Samples [first, first + count) of a row, to `to`. Precondition: they are in ended blocks. Errors:
-  /// InputError when they cannot be read.
+  /// Copies samples [first, first + count) of a row to `to`. Precondition: end() was called for their blocks. Errors:
+  /// MachineFault (an InputError) when the temporary file cannot be read.
   void read(std::size_t segment, std::size_t row, std::size_t first, std::size_t count, double* to) const;
 
  private:
   struct Block {
     std::size_t first, samples;
-    std::size_t offset;         ///< in the file, in numbers
-    std::vector<float> values;  ///< (segment, row, sample), where there is no file
+    std::size_t offset;         ///< in the file, in values
+    std::vector<float> values;  ///< (segment, row, sample); empty if there is a file
   };
 
   std::size_t segments_, rows_, block_samples_ = 0;
-  std::vector<float> block_;  ///< (sample, segment, row) that comes in
+  std::vector<float> block_;  ///< (sample, segment, row) of the present block
   std::vector<Block> blocks_;
-  std::unique_ptr<pipeline::WholeFile> file_;  ///< never committed
+  std::unique_ptr<pipeline::WholeFile> file_;  ///< the temporary file, never committed
 };
 
 }  // namespace dresslife::strain

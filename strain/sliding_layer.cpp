@@ -5,19 +5,19 @@
 namespace dresslife::strain {
 namespace {
 
-/// The helix at rest, and the numbers that its fibres share.
+/// The helix at rest, and the numbers that its fibres have in common.
 struct AtRest {
   double R, s, sigma, B, D, C4;
 
-  /// f0 at the angle b from where the rest's bending is largest.
+  /// Returns f0 at the angle b from the place where the bending at rest is largest.
   double bending(double cosine) const {
     const double X = B * cosine, y = s + R * X;
     return (R * sigma * sigma + y * X) / (R * R * sigma * sigma + y * y);
   }
 };
 
-/// The harmonics of G = at[0] + at[1] cos b + at[2] cos 2b + at[3] cos 3b, from its values at eight angles:
-/// the seventh, which stands in the first as well, is its sixth power.
+/// Harmonics of G = at[0] + at[1] cos b + at[2] cos 2b + at[3] cos 3b, from its values at eight angles. The first harmonic also
+/// contains the seventh, which is of the order of the sixth power of the first.
 struct LengthAtRest {
   double at[4];
 
@@ -57,7 +57,7 @@ SlidingFibre sliding_fibre(const AtRest& rest, double height) {
   fibre.second_of_second = single(G0 * by_second);
   fibre.sine2_of_sine = single(0.5 * (G1 - G3) * by_first);
   fibre.cosine2_of_cosine = single(0.5 * (G1 + G3) * by_first);
-  fibre.second_of_third = single(0.5 * G1 * by_third / 0.75);  // of 3/4 C4
+  fibre.second_of_third = single(0.5 * G1 * by_third / 0.75);  // the row already contains 3/4 C4
   fibre.cosine2_of_mean = single(G2);
   fibre.third0 = single(0.5 * G1 * by_third * rest.C4 * s * B * B * B);
   return fibre;
@@ -103,7 +103,7 @@ SlidingLayer sliding_layer(const ComponentState<double>& parent, const Placement
   layer.radial_share = single(radial_share);
   for (std::size_t f = 0; f < heights.size(); ++f)
     layer.fibres[f] = sliding_fibre({R, s, sigma, B, D, C4}, heights[f]);
-  // of theta - psi at wire 1
+  // theta - psi at wire 1
   const double sine1 = first.sine.at[0] * cosine - first.cosine.at[0] * sine;
   const double cosine1 = first.cosine.at[0] * cosine + first.sine.at[0] * sine;
   layer.sine1 = single(sine1);

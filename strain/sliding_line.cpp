@@ -9,14 +9,14 @@
 namespace dresslife::strain {
 namespace {
 
-// Beyond a clamp that can let go lies an end without force: an element so much softer than the part that no
-// force stays in it but a millionth.
+// Beyond a clamp that can slip, an element represents the free end. It is so much softer than the part that only a millionth of
+// the force remains in it.
 constexpr double soft_end = 1e6;
-constexpr double at_limit = 1 - 1e-5;  // of a grip: reached, but for the soft end and rounding
-// A node whose slide is less than this share of the length may keep its sign: strains change by as little. Above the
-// rounding of a sum of some hundred elements.
+constexpr double at_limit = 1 - 1e-5;  // share of a grip at which it counts as reached, because of the soft end and rounding
+// A node keeps its sign if its slide in the wrong direction is less than this share of the length; strains change by the same
+// amount. The value exceeds the rounding of a sum of some hundred elements.
 constexpr double no_slide = 1e-13;
-// Six rounds cost as much as exact programming. Where some node sticks they are in vain, mostly at the next sample, too.
+// Six rounds cost as much as the exact method. They fail if a node sticks, and then usually also at the next sample.
 constexpr int most_sign_rounds = 6, sign_rounds_after_failure = 1;
 
 }  // namespace
@@ -38,7 +38,7 @@ SlidingLine::SlidingLine(std::vector<double> lengths, double axial_stiffness, do
   assert(!lengths_.empty() && axial_stiffness > 0 && base_grip >= 0 && tool_grip >= 0);
 }
 
-/// Finds the forces if all nodes slide and no clamp does; else changes them to no avail. Precondition: tried_.
+/// Returns whether all nodes slide and no clamp does. Then force_ is the solution, else it is undefined. Precondition: tried_.
 bool SlidingLine::all_slide(std::span<const double> limits) {
   const std::size_t n = lengths_.size();
   const double nothing = no_slide * length_ * stiffness_;
@@ -68,7 +68,7 @@ bool SlidingLine::all_slide(std::span<const double> limits) {
   return false;
 }
 
-/// The sum may end in a force that differs by up to `limit`.
+/// Lets the force after this node differ by up to `limit` from the force before it.
 void SlidingLine::widen(double limit) {
   below_shift_ -= limit;
   above_shift_ += limit;
@@ -77,7 +77,7 @@ void SlidingLine::widen(double limit) {
   slope_ = at_zero_ = 0;
 }
 
-/// Adds weight (T - target)^2 / 2 to the sum, and finds where it is least now.
+/// Adds weight (T - target)^2 / 2 to the sum, and finds its minimum.
 void SlidingLine::add(double weight, double target) {
   slope_ += weight;
   at_zero_ -= weight * target;
@@ -93,8 +93,8 @@ void SlidingLine::add(double weight, double target) {
   const auto find_lowest = [&] { return lowest_at_ = -at_zero_ / slope_; };
   const auto is_below = [&] { return !below_.empty() && find_lowest() < below_.back().at + below_shift_; };
   const auto is_above = [&] { return !above_.empty() && find_lowest() > above_.back().at + above_shift_; };
-  // A line that is added moves the least to one side. Rounding may put it on the other side of a knot that it
-  // has just passed: a step back would repeat without end.
+  // An added line moves the minimum to one side. Rounding can put it on the other side of a knot that was just crossed. A step
+  // back would repeat without end.
   if (is_below()) do
       cross(below_, below_shift_, above_, above_shift_, -1);
     while (is_below());
@@ -133,7 +133,7 @@ void SlidingLine::attempt(std::span<const double> unslid, std::span<const double
 
 void SlidingLine::keep() {
   const std::size_t n = lengths_.size();
-  double gained = 0;  // length of part between the clamps
+  double gained = 0;  // length of part that left the space between the clamps
   for (std::size_t i = 0; i < n; ++i) {
     slid_[i] += strain(i) - tried_[i];
     gained += lengths_[i] * (tried_[i] - strain(i));
@@ -141,7 +141,7 @@ void SlidingLine::keep() {
   const bool base = std::abs(force_[0]) > at_limit * base_grip_;
   const bool tool = std::abs(force_[n - 1]) > at_limit * tool_grip_;
   if (!base && !tool) return;
-  const double share = base && tool ? 0.5 : 1;  // of two that let go alike nobody knows which did
+  const double share = base && tool ? 0.5 : 1;  // if both slip, the shares of the clamps are unknown
   for (const auto& [slips, side] : {std::pair(base, 0), std::pair(tool, 1)})
     if (slips) {
       let_in_[side] += share * gained;

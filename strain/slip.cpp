@@ -9,15 +9,15 @@
 namespace dresslife::strain {
 namespace {
 
-// A helix with fewer turns between the clamps evens out over all of them: over each turn for itself the
-// strain would leave out what is left of one, R kappa / (2 pi turns) at most. With four, of a wire 3 mm from
-// the axis at 2 1/m, that is 2.4e-4, as much as what evening out over all leaves out.
+// A helix with fewer turns between the clamps evens out over all of them. Evening out over each turn alone would miss the
+// incomplete turn, an error of at most R kappa / (2 pi turns). With four turns of a wire 3 mm from the axis at 2 1/m this is
+// 2.4e-4, the same as the error of evening out over all turns.
 constexpr double least_turns = 4;
 
-/// (W16): friction gathers along a quarter of the length over which the deviation changes sign and back.
+/// Returns the cap (W16). Friction gathers along a quarter of the length over which the deviation changes sign and back.
 FrictionCap friction_cap(const Layer& layer, double evening_length) {
   const double sine = std::sin(layer.lay_angle);
-  const double press = layer.helix_radius > 0 ? sine * sine / layer.helix_radius : 0;  // of a tension [1/m]
+  const double press = layer.helix_radius > 0 ? sine * sine / layer.helix_radius : 0;  // per tension [1/m]
   const double reach = layer.friction * evening_length / 4;                            // [m]
   const double load = layer.line_load + layer.tension * press;
   if (reach * load == 0) return {0, reach * press};
@@ -46,7 +46,7 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
     plan[k].radial_share =
         radial_share(layer.axial_stiffness, layer.lay_angle, layer.helix_radius, layer.radial_stiffness);
     const auto level = std::min<std::size_t>(layer.level, slip.size());
-    // A loose cable does not turn about itself; the thesis counts phases from the bend's direction (19).
+    // A loose cable does not turn about itself. The thesis counts phases from the direction of the bend (19).
     const bool turns = !(layer.is_cable() && layer.loose && slides(slip[level - 1]));
     const double before = outermost || is_thesis(construction.kinematics()) ? 0 : turning[layer.parent];
     turning[k] = turns ? helices::turning(before, layer.lay_angle, layer.helix_radius) : 0;
@@ -76,7 +76,7 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
 
 ShortenedPlan shortened(const Construction& construction, std::vector<LayerSlip> plan, double bend_wave) {
   ShortenedPlan result{std::move(plan)};
-  std::vector<bool> on_axis(result.plan.size());  // of its cable: no bend strains it, and friction has nothing to hold
+  std::vector<bool> on_axis(result.plan.size());  // true on the axis of its cable: no bend strains it, so friction has no effect
   for (std::size_t k = 0; k < result.plan.size(); ++k) {
     LayerSlip& slip = result.plan[k];
     const Layer& of = construction.layers()[k];

@@ -10,7 +10,7 @@
 namespace dresslife::strain {
 namespace {
 
-// Of their curvature, by which two starts of one rest may still be apart. At most an eighth of it is left in each cycle.
+// Largest relative difference of curvature between two starts of one rest. Each cycle reduces it to at most an eighth.
 constexpr double same_rest = 1e-3;
 
 }  // namespace
@@ -54,7 +54,7 @@ void Starts::merge() {
   for (std::size_t rest = 1; rest < rests(); ++rest)
     for (std::size_t earlier = 0; earlier < rest; ++earlier) {
       if (!same(spans(rest), spans(earlier))) continue;
-      others_[rest - 1]->clear();  // nobody asks for it any more
+      others_[rest - 1]->clear();  // not used from now on
       others_.erase(others_.begin() + static_cast<std::ptrdiff_t>(rest - 1));
       for (std::size_t& of : rest_of_)
         if (of >= rest) of = of == rest ? earlier : of - 1;
@@ -64,10 +64,10 @@ void Starts::merge() {
 }
 
 void Starts::choose(double z, const std::vector<double>& damage) {
-  std::vector<std::size_t> starts = rest_of_;  // with the most damage first
+  std::vector<std::size_t> starts = rest_of_;  // the largest damage first
   if (starts.empty()) return;
   std::ranges::stable_sort(starts, std::ranges::greater(), [&](std::size_t rest) { return damage[rest]; });
-  // Of an even number of starts the more damaged one of the middle two.
+  // For an even number of starts z = 0 gives the more damaged one of the middle two.
   const auto at =
       static_cast<std::size_t>(std::ceil(pipeline::normal_share(z) * static_cast<double>(starts.size())));
   const std::size_t chosen = starts[std::clamp<std::size_t>(at, 1, starts.size()) - 1];

@@ -30,17 +30,16 @@ using pipeline::FileWriter;
 using pipeline::Warning;
 using pipeline::WarningKind;
 
-constexpr double first_pass_share = 0.05;   // of the work, for the progress display
-// 2 % of strain are a tenth of a life that goes with its fifth power: less than anything else here is known
-// to.
+constexpr double first_pass_share = 0.05;   // share of the work, for the progress display
+// 2 % of strain change a life by a tenth if it goes with the fifth power of strain: less than any other uncertainty here.
 constexpr double believable_mesh_error = 0.02;
-constexpr double loose_pass_share = 0.5;  // the same where cables lie loose
-constexpr double own_work_share = 0.75;   // the same of all but other stiffnesses of the hose
-// Of the end of the motion [s], before the repeat that counts: loose cables forget their first places (W36). After 160 s
-// the last start of robot 1 comes to its rest.
+constexpr double loose_pass_share = 0.5;  // first_pass_share with loose cables
+constexpr double own_work_share = 0.75;   // share of the work without other stiffnesses of the hose
+// Length of the end of the motion before the repeat that counts [s]. In it the first places of loose cables lose their influence
+// (W36). The last start of robot 1 comes to its rest after 160 s.
 constexpr double rehearsed = 180;
-// Variations go on from the first start so long before the first sample [s]. From 170 s the same lives follow for robot 1 and
-// hard, from 30 s one of ten differs by 0.85 of a decade.
+// Time before the first sample at which variations continue from the first start [s]. With 170 s the lives of robot 1 and hard
+// are the same. With 30 s one life of ten differs by 0.85 of a decade.
 constexpr double rehearsed_varied = 90;
 
 void append_deformation(FileWriter& file, std::span<const Deformation> block) {
@@ -55,7 +54,7 @@ void append_deformation(FileWriter& file, std::span<const Deformation> block) {
   file.append("/deformation/elongation", elongation);
 }
 
-/// Appends site sets under one group, keeping count of the turning points.
+/// Appends sites under one group and counts the turning points.
 class SiteWriter {
  public:
   SiteWriter(FileWriter& file, std::string group, const std::vector<std::unique_ptr<Evaluation>>& evaluations)
@@ -110,10 +109,10 @@ std::vector<OtherMotion> other_motions(const FileReader& motion, const pipeline:
   return all;
 }
 
-/// Appends what variations make of likely worst wires.
+/// Appends the results of variations.
 class VariationWriter {
  public:
-  /// The variations of others follow the first ones.
+  /// The variations of `others` are numbered after those of `variations`.
   VariationWriter(FileWriter& file, const Variations& variations, const std::vector<OtherMotion>& others) : file_(file) {
     std::vector<double> z;
     for (const Variations::Point& point : variations.points()) z.insert(z.end(), point.begin(), point.end());
@@ -187,13 +186,13 @@ void check(const FileReader& motion, const pipeline::Job& job, const MotionReade
     }
 }
 
-/// Whether a path begins with the name of dresspack d among several.
+/// Returns whether a path begins with the name of dresspack d. With a single dresspack every path does.
 bool lies_in(const pipeline::Job& job, std::size_t d, const std::string& path) {
   const std::string name = pipeline::name_among(job, d);
   return name.empty() || path.starts_with(name + "/");
 }
 
-/// The settings as they hold for dresspack d: with its own probes.
+/// Returns the settings for dresspack d: only its own probes.
 pipeline::Strain settings_of(const pipeline::Job& job, std::size_t d) {
   pipeline::Strain settings = job.strain;
   std::erase_if(settings.probes,
@@ -212,14 +211,14 @@ void check_probes(const pipeline::Job& job) {
   }
 }
 
-/// What lies in each dresspack, and one evaluation per span: each slips from clamp to clamp.
+/// Construction of each dresspack, and one evaluation per span, because each span slips by itself from clamp to clamp.
 struct Evaluations {
   std::vector<Construction> constructions;           // (dresspack)
-  std::vector<std::unique_ptr<Evaluation>> of_span;  // refer to them
-  int levels = 0;                                    // of the deepest wire
+  std::vector<std::unique_ptr<Evaluation>> of_span;  // refer to the constructions
+  int levels = 0;                                    // level of the deepest wire
 
-  /// as_given: the same dresspacks without further factors, with whose cables these lie side by side, in as
-  /// many pieces.
+  /// as_given: the same dresspacks without further factors. Loose cables get as many elements as those of as_given, so that both
+  /// can be computed side by side.
   Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t threads,
               const pipeline::StrainFactors& factors, const Scratch& scratch,
               const Evaluations* as_given = nullptr) {
@@ -229,7 +228,7 @@ struct Evaluations {
     }
     const std::vector<pipeline::MotionSpan>& spans = reader.spans();
     SpanPlace place;
-    std::size_t first = 0;  // span of its dresspack
+    std::size_t first = 0;  // first span of the dresspack
     place.levels = levels;
     for (std::size_t k = 0; k < spans.size(); ++k) {
       const std::size_t d = spans[k].dresspack;
@@ -262,7 +261,7 @@ struct Evaluations {
   }
 };
 
-/// pieces: of a loose cable in a segment.
+/// pieces: elements of a loose cable in each segment.
 std::vector<Warning> mesh_warnings(double error, std::size_t pieces, int segments) {
   if (error <= believable_mesh_error) return {};
   return {pipeline::warning_of(
@@ -284,8 +283,7 @@ std::vector<Warning> restless_warnings(std::size_t samples, double sample_rate) 
       "the hose moves too far from one sample to the next", fmt::format("simulation.sample_rate_Hz: {:g}", 2 * sample_rate))};
 }
 
-/// The data of all spans' cables for their forces: whose metal they are of, their strains, and where they meet the
-/// clamps.
+/// Data from which the forces of all cables are computed: component, strains, and places at the clamps.
 class CableRows {
  public:
   void add(std::int32_t span, const Evaluation& evaluation) {
@@ -332,7 +330,7 @@ class CableRows {
   std::vector<const pipeline::PulledCable*> pulled_;
 };
 
-/// Where the jackets of all spans' cables rub.
+/// Where the jackets of all cables rub.
 class RubbingRows {
  public:
   /// first: number of the span's first cable in the file.
@@ -367,13 +365,13 @@ class RubbingRows {
   std::vector<std::uint32_t> sample_;
 };
 
-/// What the cables of all spans do, of which their forces follow. Nothing where there is no cable. Returns
-/// what a person should look at: pieces that are too long.
+/// Writes the data of all cables from which their forces follow. Writes nothing if there is no cable. Returns warnings: elements
+/// that are too long, and samples without rest.
 std::vector<Warning> write_cables(FileWriter& file, const pipeline::SimulationSettings& settings,
                                   const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   CableRows rows;
   RubbingRows rubbing;
-  std::vector<const std::vector<double>*> hose_moment;  // of spans with cables
+  std::vector<const std::vector<double>*> hose_moment;  // (span with cables)
   double mesh_error = 0;
   std::size_t pieces = 0, restless = 0;
   for (const auto& evaluation : evaluations) {
@@ -407,7 +405,7 @@ std::vector<Warning> write_cables(FileWriter& file, const pipeline::SimulationSe
   return warnings;
 }
 
-/// Wires whose strain evens out over too much of a bend for the closed forms of friction (strain/slip.h).
+/// Returns warnings of layers whose strain evens out over too great a length for the closed forms of friction (strain/slip.h).
 std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   std::vector<Warning> all;
   for (const auto& evaluation : evaluations) {
@@ -427,8 +425,8 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
   return all;
 }
 
-/// What is wrong in the descriptions of dresspacks, whatever the motion: parts that lie in each other, a
-/// stiffness that is not that of the parts.
+/// Returns warnings on the descriptions of dresspacks, independent of the motion: parts that overlap, a stiffness that does not
+/// agree with the parts.
 std::vector<Warning> construction_warnings(const pipeline::Job& job) {
   std::vector<Warning> all;
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
@@ -437,7 +435,7 @@ std::vector<Warning> construction_warnings(const pipeline::Job& job) {
   return all;
 }
 
-/// How a cable by itself bends, from the curvature of a hanging cable to that of a wire around a finger.
+/// Writes the moment of a cable by itself, from the curvature of a hanging cable to that of a wire around a finger.
 void write_bending(FileWriter& file, const pipeline::Job& job) {
   const pipeline::Dresspack& dresspack = job.dresspacks.front().dresspack;
   const bool rub = std::any_of(job.strain.slip.begin(), job.strain.slip.end(),
@@ -454,19 +452,19 @@ void write_bending(FileWriter& file, const pipeline::Job& job) {
     moment =
         pipeline::bending_moments(dresspack, dresspack.components[0], job.strain.factors.friction, curvature);
   } catch (const pipeline::InputError&) {
-    return;  // straight parts beside the axis: how far they slide depends on the length
+    return;  // straight parts beside the axis: their sliding depends on the length
   }
   file.append("/bending/curvature", curvature);
   file.append("/bending/moment", moment);
 }
 
-/// The rests of the job's own cables in the file: (start).
+/// Writes the rest of each start: (start).
 void write_rests(FileWriter& file, const Starts& starts) {
   const std::vector<std::int32_t> rests(starts.rest_of().begin(), starts.rest_of().end());
   if (!rests.empty()) file.append("/start/rest", rests);
 }
 
-/// Shares of the work that are done.
+/// Progress of the work.
 class Work {
  public:
   Work(const std::function<void(double)>& progress, bool loose, std::size_t others)
@@ -474,7 +472,7 @@ class Work {
         first_pass_(loose ? loose_pass_share : first_pass_share),
         own_(others == 0 ? 1 : own_work_share),
         others_(static_cast<double>(others)) {}
-  /// Each: so much of the first pass, of the segments, and so many other motions.
+  /// Report progress: the share of the first pass, the share of the segments, the number of other motions.
   void first_pass(double share) const { progress_(own_ * first_pass_ * share); }
   void segments(double share) const { progress_(own_ * (first_pass_ + (1 - first_pass_) * share)); }
   void other_motions(std::size_t done) const { progress_(own_ + (1 - own_) * static_cast<double>(done) / others_); }
@@ -484,7 +482,7 @@ class Work {
   double first_pass_, own_, others_;
 };
 
-/// Where the results of the job's own evaluation go.
+/// Writes the results of the job's own evaluation.
 class OwnResults {
  public:
   OwnResults(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations)
@@ -514,7 +512,7 @@ class OwnResults {
 
 using LikelySites = std::vector<std::vector<Evaluation::Site>>;  ///< (segment)
 
-/// The likely worst wires of the job with another stiffness of the hose, as one variation.
+/// Writes one variation: the likely worst wires of the job with another stiffness of the hose.
 void write_other_motion(MotionReader& motion, const pipeline::Job& job, const std::function<Starts::Spans&()>& build,
                         HistoryWindow& window, std::size_t threads, const LikelySites& likely, std::size_t variation,
                         VariationWriter& rows) {
@@ -523,7 +521,7 @@ void write_other_motion(MotionReader& motion, const pipeline::Job& job, const st
   passage.rehearse(rehearsed_varied, 0);
   passage.run([](const MotionBlock&) {});
   passage.choose(job.strain.rest);
-  if (starts.rests() == 1)  // else choose() has done it
+  if (starts.rests() == 1)  // with several rests choose() has done it
     for (const auto& evaluation : starts.spans(0)) evaluation->find_bent();
   std::size_t seen = 0;
   passage.each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
@@ -547,7 +545,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   std::vector<OtherMotion> others = other_motions(motion, job);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   check_probes(job);
-  // Half of the room: the hose's deformation wants the other.
+  // The other half of the limit is for the hose's deformation.
   const Scratch scratch{
       history_bytes / 2 / (reader.spans().size() * (1 + other_starts_at_most(job) + placements_at_most(job))),
       strain.final_name()};
@@ -602,7 +600,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
                         });
     work.segments(static_cast<double>(likely.size()) / static_cast<double>(segments));
   });
-  for (Evaluations& laid : otherwise_laid) laid.of_span.clear();  // their memory is for others
+  for (Evaluations& laid : otherwise_laid) laid.of_span.clear();  // frees their memory
   for (std::size_t other = 0; other < others.size(); ++other) {
     std::list<Evaluations> laid;
     MotionReader& of = others[other].reader;

@@ -1,5 +1,5 @@
-// motion.h5 in, strain.h5 out: the evaluation wired to the files, in blocks of rows so that memory does not
-// grow with the motion beyond a few histories.
+// Reads motion.h5 and writes strain.h5. Works in blocks of rows, so that memory does not grow with the motion by more than a
+// few histories.
 #pragma once
 
 #include <functional>
@@ -15,19 +15,18 @@ struct Job;
 
 namespace dresslife::strain {
 
-/// Histories of so many bytes are held at a time, what friction holds counted in; for more, the motion is
-/// read again for the next segments.
+/// Limit of the histories in memory [bytes], including those that friction holds. If they need more, the motion is read again
+/// for the next segments.
 constexpr std::size_t default_history_bytes = std::size_t{128} << 20;
 
-/// What the stage tells.
+/// Messages of the stage.
 struct Notes {
   std::vector<pipeline::Warning> warnings;
   std::string summary;  ///< one line on the worst site
 };
 
-/// Writes every dataset of strain.h5. threads: any number gives the same bytes. progress: share of the work
-/// done. Errors: InputError for a motion without samples, a dresspack without wires, and those of
-/// Construction and Evaluation.
+/// Writes every dataset of strain.h5. threads: does not change the file. progress: receives the share of work done. Errors:
+/// InputError for a motion without samples and for a dresspack without wires, and the errors of Construction and Evaluation.
 Notes write_strain(const pipeline::FileReader& motion, const pipeline::Job& job, pipeline::FileWriter& strain,
                    std::size_t threads, const std::function<void(double)>& progress,
                    std::size_t history_bytes = default_history_bytes);

@@ -8,8 +8,7 @@ namespace {
 using pipeline::Inside;
 using pipeline::Uncertain;
 
-// Where there is little slack cables come to pull, and lives fall by decades from one tenth of a per cent to
-// the next.
+// With little slack cables become tight, and lives fall by decades from one tenth of a per cent of slack to the next.
 constexpr double low_slack = -2.25;
 
 bool any_component(const pipeline::Job& job, const std::function<bool(const pipeline::Component&)>& holds) {
@@ -27,7 +26,7 @@ bool rubs_on_hose(const pipeline::Component& part) {
 
 constexpr std::size_t slack_nodes = 3, other_nodes = 2;
 
-/// Whether moving a parameter but friction inside moves any strain.
+/// Returns whether a change of a parameter other than friction inside changes any strain.
 bool matters(const pipeline::Job& job, const Variations::Spans& spans, Uncertain parameter) {
   const auto any = [&](auto does) { return std::any_of(spans.begin(), spans.end(), does); };
   if (!any([](const auto& evaluation) { return evaluation->any_cables(); })) return false;
@@ -36,7 +35,7 @@ bool matters(const pipeline::Job& job, const Variations::Spans& spans, Uncertain
   return rubs(job.strain.slip.front()) && any_component(job, rubs_on_hose);
 }
 
-/// The factor of a strain parameter at z, on top of the job's own.
+/// Returns the job's factors with one strain parameter at z.
 pipeline::StrainFactors moved(pipeline::StrainFactors factors, Uncertain parameter, double z) {
   const double by = pipeline::uncertain_parameters()[index_of(parameter)].value(z);
   switch (parameter) {
@@ -60,7 +59,7 @@ pipeline::StrainFactors moved(pipeline::StrainFactors factors, Uncertain paramet
     case Uncertain::scatter:
     case Uncertain::model:
     case Uncertain::motion:
-      break;  // moves nothing of where cables lie
+      break;  // does not change the places of cables
   }
   return factors;
 }
@@ -89,7 +88,7 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Bu
   const bool rubs_inside = std::any_of(as_given.begin(), as_given.end(),
                                        [](const auto& evaluation) { return evaluation->rubs_inside(); });
   std::vector<Friction> around, all{{}};
-  // Where rubbing is little, lives bend away toward those without damage.
+  // Small values of friction are needed, because there lives bend toward those without damage.
   if (rubs_inside) around = {{-reach}, {-reach / 2}, {reach}, {0, Inside::glued}, {0, Inside::free}};
   all.insert(all.end(), around.begin(), around.end());
   if (!around.empty()) add(as_given, {}, around);
@@ -159,7 +158,7 @@ void Variations::evaluate(std::size_t span, std::size_t segment, const Deformati
   for (const Placement& placement : placements_) {
     Evaluation& placed = *(*placement.spans)[span];
     std::vector<Evaluation::Site> wires = likely;
-    if (placement.spans != &as_given_)  // where cables rest elsewhere, other wires may be the worst
+    if (placement.spans != &as_given_)  // cables at other places can have other worst wires
       wires = with_likely_of_bent(std::move(wires), placed, segment, history, row);
     std::vector<std::size_t> sites;
     for (const Evaluation::Site site : wires) sites.push_back(as_given_[span]->row_of(segment, site));

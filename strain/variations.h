@@ -1,11 +1,11 @@
-// Strains of the likely worst wires with other friction, slack, play and grips: what dresslife-fatigue needs
-// to tell how a life depends on what is not known (pipeline/job/uncertainty.h).
+// Strains of the likely worst wires with other friction, slack, play and grips, from which dresslife-fatigue computes the
+// influence of uncertain inputs on the life (pipeline/job/uncertainty.h).
 //
-// Friction inside is crossed with slack, friction along the hose and grips are moved one by one. Friction
-// inside is also taken away, and made so large that nothing slips at any pressure: the bounds of a cable. Play is left
-// out: in the shipped programs it moves lives by a tenth of a decade, and would cost as much as a slack.
-// Where cables lie and pull is worked out again for each but friction inside. The wires are those that see most in
-// each segment and layer of the job as it is, and where cables lie otherwise those of the cables that bend most there, too.
+// Friction inside is crossed with slack. Friction along the hose and grips are varied one by one. Friction inside is also set
+// to zero and to infinity (no slip at any pressure): the bounds of a cable. Play is not varied: in the shipped programs it
+// changes lives by a tenth of a decade and would cost as much as a slack. Places and forces of cables are computed anew for
+// each variation except friction inside. The wires are the likely worst ones of each segment and layer of the job itself. If
+// cables lie elsewhere, the likely worst wires of the cables that bend most there are added.
 #pragma once
 
 #include <array>
@@ -19,53 +19,53 @@
 
 namespace dresslife::strain {
 
-/// In how many ways cables are laid besides the job's own, at most; 0 where its uncertainty is off.
+/// Returns the largest number of evaluations with other cable places besides the job's own; 0 if its uncertainty is off.
 std::size_t placements_at_most(const pipeline::Job& job);
 
-/// Likely worst wires of the job as it is, and those of an evaluation whose cables lie otherwise. Segments as in
-/// Evaluation::likely_of_bent().
+/// Returns `likely` and the likely worst wires of an evaluation whose cables lie elsewhere, sorted, without duplicates.
+/// Segments as in Evaluation::likely_of_bent().
 std::vector<Evaluation::Site> with_likely_of_bent(std::vector<Evaluation::Site> likely, Evaluation& placed, std::size_t segment,
                                                   const DeformationHistory& history, std::size_t row);
 
 class Variations {
  public:
-  static constexpr double reach = 1.5;  ///< 87 % of all that may be lie between
+  static constexpr double reach = 1.5;  ///< 87 % of a normal distribution lie within +-1.5
   using Point =
-      std::array<double, 5>;  ///< z of the strain parameters but rest, in the order of uncertain_parameters()
+      std::array<double, 5>;  ///< z of the strain parameters without rest, in the order of uncertain_parameters()
   using Spans = std::vector<std::unique_ptr<Evaluation>>;
-  /// Evaluations of all spans with other factors; they stay the caller's.
+  /// Creates evaluations of all spans with other factors; the caller owns them.
   using Build = std::function<const Spans&(const pipeline::StrainFactors&)>;
 
-  /// Nothing is varied where the job's uncertainty is off, or nothing can slide.
+  /// Without variations if the job's uncertainty is off or no part can slide.
   Variations(const pipeline::Job& job, const Spans& as_given, const Build& build);
 
   bool empty() const { return points_.empty(); }
   const std::vector<Point>& points() const { return points_; }  ///< (variation)
   const std::vector<pipeline::Inside>& inside() const { return inside_; }  ///< (variation)
   const std::vector<std::int32_t>& rests() const { return rests_; }        ///< (variation) rest of the starts
-  /// Evaluations of a span that want the motion like the job's own.
+  /// Returns the evaluations of a span that need the motion in addition to the job's own.
   std::vector<Evaluation*> placed(std::size_t span) const;
 
-  /// Cables of all variations go on from where the job's own are now.
+  /// Moves the cables of all variations to the present places of the job's own.
   void go_on() const;
-  /// The rests of starts become variations, too. All samples were added.
+  /// Adds the rests of starts as variations. Precondition: all samples were added.
   void add(const Starts& starts);
 
-  /// The result of a variation for a site: its row in the file and its turning points.
+  /// Receives the results of a variation for some sites: their rows in the file and their turning points.
   using Put =
       std::function<void(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows)>;
-  /// Of one segment, right after the job's own evaluation of it.
+  /// Evaluates one segment. Call directly after the job's own evaluation of this segment.
   void evaluate(std::size_t span, std::size_t segment, const DeformationHistory& history, std::size_t row,
                 const Put& put) const;
 
  private:
-  /// One way in which cables lie, with factors of friction inside and the variation that each of them is.
+  /// One set of cable places, with its factors of friction inside and the variation number of each factor.
   struct Placement {
     const Spans* spans;
     std::vector<double> factors;
     std::vector<std::size_t> variation;
   };
-  /// Friction inside: at z, or as a bound has it.
+  /// Friction inside: at z, or of a bound.
   struct Friction {
     double z = 0;
     pipeline::Inside inside = pipeline::Inside::as_is;

@@ -1,9 +1,8 @@
-// The two hot loops, compiled once per instruction set: from the deformation of a segment to the strains of
-// the wires of a bundle, and from waves of strain to turning points. Which set runs is chosen when the
-// program starts; one machine always chooses the same.
+// The two hot loops, compiled once per instruction set: from the deformation of a segment to the strains of the wires of a
+// bundle, and from waves of strain to turning points. The set is chosen when the program starts; a machine always chooses the
+// same one.
 //
-// Everything here is plain data and pointers, so that no shared inline function can be compiled for the wrong
-// machine.
+// This header contains only plain data and pointers, so that no shared inline function is compiled for the wrong machine.
 #pragma once
 
 #include <array>
@@ -20,7 +19,7 @@
 
 namespace dresslife::strain {
 
-/// What scan() writes beyond a wire's last turning point, and then writes over.
+/// Number of points that scan() may write beyond a wire's last turning point and later overwrites.
 constexpr std::size_t spare_points = 4;
 
 // ---- strains of a bundle ----------------------------------------------------------------------------------
@@ -30,17 +29,17 @@ struct DeformationColumns {
   const double *curvature1, *curvature2, *twist, *elongation;
 };
 
-/// How one component slides, and what it needs for it.
+/// How one component slides, and the data for it.
 struct SlidingNumbers {
   Sliding sliding = Sliding::glued;
   int helical_level = 0;                 ///< of along_ancestor
   double mean_rest_rate = 1;             ///< mean path rate at rest, over the phase or the ancestor's pitch
-  double radial_share = 1;               ///< of its strain that the bed of its layer leaves (W31)
-  const double* clamp_strain = nullptr;  ///< (sample) of clamp_to_clamp
+  double radial_share = 1;               ///< share of its strain that remains with the bed of its layer (W31)
+  const double* clamp_strain = nullptr;  ///< (sample) strain, for clamp_to_clamp
   FrictionCap cap;                       ///< with friction
-  /// What friction holds of a part's deviation, (power, sample) with `held_stride`; null: nothing.
+  /// Part of the deviation that friction holds, (power, sample) with `held_stride`; null: none.
   const double* held = nullptr;
-  std::array<const double*, phases_per_pitch> turned_held{};  ///< of the turned parts
+  std::array<const double*, phases_per_pitch> turned_held{};  ///< `held` of the turned parts
   std::size_t held_stride = 0;
 };
 
@@ -49,20 +48,20 @@ struct NestingLevel {
   Placement place;
   ComponentState<double> rest;  ///< the part in the undeformed construction
   SlidingNumbers slide;
-  /// The same with the part, or else its nearest helical ancestor, moved on by sixths of its pitch.
+  /// Place and rest state of the part, moved by sixths of the pitch: its own, or else that of its nearest helical ancestor.
   std::array<Placement, phases_per_pitch> turned;
   std::array<ComponentState<double>, phases_per_pitch> turned_rest;
 };
 
-/// One place around a wire layer.
+/// One position around a wire layer.
 struct WireNode {
   Placement place;
   double rest_rate = 1;             ///< path rate at rest
   double inverse_rest_stretch = 1;  ///< 1 / stretch at rest
   WireState<double> rest;
   SlidingNumbers slide;
-  double wire_radius = 0;   ///< of its fibres [m]; 0 for the hose's wall, which bends with the dresspack only
-  double shear_radius = 0;  ///< at which torsion shears it [m]
+  double wire_radius = 0;   ///< radius of its fibres [m]; 0 for the hose's wall, which bends with the dresspack only
+  double shear_radius = 0;  ///< radius at which torsion causes shear [m]
   double strain_factor = 1;  ///< of a corrugated wall
 };
 
@@ -74,11 +73,11 @@ struct Fibre {
 /// A bundle in one segment.
 struct BundleNesting {
   std::vector<NestingLevel> steps;
-  std::vector<WireNode> nodes;        ///< for waves: waves_per_layer nodes a layer, evenly spaced
-  std::vector<SlidingLayer> sliding;  ///< of each layer; empty: all waves are those of the nodes
+  std::vector<WireNode> nodes;        ///< for waves: waves_per_layer nodes per layer, evenly spaced
+  std::vector<SlidingLayer> sliding;  ///< (layer); empty: all waves come from nodes
   std::vector<Fibre> fibres;
-  int order = 0;                  ///< of the part's state: 1 when fibres feel bend1
-  ComponentState<double> dresspack_at_rest;  ///< (W25) in the shape in which it was delivered
+  int order = 0;                  ///< order of the part's state: 1 if fibres depend on bend1
+  ComponentState<double> dresspack_at_rest;  ///< (W25) in the shape as delivered
 };
 
 struct BundlePointers {
@@ -86,18 +85,17 @@ struct BundlePointers {
   const WireNode* nodes;
   const Fibre* fibres;
   int step_count, node_count, fibre_count, order;
-  /// States of the part in which the last part of the nesting lies, from part_states(); null: the nesting is
-  /// followed from the dresspack.
+  /// States of the parent of the nesting's last part, from part_states(); null: the nesting is followed from the dresspack.
   const double* parent = nullptr;
-  const float* parent_rows = nullptr;  ///< the same, (PartRow, sample)
+  const float* parent_rows = nullptr;  ///< the parent in single precision, (PartRow, sample)
   std::size_t parent_stride = 0;
   double rest_curvature = 0;              ///< of the undeformed dresspack, about d2 [1/m]
   const SlidingLayer* sliding = nullptr;  ///< (layer), or null
-  bool with_shear = true;                 ///< ingredient_waves() fills the waves of shear
+  bool with_shear = true;                 ///< ingredient_waves() writes the waves of shear
 };
 
-/// What goes on inside a part needs of it, in single precision, one row of samples each: its state, that
-/// against the construction at rest, and its slopes along itself.
+/// Rows of a part in single precision that its contents need, (sample) each: its state, its change against the construction at
+/// rest, and its slopes along the part.
 enum PartRow {
   part_stretch,
   part_bend1,
@@ -116,8 +114,8 @@ enum PartRow {
 
 inline namespace DRESSLIFE_MACHINE {
 
-/// Whether waves in a part need its parent in single precision only. nodes: in the part, which `last` leads
-/// to. order: of the part's own series.
+/// Returns whether waves in a part need its parent in single precision only. last: the step to the part. nodes: in the part.
+/// order: of the part's own series.
 inline bool single_suffices(const NestingLevel& last, const WireNode* nodes, int node_count, int order) {
   bool suffice =
       order == 0 && !is_thesis(last.place.kinematics) && last.slide.sliding != Sliding::along_ancestor;
@@ -125,7 +123,7 @@ inline bool single_suffices(const NestingLevel& last, const WireNode* nodes, int
   return suffice;
 }
 
-/// Whether its own slopes follow in single precision, too: its strain does not change along it.
+/// Returns whether the slopes of the part can also be computed in single precision: its strain does not change along it.
 inline bool slopes_in_single(const NestingLevel& last) {
   return last.slide.held == nullptr && (last.slide.sliding != Sliding::glued || last.slide.radial_share == 1);
 }
@@ -137,39 +135,39 @@ constexpr std::size_t part_state_rows(int order) { return 4 * (static_cast<std::
 
 // ---- turning points ---------------------------------------------------------------------------------------
 
-/// Sixteen wires between two blocks of samples. Spare lanes repeat the first wire and write nothing.
+/// State of sixteen wires between two blocks of samples. Spare lanes repeat the first wire; their results are not written.
 struct LaneState {
   alignas(64) float shape[waves_per_layer - 1][lanes];  ///< sin, cos, sin 2, cos 2 of each wire's angle
-  alignas(64) float edge[lanes];                        ///< of the hysteresis (turning.h)
-  alignas(64) float top_edge[lanes];  ///< the same, started from a peak, while wires are undecided
+  alignas(64) float edge[lanes];                        ///< edge of the hysteresis (turning.h)
+  alignas(64) float top_edge[lanes];  ///< edge started on a peak, used while wires are undecided
   alignas(64) float extreme[lanes];   ///< furthest strain since the last turn
-  alignas(64) float top[lanes];       ///< highest strain of a wire that has not moved by the gate yet
+  alignas(64) float top[lanes];       ///< highest strain of a wire that has not yet moved by the gate
   alignas(64) float last[lanes];
   alignas(64) std::int32_t extreme_at[lanes];
   alignas(64) std::int32_t top_at[lanes];
-  alignas(64) std::int32_t rises[lanes];  ///< -1: `extreme` is a peak in the making, 0: a valley
-  unsigned decided = 0;                   ///< wires that have moved by the gate
-  int used = 0;                           ///< wires
-  float below_gate = 0;     ///< largest number below the gate: a turn is kept when strain moves away by more
-  std::int32_t sample = 0;  ///< of the next strain
+  alignas(64) std::int32_t rises[lanes];  ///< -1: `extreme` may become a peak, 0: a valley
+  unsigned decided = 0;                   ///< bits: wires that have moved by the gate
+  int used = 0;                           ///< number of wires
+  float below_gate = 0;     ///< largest number below the gate: a turn is kept if strain moves away by more
+  std::int32_t sample = 0;  ///< number of the next sample
 };
 
-/// What ranks the wires of a bound, of the strains at turning points.
+/// Measures by which the wires of a bound are ranked, from the strains at turning points.
 struct StrainMeasures {
   float lowest, highest;
-  /// Something like the damage of Smith, Watson and Topper: sum of (range times tensile peak)^3 between
-  /// neighbours, a power between those of short (1.4) and long (4.5) lives of the thesis' copper.
+  /// Approximates the damage of Smith, Watson and Topper: sum of (range times tensile peak)^3 between neighbours. The power lies
+  /// between those of short (1.4) and long (4.5) lives of the thesis' copper.
   float cycle_sum;
-  /// The same where the mean stress has relaxed or the metal yields: sum of range^3, between the powers of
+  /// Approximates the damage with relaxed mean stress or a yielding metal: sum of range^3. The power lies between those of
   /// short (1.7) and long (8.9) lives.
   float range_sum;
 };
 
-/// The same of sixteen wires that are ranked without keeping their turning points.
+/// State of sixteen wires that are ranked without keeping their turning points.
 struct LaneRanks {
   alignas(64) float direction[lanes];  ///< +1 rising, -1 falling
   alignas(64) float turn[lanes];       ///< the last turning point
-  alignas(64) float extreme[lanes];    ///< furthest strain since then, times the direction
+  alignas(64) float extreme[lanes];    ///< furthest strain since the last turning point, times the direction
   alignas(64) float low[lanes];
   alignas(64) float high[lanes];
   alignas(64) float cycle_sum_to_turn[lanes];  ///< up to the last turning point
@@ -178,7 +176,7 @@ struct LaneRanks {
   alignas(64) float range_sum[lanes];
 };
 
-/// Up to sixteen wires and what they go through next: waves, or strain[t * lanes + lane].
+/// Up to sixteen wires and their next samples: waves, or strain[t * lanes + lane].
 struct LaneRun {
   LaneState* state;
   /// Wave w of a block at waves[w * block_samples + t]: strain_j = w0 + w1 sin(theta_j) + w2 cos(theta_j) +
@@ -186,37 +184,37 @@ struct LaneRun {
   const float* waves;
   const float* strain;
   LaneRanks* ranks;    ///< for rank()
-  TurningPoint** end;  ///< (wire) where its next turning point goes; moves on. Room: count + spare_points.
-  /// Its wires lie at the opposite angles of those of the run before, lane by lane, in the same waves; not
-  /// more of them than there.
+  TurningPoint** end;  ///< (wire) address of its next turning point; is advanced. Room: count + spare_points.
+  /// Its wires are at the opposite angles of the wires of the previous run, lane by lane, with the same waves. It has at most as
+  /// many wires as the previous run.
   bool mirrors = false;
 };
 
 // ---- the set for this machine -----------------------------------------------------------------------------
 
-/// What a wire's strain is made of before friction, one after the other: the mean along its path, the glued
-/// strain's deviation from it, the shear strain gamma/sqrt(3) of its torsion at its surface, and the bending
-/// strain of each fibre. The last two hold what the undeformed wire has too, as glued, and count per length
-/// of the undeformed axis; the strain of a fibre counts per length of its own (W12).
+/// Components of a wire's strain before friction, in this order: the mean along its path, the deviation of the glued strain
+/// from the mean, the shear strain gamma/sqrt(3) at its surface from torsion, and the bending strain of each fibre. The last
+/// two include those of the undeformed wire, are computed as glued, and count per length of the undeformed axis. The strain of
+/// a fibre counts per length of the fibre (W12).
 enum Ingredient { mean_strain, deviation, shear, first_bending };
 constexpr int ingredients(int fibres) { return first_bending + fibres; }
 
-/// Sixteen wires whose strain is put together wire by wire (W17, W18), between two blocks of samples.
+/// State of sixteen wires whose strain is composed wire by wire (W17, W18), between two blocks of samples.
 struct MixedLanes {
   alignas(64) float shape[waves_per_layer - 1][lanes];
-  alignas(64) float slip[lanes];        ///< how far each wire has slid against its parent [strain]
-  alignas(64) float least_slip[lanes];  ///< between these it is at the end of the motion, wherever it was at
-  alignas(64) float most_slip[lanes];   ///< the first of the samples that settle() has seen
+  alignas(64) float slip[lanes];        ///< slip of each wire against its parent [strain]
+  alignas(64) float least_slip[lanes];  ///< bounds of the slip at the end of the motion, for any slip at the first of
+  alignas(64) float most_slip[lanes];   ///< the samples that settle() has processed
   std::vector<std::array<float, lanes>> rest;         ///< of shear and of the fibres' bending, (1 + fibres)
   std::vector<std::array<float, lanes>> fibre_scale;  ///< FibreShape::scale, (fibres)
   float cap = 0, cap_per_mean = 0;                    ///< cap infinite: glued, 0: free
-  float elastic = 0;               ///< share of the deviation that is held whatever the cap (W30)
+  float elastic = 0;               ///< share of the deviation that is held elastically (W30)
   float inverse_radial_share = 1;  ///< (W31)
-  bool scales = true;              ///< curvature and torsion per path length stay (W11)
+  bool scales = true;              ///< curvature and torsion per path length are constant (W11)
   bool with_shear = false, on_axis = false;
 };
 
-/// Such wires and the waves that they go through.
+/// Wires for settle(), and the waves of their layer.
 struct MixedRun {
   MixedLanes* state;
   const float* waves;
@@ -224,67 +222,67 @@ struct MixedRun {
 
 struct Kernels {
   const char* machine;
-  int wires_at_once;  ///< in one register
-  /// Strains of every node and fibre at samples [first, first + count), to out[(node * fibres + fibre) *
+  int wires_at_once;  ///< wires in one register
+  /// Computes strains of every node and fibre at samples [first, first + count), to out[(node * fibres + fibre) *
   /// stride + t].
   void (*node_strains)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
                        double* out, std::size_t stride);
-  /// The same in single precision, of nodes with one fibre, to out[node * stride + t].
+  /// Computes strains of nodes with one fibre in single precision, to out[node * stride + t].
   void (*node_strains_in_single)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                                  std::size_t count, float* out, std::size_t stride);
-  /// The waves of every wire layer and fibre, to out[((layer * fibres + fibre) * waves_per_layer + wave) *
+  /// Computes the waves of every wire layer and fibre, to out[((layer * fibres + fibre) * waves_per_layer + wave) *
   /// stride + t].
   void (*layer_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
                       float* out, std::size_t stride);
-  /// Mean strain (row 0) and deviation of the last part of a nesting as a series in its length (rows 1 ..),
-  /// glued to its parent, to out[row * stride + t]. turn >= 0: of the part moved on by that many sixths of
-  /// the pitch of the ancestor at `turned_level`, its own where that is 0.
+  /// Computes mean strain (row 0) and deviation of the last part of a nesting, glued to its parent, as a series in its length
+  /// (rows 1 ..), to out[row * stride + t]. turn >= 0: for the part moved by that many sixths of the pitch of the ancestor at
+  /// `turned_level`; turned_level 0: of its own pitch.
   void (*deviations)(const BundlePointers&, int turn, int turned_level, const DeformationColumns&,
                      std::size_t first, std::size_t count, double* out, std::size_t stride);
-  /// States of the last part of a nesting, to out[row * stride + t], see part_state_rows(), and to
-  /// rows[PartRow * stride + t] (null: not), without slopes where the order is 0.
+  /// Computes states of the last part of a nesting, to out[row * stride + t], see part_state_rows(), and to
+  /// rows[PartRow * stride + t] (null: not written). Order 0: without slopes.
   void (*part_states)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
                       double* out, float* rows, std::size_t stride);
-  /// The same rows of the only part of a nesting, in single precision all the way: exact kinematics, nothing
-  /// held by friction.
+  /// Computes the rows of PartRow of the only part of a nesting, completely in single precision. Precondition: exact kinematics,
+  /// no strain held by friction.
   void (*part_rows_of_dresspack)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                                  std::size_t count, float* rows, std::size_t stride);
-  /// Ingredients of every node, to out[(node * ingredients + ingredient) * stride + t].
+  /// Computes the ingredients of every node, to out[(node * ingredients + ingredient) * stride + t].
   void (*node_ingredients)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                            std::size_t count, double* out, std::size_t stride);
-  /// Waves of the ingredients of every layer, to out[((layer * ingredients + ingredient) * waves_per_layer +
+  /// Computes waves of the ingredients of every layer, to out[((layer * ingredients + ingredient) * waves_per_layer +
   /// wave) * stride + t].
   void (*ingredient_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                            std::size_t count, float* out, std::size_t stride);
-  /// Those of mean strain and deviation alone, to out[(layer * 2 + ingredient) * waves_per_layer * stride +
+  /// Computes waves of mean strain and deviation only, to out[(layer * 2 + ingredient) * waves_per_layer * stride +
   /// wave * stride + t].
   void (*deviation_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                           std::size_t count, float* out, std::size_t stride);
-  /// Puts the strains of sixteen wires together, fibre by fibre, to out[(fibre * count + t) * lanes + lane].
-  /// waves: of one layer's ingredients. images: wires at the opposite angles, whose strains go to images_out; null: none.
+  /// Composes the strains of sixteen wires, fibre by fibre, to out[(fibre * count + t) * lanes + lane]. waves: of the ingredients
+  /// of one layer. images: wires at the opposite angles, whose strains go to images_out; null: none.
   void (*mix)(MixedLanes&, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count,
               int fibres, float* out, float* images_out);
-  /// From the last samples of the motion to the first: narrows least_slip .. most_slip by these samples. waves: of
-  /// their layer's mean strain and deviation.
+  /// Narrows least_slip .. most_slip by these samples. Call with blocks from the end of the motion backward. waves: mean strain
+  /// and deviation of the wires' layer.
   void (*settle)(const MixedRun*, std::size_t runs, std::size_t stride, std::size_t count);
-  /// Path rates of the nodes, for means along the dresspack: sum[node * stride + t] += weight * rate.
+  /// Adds path rates of the nodes, for means along the dresspack: sum[node * stride + t] += weight * rate.
   void (*add_path_rates)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                          std::size_t count, double weight, double* sum, std::size_t stride);
-  /// The next `count` samples of several runs, from their waves.
+  /// Scans the next `count` samples of several runs, from their waves.
   void (*scan)(const LaneRun*, std::size_t runs, std::size_t count);
-  /// The same from their strains.
+  /// Scans the next `count` samples of several runs, from their strains.
   void (*scan_strains)(const LaneRun*, std::size_t runs, std::size_t count);
-  /// The same runs, ranked.
+  /// Rank the wires of several runs by the next `count` samples, from their waves or strains.
   void (*rank)(const LaneRun*, std::size_t runs, std::size_t count);
   void (*rank_strains)(const LaneRun*, std::size_t runs, std::size_t count);
-  /// Precondition: count > 0.
+  /// Returns the measures of one history. Precondition: count > 0.
   StrainMeasures (*measures)(const float* strain, std::size_t count);
 };
-// count is padded by the callee to a multiple of `padding`: columns and outputs have room for it.
+// Each function pads count to a multiple of `padding`. Columns and outputs must have room for it.
 
-/// The widest this machine can run, or the one that the environment variable DRESSLIFE_KERNELS names.
+/// Returns the widest set that this machine can run, or the set named by the environment variable DRESSLIFE_KERNELS.
 const Kernels& kernels();
-/// Precondition: this machine can run them.
+/// Precondition: this machine can run the set.
 const Kernels& kernels_for(pipeline::InstructionSet instructions);
 
 inline BundlePointers pointers(const BundleNesting& nesting) {

@@ -1,5 +1,5 @@
-// Waves of layers that slide over their pitch without nodes (W27), for one instruction set: part of
-// body.h, which declares the state of a part before. Names as in sliding_layer.h.
+// Waves of layers that slide over their pitch, without nodes (W27), for one instruction set. This file is a part of body.h, which
+// declares the state of a part before it. Names as in sliding_layer.h.
 #pragma once
 
 #include "strain/sliding_layer.h"
@@ -8,14 +8,14 @@ namespace dresslife::strain {
 namespace DRESSLIFE_MACHINE_KERNELS {
 namespace {
 
-/// What all layers of a part share: its bending, turned, and products of it; the change of its stretch's
-/// square.
+/// Numbers that all layers of a part have in common: its bending, turned, and products of it; the change of its squared
+/// stretch.
 struct alignas(64) BendShape {
   enum Row { sine, cosine, sine2, cosine2, sine3, cosine3, bend_squared, square_stretch, rows_in_all };
   float rows[rows_in_all][chunk];
-  float most_bend_squared, most_square_stretch, most_twist;  ///< of their sizes
+  float most_bend_squared, most_square_stretch, most_twist;  ///< largest sizes over the samples
 
-  /// of: any layer of the part that has closed forms.
+  /// of: any layer of the part with closed forms.
   void fill(const SlidingLayer& of, const PartState& part, std::size_t count) {
     FloatPack most_bend{}, most_square{}, most_twisted{};
     for (std::size_t t = 0; t < count; t += float_pack_size) {
@@ -38,7 +38,7 @@ struct alignas(64) BendShape {
 
   inline FloatPack operator()(Row row, std::size_t t) const { return load<FloatPack>(rows[row] + t); }
 
-  /// Whether the closed forms are good for a layer at all of these samples.
+  /// Returns whether the closed forms are accurate for a layer at all of these samples.
   bool suits(const SlidingLayer& layer) const {
     const float turning = most_twist * (most_twist + std::fabs(layer.two_sigma0)) * layer.R2_over_D0;
     const float square = most_square_stretch * layer.inverse_D0 + turning;
@@ -47,14 +47,14 @@ struct alignas(64) BendShape {
   }
 };
 
-/// Of sqrt(1 + q) - 1; what is left out is below 7/128 q^4 of it.
+/// Returns sqrt(1 + q) - 1. The relative error is below 7/128 q^4.
 inline FloatPack root_less_one(const FloatPack& q) {
   return q * (0.5f + q * (-0.125f + q * (0.0625f - 0.0390625f * q)));
 }
 
 /// The part of a layer's strain that does not depend on the angle: the mean strain over the pitch, and the factors of
-/// the harmonics of f (1 + strain), the mean's less that at rest. A loop of its own: with the one that uses
-/// it, a sample's numbers would wait for each other too long.
+/// the harmonics of f (1 + strain), that of the mean less its value at rest. This loop is separate: within the loop that uses
+/// the factors, the numbers of a sample would wait too long for each other.
 struct alignas(64) SlidingState {
   enum Row { axial, mean, first, second, third, rows_in_all };
   float rows[rows_in_all][chunk];
@@ -66,12 +66,12 @@ struct alignas(64) SlidingState {
       const FloatPack twist_by = part(twist_change, t);
       const FloatPack turning = of.R2_over_D0 * (twist_by * (twist_by + of.two_sigma0));
       const FloatPack q = shape(BendShape::square_stretch, t) * of.inverse_D0 + turning;  // D / D0 - 1
-      // D0 / D, by a true quotient: the strain at rest is subtracted from its products, and the error of
-      // inverse(), two roundings on processors whose own is good to 12 digits, would be all of the budget
+      // D0 / D by division: the strain at rest is subtracted from its products, and the error of inverse() would use the whole
+      // error budget. This error is two roundings on processors whose reciprocal has only 12 digits.
       const FloatPack over_D = 1.0f / (1.0f + q);
       const FloatPack tau = (of.tau0 + turning) * over_D;
       const FloatPack k = shape(BendShape::bend_squared, t) * of.R2_over_D0 * over_D;
-      // (W10) of a helix in a straight part, and what bending adds: as mean_over_pitch()
+      // (W10) of a helix in a straight part, and the contribution of bending, as in mean_over_pitch()
       const FloatPack straight = root_less_one(q);
       const FloatPack bent = k * tau * (1.0f + of.second_slope * k) * of.second_scale - of.second0;
       const FloatPack strain = of.radial_share * (straight + bent + bent * straight);
@@ -95,11 +95,10 @@ struct alignas(64) SlidingState {
 /// Waves of the strain of one of the layer's fibres.
 void closed_strains_of_fibre(const SlidingLayer& layer, const SlidingFibre& fibre, const SlidingState& state,
                              const BendShape& shape, std::size_t count, float* out, std::size_t stride) {
-  const SlidingLayer of = layer;  // copies: the compiler sees that `out` is not in them
+  const SlidingLayer of = layer;  // copies, so that the compiler knows that `out` does not alias them
   const SlidingFibre by = fibre;
   for (std::size_t t = 0; t < count; t += float_pack_size) {
-    // harmonics of strain + rho (f (1 + strain) - f0), those of f in their rows' numbers, and of their
-    // product with G
+    // harmonics of strain + rho (f (1 + strain) - f0), in the order of the rows, then the harmonics of their product with G
     const FloatPack mean = state(SlidingState::axial, t) + by.mean * state(SlidingState::mean, t);
     const FloatPack first = state(SlidingState::first, t), second = state(SlidingState::second, t);
     const FloatPack third = by.second_of_third * state(SlidingState::third, t);

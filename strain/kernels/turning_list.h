@@ -1,4 +1,4 @@
-// The turning points of one history as they are found.
+// List of the turning points of one history.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,14 @@ struct TurningPoint {
   std::uint32_t sample;
 };
 
-/// A growing row of turning points that a kernel writes into without asking for room each time.
+/// A growing array of turning points. A kernel writes into it without asking for room for each point.
 class TurningList {
  public:
   std::span<const TurningPoint> points() const { return {points_.get(), size_}; }
   std::size_t size() const { return size_; }
   void clear() { size_ = 0; }
 
-  /// Where the next point goes, with room for `more` points; set_end() states their end.
+  /// Returns the address of the next point, with room for `more` points. Call set_end() after writing.
   TurningPoint* room(std::size_t more) {
     if (size_ + more > capacity_) grow(size_ + more);
     return points_.get() + size_;
