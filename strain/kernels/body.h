@@ -1,7 +1,7 @@
-// The hot loops, for one instruction set: included by portable.cpp, avx2.cpp, .. , each of which names it
+// The hot loops for one instruction set. portable.cpp, avx2.cpp and avx512.cpp include this file, each for its own set
 // (pipeline/base/simd.h).
 #include "pipeline/base/simd.h"
-// simd.h declares what the templates below are used with
+// simd.h declares the functions that the templates below use
 #include "strain/kernels/kernels.h"
 #include "strain/kernels/turning.h"
 
@@ -19,9 +19,8 @@ struct Descent {
   Pack free_strain[highest_level + 1];
 };
 
-/// The part of step k in its parent `rod`, once its free strain is known. held: what friction holds of its
-/// deviation, at this sample. One copy: inlined wherever it is called, it is most of what there is to
-/// compile.
+/// Returns the part of step k in its parent `rod`. free_strain: its strain without friction. held: the strain that friction holds
+/// of its deviation, at this sample. Not inlined, because copies at every call would be most of the compile time.
 __attribute__((noinline, flatten)) ComponentState<Pack> step_down(
     const ComponentState<Pack>& rod, const NestingLevel& step, const Placement& place,
     const ComponentState<double>& rest, const Pack& free_strain, const double* held) {
@@ -44,8 +43,7 @@ __attribute__((noinline, flatten)) ComponentState<Pack> step_down(
 
 inline const double* at_sample(const double* row, std::size_t sample) { return row ? row + sample : nullptr; }
 
-/// The parent of level `level` when the ancestor of level `turned_level` is moved on by `turn` sixths of its
-/// pitch.
+/// Returns the parent of level `level` with the ancestor of level `turned_level` moved by `turn` sixths of its pitch.
 inline ComponentState<Pack> turned_parent(const BundlePointers& nesting, const Descent& descent,
                                           int turned_level, int level, int turn, std::size_t sample) {
   const int first = turned_level - 1;
@@ -56,7 +54,7 @@ inline ComponentState<Pack> turned_parent(const BundlePointers& nesting, const D
   return rod;
 }
 
-/// Axial strain of a component that slides; level: of its parent (0 = the dresspack).
+/// Returns the axial strain of a component that slides. level: of its parent (0 = the dresspack).
 inline Pack free_strain(const BundlePointers& nesting, const Descent& descent, int level,
                         const Placement& place, const SlidingNumbers& slide, std::size_t sample) {
   switch (slide.sliding) {
@@ -76,7 +74,7 @@ inline Pack free_strain(const BundlePointers& nesting, const Descent& descent, i
   return Pack{};
 }
 
-/// The part that holds the last one of the nesting, as part_states() left it.
+/// Loads the parent of the nesting's last part, as stored by part_states().
 inline void load_parent(const BundlePointers& nesting, std::size_t sample, ComponentState<Pack>& rod) {
   const double* row = nesting.parent + sample;
   for (Series<Pack>* series : {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist}) {
@@ -86,7 +84,7 @@ inline void load_parent(const BundlePointers& nesting, std::size_t sample, Compo
   }
 }
 
-/// The first `steps` parts of the nesting; with a parent given, only the last of them.
+/// Computes the first `steps` parts of the nesting; with a given parent only the last of them.
 inline void descend(const BundlePointers& nesting, const DeformationColumns& in, std::size_t sample,
                     Descent& descent, int steps) {
   const int known = nesting.parent ? nesting.step_count - 1 : 0;
@@ -139,7 +137,7 @@ inline FibreShape shape_of(const Fibre& fibre, const WireNode& node) {
                                      fibre.phi_cosine);
 }
 
-/// Strains of one node's fibres at a pack of samples. sliding: its axial strain when it slides.
+/// Computes the strains of one node's fibres at a pack of samples. sliding: its axial strain if it slides.
 inline void strains_of_node(const BundlePointers& nesting, const ComponentState<Pack>& parent,
                             const WireNode& node, const Pack& sliding, Pack* strain) {
   const WireState<Pack> wire = wire_state(parent, node.place);
@@ -147,7 +145,7 @@ inline void strains_of_node(const BundlePointers& nesting, const ComponentState<
   Pack bend1 = wire.bend1, bend2 = wire.bend2;
   if (node.slide.sliding != Sliding::glued || node.slide.radial_share != 1) {
     if (node.slide.sliding != Sliding::glued) axial = sliding;
-    if (!is_thesis(node.place.kinematics)) {  // curvature per path length stays (W11)
+    if (!is_thesis(node.place.kinematics)) {  // curvature per path length is constant (W11)
       const Pack factor = (1.0 + axial) * node.rest.stretch * wire.inverse_stretch;
       bend1 *= factor;
       bend2 *= factor;
@@ -189,7 +187,7 @@ inline double shear_by_twist(const WireNode& node) {
          rest_length(node.place.kinematics, node.rest);
 }
 
-/// What the strain of a node is made of (see Ingredient).
+/// Computes the ingredients of the strain of a node (see Ingredient).
 inline void ingredients_of_node(const BundlePointers& nesting, const Descent& descent, const WireNode& node,
                                 const Pack& sliding, Pack* out) {
   const WireState<Pack> wire = wire_state(descent.rods[nesting.step_count], node.place);
@@ -223,12 +221,12 @@ void node_ingredients(const BundlePointers& nesting, const DeformationColumns& i
 
 // ---- waves of a layer -------------------------------------------------------------------------------------
 //
-// Single precision is enough here because strains are never taken as differences of stretches: with the
-// changes against the construction at rest of the parent's stretch, bending and twist at hand,
+// Single precision is enough here because a strain is never computed as a difference of stretches. It follows from the changes
+// of the parent's stretch, bending and twist against the construction at rest:
 //     q = (V^2 - V0^2) / V0^2 = (R^2 dsigma (sigma + sigma0) + dy (y + y0)) / V0^2,
 //     strain = sqrt(1 + q) - 1 = q / (1 + sqrt(1 + q)).
 
-constexpr std::size_t chunk = 256;  ///< samples for which the rows stay in the first-level cache
+constexpr std::size_t chunk = 256;  ///< samples per chunk: the rows stay in the first-level cache
 
 struct alignas(64) PartState {
   float rows[part_rows][chunk];
@@ -240,7 +238,7 @@ struct alignas(64) PartState {
 struct PartAtRest {
   double stretch = 1, bend1 = 0, bend2 = 0, twist = 0;
 
-  /// The last of the first `steps` parts, or the dresspack.
+  /// steps > 0: the last of the first `steps` parts; 0: the dresspack.
   PartAtRest(const BundlePointers& nesting, int steps) {
     bend2 = nesting.rest_curvature;
     if (steps == 0) return;
@@ -252,7 +250,7 @@ struct PartAtRest {
   }
 };
 
-/// A part's state in single precision, from that in double, to rows[PartRow * stride].
+/// Writes a part's state in single precision to rows[PartRow * stride], from that in double precision.
 inline void put_part(const ComponentState<Pack>& rod, const PartAtRest& rest, int order, float* rows,
                      std::size_t stride) {
   const Series<Pack>* const of[] = {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist};
@@ -276,12 +274,12 @@ __attribute__((flatten)) void part_states(const BundlePointers& nesting, const D
     double* row = out + t;
     for (const Series<Pack>* series : {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist})
       for (int power = 0; power <= nesting.order; ++power, row += stride)
-        store(power <= series->order ? series->at[power] : Pack{}, row);  // `thesis` has values only
+        store(power <= series->order ? series->at[power] : Pack{}, row);  // `thesis` has no slopes
     if (rows) put_part(rod, rest, nesting.order, rows + t, stride);
   }
 }
 
-/// A helix in a parent at rest, in single precision; names as in helix.h, those at rest with a 0.
+/// A helix in a parent at rest, in single precision. Names as in helix.h; a 0 means at rest.
 struct HelixNumbers {
   float radius, turn_rate, tangent, c, inverse_c;
   float sigma0, stretch0, strain0, pitch0, inverse_pitch0, second0, inverse_one_and_second0;
@@ -307,12 +305,12 @@ struct HelixNumbers {
   }
 };
 
-/// A parent's state at a pack of samples, and what all that lies in it on one helix shares.
+/// A parent's state at a pack of samples, and the values that all parts on one helix in it have in common.
 struct ParentAt {
   FloatPack stretch, bend1, bend2, twist, stretch_by, bend1_by, bend2_by, twist_by;  ///< by: changes
   FloatPack sigma, turning, twisting;  ///< turning: R sigma; twisting: R^2 (sigma^2 - sigma0^2)
 
-  /// of: gives the PartRows.
+  /// of: returns the rows of PartRow.
   template <class Source>
   ParentAt(const HelixNumbers& helix, const Source& of, std::size_t t)
       : stretch(of(part_stretch, t)),
@@ -327,7 +325,7 @@ struct ParentAt {
         turning(helix.radius * sigma),
         twisting(helix.radius * helix.radius * twist_by * (sigma + helix.sigma0)) {}
 
-  /// mean_path_rate() against that at rest, minus one.
+  /// Returns mean_path_rate() over that at rest, minus one.
   inline FloatPack mean_over_pitch(const HelixNumbers& helix) const {
     const FloatPack y2 = stretch * stretch, A = turning * turning;
     const FloatPack q = (twisting + stretch_by * (stretch + helix.stretch0)) * helix.inverse_pitch0;
@@ -348,19 +346,19 @@ inline FloatPack in_single(const double* from) {
   return joined(in_single(load<Pack>(from)), in_single(load<Pack>(from + pack_size)));
 }
 
-/// Where a node's strain waits in `out` if it slides from afar: where the first waves of its layer will be,
-/// five rows for five nodes.
+/// Returns the address in `out` at which fill_part() stores the strain of a node that slides from afar: the five rows of the
+/// first waves of its layer, for five nodes.
 inline float* waiting_place(float* out, int node, int kinds, std::size_t stride) {
   return out + (node / waves_per_layer * kinds * waves_per_layer + node % waves_per_layer) * stride;
 }
 
-/// Whether the last part's state follows from its parent's rows alone, see part_from().
+/// Returns whether the last part's state follows from its parent's rows alone, see part_from().
 inline bool rows_suffice(const BundlePointers& nesting) {
   return nesting.parent_rows != nullptr && single_suffices(nesting.steps[nesting.step_count - 1],
                                                            nesting.nodes, nesting.node_count, nesting.order);
 }
 
-/// The PartRows of a part from `first` on.
+/// The rows of PartRow of a part.
 struct RowsOfParent {
   const float* rows;
   std::size_t stride;
@@ -370,7 +368,7 @@ struct RowsOfParent {
   }
 };
 
-/// The same of the dresspack: uniform, at rest with nothing but its curvature.
+/// The rows of PartRow of the dresspack: uniform; at rest only its curvature is not zero.
 struct RowsOfDresspack {
   const DeformationColumns& in;
   std::size_t first;
@@ -398,15 +396,15 @@ struct RowsOfDresspack {
   }
 };
 
-/// The state of the last part, child() and slid() of its parent's, all in changes, to rows[PartRow * stride].
+/// Computes the state of the last part from that of its parent, as child() and slid() do, in changes, to rows[PartRow * stride].
 /// With N = R sigma^2 + y X, V / V0 = 1 + e and (1 + e)^2 = 1 + q,
 ///     bend2 = c N / V (1 + strain) / (1 + e),    bend2 - bend2_0 = c / V0 (N - N0 + N m),
 ///     m = (1 + strain) / (1 + q) - 1 = (strain - q) / (1 + q);    glued, strain = e: m = -e / (1 + e),
-/// and the same for the twist with M = sigma stretch. Its own slopes in a parent that has none
-/// (`slopes`), along that parent:
+/// and the twist in the same way with M = sigma stretch. The slopes of the part in a parent without slopes
+/// (`slopes`), along this parent:
 ///     radial' = -theta' X,   X' = theta' radial,   y' = R X',   y'' = -R theta'^2 X,   w = V'/V = y y'/V^2,
 ///     a' = -R sigma y' / V^2,   a'' = -R sigma (y'' - 2 y' w) / V^2;   (N / V)' = (N' - N w) / V,
-/// what slides times its factor, which has the slope w0 - w: (1 + strain) of the rest's, w0. Slopes: precondition
+/// for a sliding part times its factor, which has the slope w0 - w: (1 + strain) of the rest's, w0. Precondition of slopes:
 /// slopes_in_single().
 template <Sliding how, bool slopes, class Source>
 void part_from(const Source& of, const BundlePointers& nesting, std::size_t first, std::size_t count,
@@ -439,7 +437,7 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
     const FloatPack q = (p.twisting + y_by * (y + y0)) * inverse_V0_squared;
     const FloatPack root = inverse_root(1.0f + q);
     const FloatPack e = q * inverse(1.0f + (1.0f + q) * root);
-    FloatPack strain = e, m = -e * root, along = FloatPack{} + 1.0f;  // along: bend1's factor
+    FloatPack strain = e, m = -e * root, along = FloatPack{} + 1.0f;  // along: factor of bend1
     if constexpr (how == Sliding::glued) {
       if (gives) {
         strain = share * e;
@@ -473,7 +471,7 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
       const FloatPack X_slope = helix.turn_rate * radial;
       const FloatPack y_curve = -R * helix.turn_rate * helix.turn_rate * X;
       const FloatPack angle_curve = -p.turning * (y_curve - 2.0f * y_slope * w) * over_V2;
-      const FloatPack over_V = helix.c * scale * root * along;  // along the part, and what slides
+      const FloatPack over_V = helix.c * scale * root * along;  // along the part, with the factor of sliding
       put(stretch_slope, helix.c * (at_rest[0] + by[0]) * (how == Sliding::glued ? w : w0 + FloatPack{}));
       put(bend1_slope, helix.c * helix.c * along *
                            (angle_curve + helix.turn_rate * X +
@@ -516,8 +514,8 @@ void fill_from_rows(const BundlePointers& nesting, std::size_t first, std::size_
               waiting_place(out, n, kinds, stride) + t);
 }
 
-/// Fills the state for samples [first, first + count), and leaves the strains of nodes that slide from afar
-/// where they wait.
+/// Fills the state for samples [first, first + count), and stores the strains of nodes that slide from afar at their
+/// waiting_place().
 __attribute__((flatten)) void fill_part(const BundlePointers& nesting, const DeformationColumns& in,
                                         std::size_t first, std::size_t count, PartState& state, float* out,
                                         std::size_t stride, int kinds) {
@@ -538,7 +536,7 @@ __attribute__((flatten)) void fill_part(const BundlePointers& nesting, const Def
   }
 }
 
-/// A node in the numbers of this loop; names as in helix.h, those at rest with a 0.
+/// The numbers of a node for the loops. Names as in helix.h; a 0 means at rest.
 struct NodeNumbers {
   float sine, cosine, y0, inverse_V0, inverse_V0_squared;
   float rest_stretch, rest_bend1, rest_bend2;
@@ -560,10 +558,10 @@ struct NodeNumbers {
   }
 };
 
-/// What the nodes of a layer share.
+/// Numbers that the nodes of a layer have in common.
 struct LayerNumbers : HelixNumbers {
   float mean_strain0, inverse_mean_rest_rate, radial_share;
-  bool sticks;  ///< with its curvature: glued, and nothing gives radially
+  bool sticks;  ///< its curvature is that of the parent's: glued, and rigid in the radial direction
 
   LayerNumbers(const WireNode& node, const PartAtRest& parent)
       : HelixNumbers(node.place, parent),
@@ -608,7 +606,7 @@ struct FibresAtNodes {
   }
 };
 
-/// wire_state() with the glued strain in place of the stretch.
+/// wire_state() with the glued strain instead of the stretch.
 struct NodeState {
   FloatPack strain, bend1, bend2, twist, inverse_stretch;
 };
@@ -663,7 +661,7 @@ struct LayerAt : ParentAt {
     return cosine_squared * (stretch_by + layer.strain0 + by_bending) + layer.radius * sine_cosine * twist;
   }
 
-  /// The mean of the glued strain over the pitch.
+  /// Returns the mean of the glued strain over the pitch.
   inline FloatPack mean_strain_over_pitch() const {
     if constexpr (thesis)
       return layer.radial_share *
@@ -671,14 +669,14 @@ struct LayerAt : ParentAt {
     return layer.radial_share * mean_over_pitch(layer);
   }
 
-  /// Where curvature per path length stays (W11), what it is multiplied by.
+  /// Returns the factor that keeps the curvature per path length (W11); 1 where it does not apply.
   inline FloatPack curvature_factor(const FloatPack& axial, const NodeNumbers& n,
                                     const NodeState& node) const {
     return layer.sticks || thesis ? FloatPack{} + 1.0f
                                   : (1.0f + axial) * n.rest_stretch * node.inverse_stretch;
   }
 
-  /// Strain of each node where it slides; glued nodes: nothing. waiting: what fill_part() left for this
+  /// Computes the strain of each node if the layer slides; 0 if it is glued. waiting: strains that fill_part() stored for this
   /// layer.
   inline void sliding(Sliding how, const float* waiting, std::size_t stride, FloatPack* strain) const {
     const FloatPack of_layer = how == Sliding::over_pitch ? mean_strain_over_pitch() : FloatPack{};
@@ -688,9 +686,9 @@ struct LayerAt : ParentAt {
   }
 };
 
-/// Mean, sine, cosine, and those of twice the angle, of five evenly spaced values around the layer (W13).
+/// Converts five evenly spaced values around the layer to mean, sine, cosine, and sine and cosine of twice the angle (W13).
 struct FiveToWaves {
-  float sine1, sine2, cosine1, cosine2;  ///< of a fifth of a turn and of two, times 2/5
+  float sine1, sine2, cosine1, cosine2;  ///< of one fifth and two fifths of a turn, times 2/5
 
   FiveToWaves() {
     const double fifth = 2 * 3.141592653589793 / waves_per_layer, scale = 2.0 / waves_per_layer;
@@ -712,7 +710,7 @@ struct FiveToWaves {
   }
 };
 
-/// Waves of the strains of the fibres of a layer that slides and whose fibres feel bend2 alone. From W6 and
+/// Computes the waves of the strains of a layer that slides and whose fibres depend on bend2 only. From W6 and
 /// W11 bend2 = (1 + strain) rest_stretch (R sigma^2 + y X) / V^2.
 template <Sliding how>
 void sliding_strains_of_layer(const FiveNodes& layer, const PartState& part, std::size_t count, float* out,
@@ -742,7 +740,7 @@ void sliding_strains_of_layer(const FiveNodes& layer, const PartState& part, std
   }
 }
 
-/// Waves of the strains of a layer's fibres at `count` samples.
+/// Computes the waves of the strains of a layer's fibres at `count` samples.
 template <bool thesis, bool with_bend1, Sliding how>
 void strains_of_layer(const FiveNodes& layer, const PartState& part, std::size_t count, float* out,
                       std::size_t stride) {
@@ -777,7 +775,7 @@ void strains_of_layer(const FiveNodes& layer, const PartState& part, std::size_t
   }
 }
 
-/// Waves of the ingredients of a layer at `count` samples.
+/// Computes the waves of the ingredients of a layer at `count` samples.
 template <bool thesis, bool with_bend1, Sliding how>
 void ingredients_of_layer(const FiveNodes& layer, const PartState& part, std::size_t count, float* out,
                           std::size_t stride) {
@@ -808,7 +806,7 @@ void ingredients_of_layer(const FiveNodes& layer, const PartState& part, std::si
   }
 }
 
-/// The first two of them alone, which decide how far wires have slid.
+/// Computes the waves of mean strain and deviation only, which determine the slip of wires.
 template <bool thesis, Sliding how>
 void deviations_of_layer(const FiveNodes& layer, const PartState& part, std::size_t count, float* out,
                          std::size_t stride) {
@@ -837,7 +835,7 @@ namespace {
 
 using OfLayer = void (*)(const FiveNodes&, const PartState&, std::size_t, float*, std::size_t);
 
-/// The loops of one kind for every way of sliding.
+/// The loops of one kind for each value of Sliding.
 struct BySliding {
   OfLayer glued, over_pitch, clamp_to_clamp, along_ancestor;
 
@@ -872,8 +870,7 @@ constexpr BySliding deviations_by_sliding{deviations_of_layer<thesis, Sliding::g
                                           deviations_of_layer<thesis, Sliding::clamp_to_clamp>,
                                           deviations_of_layer<thesis, Sliding::along_ancestor>};
 
-/// Runs `by` over all layers, chunk by chunk, but for those of `sliding` that have closed forms. kinds: of
-/// waves per layer.
+/// Runs `by` over all layers, chunk by chunk. Layers of `sliding` with closed forms use these instead. kinds: waves per layer.
 void over_layers(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first,
                  std::size_t count, int kinds, float* out, std::size_t stride, const SlidingLayer* sliding,
                  const BySliding& by) {
@@ -912,7 +909,7 @@ void layer_waves(const BundlePointers& nesting, const DeformationColumns& in, st
                                   : strains_by_sliding<false, false>);
 }
 
-/// Strains of one node with one fibre. out: where fill_part() left its strain if it slides from afar.
+/// Computes the strains of one node with one fibre. out: contains the strain from fill_part() if the node slides from afar.
 template <bool thesis, bool with_bend1>
 void strains_of_one(const BundlePointers& nesting, const WireNode& of, const PartAtRest& at_rest,
                     const PartState& part, std::size_t count, float* out) {
@@ -978,9 +975,9 @@ __attribute__((flatten)) void add_path_rates(const BundlePointers& nesting, cons
   }
 }
 
-// ---- wires put together one by one ------------------------------------------------------------------------
+// ---- wires composed one by one ----------------------------------------------------------------------------
 
-/// Values of one ingredient at a pack of wires, the first of them lane `at`.
+/// Values of one ingredient at a pack of wires; its first wire is lane `at`.
 struct Around {
   FloatPack sine1, cosine1, sine2, cosine2;
 
@@ -1021,7 +1018,7 @@ struct Sliders {
         cap_per_mean(state.cap_per_mean),
         share(1 - state.elastic) {}
 
-  /// What they hold. Return mapping: the deviation less the slip, cut at the cap; the slip follows.
+  /// Returns the held strains. Return mapping: the deviation minus the slip is limited to the cap, then the slip is updated.
   inline FloatPack next(const FloatPack& mean, const FloatPack& away) {
     const FloatPack cap = larger(cap0 + cap_per_mean * mean, FloatPack{});
     const FloatPack slides = share * away;
@@ -1031,8 +1028,8 @@ struct Sliders {
   }
 };
 
-/// Where the slips of a pack of wires can be at the end of the motion. One sample cuts a slip to [slides - cap, slides +
-/// cap]; what follows cuts it to [least, most]. Both together are again a cut.
+/// Range of the slips of a pack of wires at the end of the motion. One sample limits a slip to [slides - cap, slides + cap]. The
+/// later samples limit it to [least, most]. Both limits in succession are again one range.
 struct SlipRange {
   FloatPack least, most;
 
@@ -1081,7 +1078,7 @@ void mix_pack(MixedLanes& state, int lane, const float* waves, std::size_t strid
   store(sliders.slip, state.slip + lane);
 }
 
-/// The most frequent kind: one fibre at the surface, no shear, curvature per path length. side 2: with their images.
+/// The most frequent case: one fibre at the surface, no shear, curvature per path length. side 2: with their images.
 template <int side>
 void mix_plain(MixedLanes* const* states, int lane, const float* waves, std::size_t stride, std::size_t count,
                float* const* out) {
@@ -1128,7 +1125,7 @@ void mix(MixedLanes& state, MixedLanes* images, const float* waves, std::size_t 
   }
 }
 
-/// A slip waits for itself from sample to sample: `together` packs at a time fill that wait.
+/// The slip of a sample depends on that of the previous sample. `together` packs at a time use the waiting time.
 template <int together>
 void settle_packs(const MixedRun* runs, int lane, std::size_t stride, std::size_t count) {
   Around around[together];
@@ -1161,7 +1158,7 @@ void settle(const MixedRun* runs, std::size_t run_count, std::size_t stride, std
   }
 }
 
-// ---- what ranks the wires of a bound ----------------------------------------------------------------------
+// ---- measures by which the wires of a bound are ranked -----------------------------------------------------
 
 StrainMeasures measures(const float* strain, std::size_t count) {
   const FloatPack zero{};
@@ -1175,14 +1172,14 @@ StrainMeasures measures(const float* strain, std::size_t count) {
   std::size_t k = 1;
   for (; k + float_pack_size <= count; k += float_pack_size)
     take(load<FloatPack>(strain + k - 1), load<FloatPack>(strain + k));
-  if (k < count && count > float_pack_size) {  // the rest, behind some that were taken: those stand still
+  if (k < count && count > float_pack_size) {  // the rest of the samples; the lanes before them do not move
     float lane[float_pack_size];
     for (int j = 0; j < float_pack_size; ++j) lane[j] = static_cast<float>(j);
     const auto taken = static_cast<float>(float_pack_size - (count - k));
     const float* const last = strain + count - float_pack_size;
     const FloatPack now = load<FloatPack>(last);
     take(select(greater(FloatPack(taken), load<FloatPack>(lane)), now, load<FloatPack>(last - 1)), now);
-  } else if (k < count) {  // few in all, and moves from the first strain to itself
+  } else if (k < count) {  // fewer than one pack in total; spare lanes stay at the first strain
     float from[float_pack_size], to[float_pack_size];
     for (int lane = 0; lane < float_pack_size; ++lane, ++k) {
       from[lane] = k < count ? strain[k - 1] : strain[0];

@@ -67,7 +67,7 @@ struct alignas(64) SlidingState {
       const FloatPack turning = of.R2_over_D0 * (twist_by * (twist_by + of.two_sigma0));
       const FloatPack q = shape(BendShape::square_stretch, t) * of.inverse_D0 + turning;  // D / D0 - 1
       // D0 / D by division: the strain at rest is subtracted from its products, and the error of inverse() would use the whole
-      // error budget. This error is two roundings on processors whose reciprocal has only 12 digits.
+      // error budget. This error is two roundings on processors with a reciprocal of 12 bits.
       const FloatPack over_D = 1.0f / (1.0f + q);
       const FloatPack tau = (of.tau0 + turning) * over_D;
       const FloatPack k = shape(BendShape::bend_squared, t) * of.R2_over_D0 * over_D;

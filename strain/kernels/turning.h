@@ -1,21 +1,20 @@
-// From strains to turning points, sixteen wires side by side (W14), for one instruction set: part of
-// body.h.
+// From strains to turning points, sixteen wires side by side (W14), for one instruction set. This file is a part of body.h.
 //
 // A slot of the gate's width g follows the strain x of a wire. Its upper edge h moves only when x reaches an end of the
 // slot:
 //     h <- min(max(h, x), x + g)
-// If h rises, x is a new highest strain; if it falls, a new lowest one. The last sample before h changes its direction
-// is a turning point. So the loop over samples keeps only one bit for rising and one for falling. 32 of them are a
+// If h rises, x is a new highest strain; if it falls, a new lowest strain. The last sample before h changes its direction
+// is a turning point. The loop over samples therefore keeps only one bit for rising and one for falling. 32 of each are a
 // word per wire, and the turning points are found in the words. The strain at the last movement follows from the
 // edge: h after a rise, h - g after a fall.
 //
-// The first turn is known when a wire has moved by the gate. A slot that starts in a valley (h = x + g) rises if the
-// first movement is a rise; one that starts on a peak (h = x) falls if it is a fall. After that both are equal. So
-// the second one runs only until then, for the peak before the fall.
+// The first turn is known when a wire has moved by the gate. A slot that starts in a valley (h = x + g) is right if the first
+// movement is a rise; one that starts on a peak (h = x) is right if it is a fall. After the first movement both are equal. The
+// second slot runs only until then, and gives the peak before the fall.
 #pragma once
 
 #include "pipeline/base/simd.h"
-// simd.h declares what the templates below are used with
+// simd.h declares the functions that the templates below use
 #include "strain/kernels/kernels.h"
 
 namespace dresslife::strain {
@@ -24,10 +23,10 @@ namespace {
 
 using namespace simd;
 
-/// Which sample of its word a single bit stands for; of no bit, any number.
+/// Returns the number in its word of the sample of a single bit; undefined if no bit is set.
 inline IntPack sample_of(const IntPack& bit) { return word - 1 - place_of(bit); }
 
-/// Where a run's strains come from: waves, and their factors for a pack of wires (W13).
+/// Source of a run's strains: waves. WaveShape has their factors for a pack of wires (W13).
 struct FromWaves {
   static constexpr bool are_waves = true;
   const float* waves;
@@ -48,7 +47,7 @@ struct WaveShape {
         sine2(load<FloatPack>(state.shape[2] + lane)),
         cosine2(load<FloatPack>(state.shape[3] + lane)) {}
 
-  /// The part of the strain that a wire at the opposite angle shares, and the part that has the opposite sign there.
+  /// The part of the strain that is equal at the opposite angle, and the part that has the opposite sign there.
   inline __attribute__((always_inline)) FloatPack even(const FromWaves& from, std::size_t t) const {
     return from.wave(0, t) + from.wave(2, t) * cosine1 + from.wave(4, t) * cosine2;
   }
@@ -60,7 +59,7 @@ struct WaveShape {
   }
 };
 
-/// The same for strains that are there already.
+/// Source of a run's strains: given strains.
 struct FromStrains {
   static constexpr bool are_waves = false;
   const float* strain;
@@ -79,13 +78,13 @@ struct StrainShape {
   }
 };
 
-/// A pack of the wires of a run, the first of them lane `lane`.
+/// A pack of the wires of a run; its first wire is lane `lane`.
 struct PackOf {
   const LaneRun* run;
   int lane;
 };
 
-/// The strains of one pack or two.
+/// The strains of separate packs.
 template <class Shape, class Source, int packs>
 struct Apart {
   static constexpr int side = packs;
@@ -103,7 +102,7 @@ struct Apart {
   }
 };
 
-/// Those of wires and their mirror images: the products are shared.
+/// The strains of a pack of wires and of its mirror images, which share the products.
 struct Mirrored {
   static constexpr int side = 2;
   WaveShape shape;
@@ -117,7 +116,7 @@ struct Mirrored {
   }
 };
 
-/// Two such sets side by side.
+/// Two sets of packs side by side.
 template <class First, class Second>
 struct Both {
   static constexpr int side = First::side + Second::side;
@@ -131,12 +130,12 @@ struct Both {
   }
 };
 
-/// Calls use(strains, packs) for all packs of the runs, up to `most` (2 or 4) at a time: one alone would wait
-/// for itself at the sample before.
+/// Calls use(strains, packs) for all packs of the runs, up to `most` (2 or 4) at a time: the result of a sample depends on the
+/// previous one, and a single pack would wait for it.
 template <int most, class Shape, class Source, class Use>
 inline void for_packs(const LaneRun* runs, std::size_t run_count, const Use& use) {
   const LaneRun* const end = runs + run_count;
-  PackOf pair[4], single[4];  // that wait for company
+  PackOf pair[4], single[4];  // packs that wait for others
   int pairs = 0, singles = 0;
   for (const LaneRun* run = runs; run != end; ++run) {
     const LaneRun* const images = run + 1 != end && run[1].mirrors ? run + 1 : nullptr;
@@ -177,25 +176,25 @@ inline void for_packs(const LaneRun* runs, std::size_t run_count, const Use& use
   if (singles == 1) use(Apart<Shape, Source, 1>(single), single);
 }
 
-/// Which way the edge moved, a bit per sample.
+/// Movements of the edge: one bit per sample.
 struct Moves {
   IntPack up, down;
 };
 
-/// What the scan of a pack goes by.
+/// Scans one pack.
 template <class Shape, class Source>
 struct Scan {
   LaneState& state;
   Source source;
   int lane;
   TurningPoint** end;
-  alignas(64) float strain[word + 1][float_pack_size];  ///< the last: no sample
+  alignas(64) float strain[word + 1][float_pack_size];  ///< (sample of the word, wire); the last row: no sample
 
   explicit Scan(const PackOf& of) : state(*of.run->state), source(*of.run), lane(of.lane), end(of.run->end) {}
 
   unsigned used() const { return (((1u << state.used) - 1) >> lane) & ((1u << float_pack_size) - 1); }
 
-  /// The same edge started on a peak, along strains that are known.
+  /// Follows the edge that starts on a peak, along the stored strains.
   Moves follow_top(int count) {
     FloatPack edge = load<FloatPack>(state.top_edge + lane);
     WordRecord up, down;
@@ -210,7 +209,7 @@ struct Scan {
     return {up.words(), down.words()};
   }
 
-  /// Undecided wires of which samples [state.sample + from, + count) decide.
+  /// Decides the first turn of undecided wires that move by the gate within a word. first: number of its first sample.
   void decide(unsigned open, const Moves& valley, int count, std::int32_t first) {
     const Moves top = follow_top(count);
     alignas(64) std::uint32_t rises[float_pack_size], peaks[float_pack_size], falls[float_pack_size];
@@ -220,7 +219,7 @@ struct Scan {
     for (; open != 0; open &= open - 1) {
       const int wire = __builtin_ctz(open), of = lane + wire;
       const std::uint32_t rise = rises[wire], fall = falls[wire];
-      const bool falls_first = fall > rise;  // no sample is both: the highest bit decides
+      const bool falls_first = fall > rise;  // no sample is both rise and fall: the higher bit is earlier
       std::uint32_t before = peaks[wire];
       if (falls_first) before &= ~(0xffffffffu >> __builtin_clz(fall));
       if (before != 0) {
@@ -234,16 +233,16 @@ struct Scan {
     }
   }
 
-  /// Puts the extremes of which the moves of a word from sample `first` on tell that they are turns.
+  /// Writes the extremes that are turns according to the moves of a word. first: number of its first sample.
   ///
   /// A rise is a turn if the next move is a fall. In down - up - 1 = down + ~up the bit of a fall carries through all
-  /// bits without a rise to the rise before it, and sets that bit. A rise that is followed by another rise gets no
+  /// bits without a rise up to the rise before it, and sets that bit. A rise that is followed by another rise gets no
   /// carry. Falls are found in the same way in up + ~down.
   inline void put_turns(const Moves& moves, std::int32_t first) {
     const IntPack event = moves.up | moves.down, last = event & -event;
     const IntPack away = moves.down - moves.up;
     const IntPack turns = (moves.up & (away - 1)) | (moves.down & ~away);
-    // The extreme from the words before turns if the first move leads away from it.
+    // The extreme of earlier words is a turn if the first move leads away from it.
     const IntPack rose = load<IntPack>(state.rises + lane);
     const unsigned moved = bits(nonzero(event));
     const unsigned old = bits(nonzero(above(moves.up, moves.down) ^ rose)) & moved;
@@ -258,7 +257,8 @@ struct Scan {
     store(select(nonzero(rising), edge, edge - state.below_gate), state.extreme + lane);
   }
 
-  /// Two turns of a word are written whether they are there or not: that is rarely guessed wrong.
+  /// Writes turns. Two turns of a word are always written, also if they do not exist, because then the branch is rarely
+  /// mispredicted.
   inline void put(unsigned any, unsigned old, const IntPack& turns, std::int32_t first) {
     alignas(64) std::uint32_t of_wire[float_pack_size];
     store(turns, of_wire);
@@ -292,7 +292,7 @@ struct Scan {
       *end[wire]++ = {state.extreme[wire], 0};
   }
 
-  /// After follow() of samples [from, from + count).
+  /// Finds the turns of samples [from, from + count). Precondition: follow() of these samples.
   __attribute__((noinline)) void turn(const Moves& moves, std::size_t from, int count) {
     const std::int32_t first = state.sample + static_cast<std::int32_t>(from);
     if (const unsigned open = used() & ~(state.decided >> lane); open != 0) decide(open, moves, count, first);
@@ -300,7 +300,7 @@ struct Scan {
   }
 };
 
-/// Strains of samples [from, from + count), and how they move the edges.
+/// Computes the strains of samples [from, from + count) and the movements of the edges.
 template <class Strains, class One>
 inline __attribute__((always_inline)) void follow(const Strains& strains, One* scans, std::size_t from,
                                                   int count, Moves* moves) {
@@ -356,7 +356,7 @@ void scan_packs(const Strains& strains, const PackOf* packs, std::size_t count) 
 
 template <class Shape, class Source>
 void scan_all(const LaneRun* runs, std::size_t run_count, std::size_t count) {
-  constexpr int most = float_pack_size == 16 ? 4 : 2;  // as many as there are registers for
+  constexpr int most = float_pack_size == 16 ? 4 : 2;  // as many as the registers allow
   for_packs<most, Shape, Source>(runs, run_count, [&](const auto& strains, const PackOf* packs) {
     scan_packs<Shape, Source>(strains, packs, count);
   });
@@ -372,30 +372,30 @@ void scan_strains(const LaneRun* runs, std::size_t run_count, std::size_t count)
   scan_all<StrainShape, FromStrains>(runs, run_count, count);
 }
 
-// ---- what ranks wires -------------------------------------------------------------------------------------
+// ---- ranking of wires -------------------------------------------------------------------------------------
 
-/// What a range from one turning point to the next adds to StrainMeasures::cycle_sum.
+/// Returns the contribution of a range between two turning points to StrainMeasures::cycle_sum.
 inline FloatPack cycle_share(const FloatPack& before, const FloatPack& now) {
   const FloatPack product = larger(larger(before, now), FloatPack{}) * (now - before);
   return larger(product, -product) * product * product;
 }
 
-/// And to range_sum.
+/// Returns the contribution of a range between two turning points to StrainMeasures::range_sum.
 inline FloatPack range_share(const FloatPack& before, const FloatPack& now) {
   const FloatPack range = now - before;
   return larger(range, -range) * range * range;
 }
 
-/// Here turns need no list: a wire is followed as strain times its direction, whose highest value is the
-/// turning point once it has fallen from there by the gate. The first direction is a guess that can cost one
-/// range below the gate.
+/// Ranks a pack of wires without a list of turns. A wire is followed as strain times its direction. The highest value is a
+/// turning point when the strain has fallen from it by the gate. The first direction is assumed, which can miss one range below
+/// the gate.
 struct Ranking {
   const LaneRun* run;
   int lane;
   FloatPack below_gate, direction, turn, extreme, cycle_sum, range_sum, low, high;
 
   Ranking() = default;
-  /// first: its strain at the first sample of all.
+  /// first: strain at the first sample of the history.
   Ranking(const PackOf& of, const FloatPack& first)
       : run(of.run), lane(of.lane), below_gate(FloatPack{} + of.run->state->below_gate) {
     const LaneRanks& ranks = *run->ranks;
@@ -412,7 +412,7 @@ struct Ranking {
     low = high = turn = extreme = first;
   }
 
-  /// The next strain. Returns which wires have turned: turn_at() has to follow for them.
+  /// Takes the next strain. Returns the wires that have turned, for which turn_at() must follow.
   inline __attribute__((always_inline)) Mask next(const FloatPack& x) {
     const FloatPack y = direction * x;
     low = smaller(low, x);
@@ -421,7 +421,7 @@ struct Ranking {
     return greater(extreme - y, below_gate);
   }
 
-  /// x: the strain by which they have turned.
+  /// x: the strain at which they turned.
   inline void turn_at(const Mask& turned, const FloatPack& x) {
     const FloatPack now = direction * extreme;
     cycle_sum += select(turned, cycle_share(turn, now), FloatPack{});
