@@ -69,7 +69,7 @@ void CableLines::put(OfNode row, std::size_t node, std::size_t k, const Vector2d
   at[batch_.lanes] = value.y();
 }
 
-/// A straight place keeps its very numbers: a turn by nothing would not.
+/// Sets the place of a cable. A place without lay keeps its exact numbers, which a turn by 0 would not.
 void CableLines::lay(std::size_t k) {
   const LooseCable& cable = cables_[k < count() ? k : 0];
   const Vector2d a0(cable.place[0], cable.place[1]);
@@ -79,14 +79,14 @@ void CableLines::lay(std::size_t k) {
     const double angle = cable.lay_rate * static_cast<double>(i) * batch_.spacing;
     put(laid, i, k, angle == 0 ? a0 : turned(a0, {std::cos(angle), std::sin(angle)}));
   }
-  for (std::size_t i = 0; i <= last; ++i) {  // beyond a clamp lies the mirror image
+  for (std::size_t i = 0; i <= last; ++i) {  // mirror image beyond a clamp
     const Vector2d one = vector(laid, i > 0 ? i - 1 : 1, k),
                    other = vector(laid, i < last ? i + 1 : last - 1, k);
     put(laid_bent, i, k, inverse * (one - 2 * vector(laid, i, k) + other));
   }
 }
 
-/// Mean gain of cable k's place in the hose in which it was laid.
+/// Returns the mean gain of cable k's place in the hose in which it was laid.
 double CableLines::laid_gain(std::size_t k) const {
   const double inverse = 1 / (batch_.spacing * batch_.spacing);
   double sum = 0;
@@ -148,7 +148,7 @@ void CableLines::place(const Frame& frame, bool with_slope) {
 }
 
 Vector2d bend_at_clamp(const Vector2d& at_clamp, const Vector2d& next, const Vector2d& after_next, double q) {
-  // B' = second difference / (1 - r)^2 and (1 - r)^2 = q r; sqrt(1 + q/4) - 1 without the difference of equal numbers
+  // B' = second difference / (1 - r)^2 and (1 - r)^2 = q r; sqrt(1 + q/4) - 1 is computed without a difference of equal numbers
   const double root = std::sqrt(1 + q / 4), per_r = 1 + q / 2 + std::sqrt(q) * root;
   return at_clamp + per_r / (4 * (root + 1)) * (at_clamp - 2 * next + after_next);
 }

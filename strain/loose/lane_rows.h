@@ -1,4 +1,4 @@
-// Numbers of cables side by side in the lanes of a register (strain/loose/kernels).
+// Arrays of numbers of cables, side by side in the lanes of a register (strain/loose/kernels).
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace dresslife::strain {
 
-/// At the start of a cache line.
+/// Starts at a cache line.
 class LaneRows {
  public:
   void assign(std::size_t rows, std::size_t in_row) { blocks_.assign(rows * in_row / most_lanes, {}); }

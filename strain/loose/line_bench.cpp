@@ -6,7 +6,7 @@
 namespace dresslife::strain {
 namespace {
 
-/// Of cables on their way alone: (lane), and so many numbers of each node.
+/// Rows of cables on the bench that are not copied: one value per lane, and several numbers per node.
 constexpr double* LineBatch::*pulls[] = {&LineBatch::strain, &LineBatch::tension, &LineBatch::stiffness};
 struct OfNode {
   double* LineBatch::*row;

@@ -1,5 +1,5 @@
-// Where cables come to rest: so many side by side, and as one rests the next one takes its lane. How long
-// each takes is as it comes, from 2 to 60 of Newton's iterations; those that took longest before go first.
+// Finds the rest of cables. A fixed number of cables are computed side by side; when one rests, the next one takes its lane. A
+// cable needs 2 to 60 iterations of Newton's method. Cables with the most iterations at the previous sample go first.
 #pragma once
 
 #include <span>
@@ -13,10 +13,10 @@ namespace dresslife::strain {
 class LineBench {
  public:
   LineBench(const HoseLine& hose, bool presses);
-  LineBench(LineBench&&) = default;  // rows stay where they are
+  LineBench(LineBench&&) = default;  // the addresses of the rows are kept
 
-  /// Takes all cables to the minimum of their energies, in at most so many iterations. Lines of one hose, all
-  /// begun at one sample.
+  /// Moves all cables to the minimum of their energies, in at most `most` iterations. Precondition: lines of one hose, with
+  /// begin() called for the same sample.
   void relax(std::span<CableLines* const> lines, int most);
 
  private:

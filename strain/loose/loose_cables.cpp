@@ -8,8 +8,8 @@
 namespace dresslife::strain {
 namespace {
 
-constexpr int feeding_rounds = 100;  // in which 1 % of slack in 2 m grows by 0.2 mm each
-constexpr int most_rounds = 200;     // after that, until all lie still: 8 s at 25 Hz
+constexpr int feeding_rounds = 100;  // 1 % of slack in 2 m grows by 0.2 mm in each round
+constexpr int most_rounds = 200;     // then at most so many rounds until all cables rest: 8 s at 25 Hz
 constexpr double settled = 1e-7;     // change of strain in a round: 0.1 N of a cable of 1 MN
 
 }  // namespace
@@ -123,9 +123,8 @@ void LooseCables::advance(std::span<LooseCables* const> all, std::span<const Hos
   for (LooseCables* const of : all) of->restless_ += !of->rests_;
 }
 
-/// From their places to rest at the first sample. What is too long for its place can lie in many ways; the
-/// one that is found is where it comes to lie when its excess length is fed in bit by bit. A ring that begins wound has
-/// all of it.
+/// Moves the cables from their places to their rests at the first sample. A cable with excess length has many rests. The one
+/// found is that of an excess length fed in step by step. A wound ring starts with all of it.
 void LooseCables::settle(double step) {
   double before = without_limit;
   for (int round = wound_ ? feeding_rounds : 0; round < feeding_rounds + (wound_ ? 1 : most_rounds);
@@ -134,7 +133,7 @@ void LooseCables::settle(double step) {
     feed_in(share);
     LooseCables* const alone = this;
     relax({&alone, 1}, step);
-    started_ = false;  // nothing goes on moving from one round to the next
+    started_ = false;  // no velocity is carried over from round to round
     double sum = 0;
     for (const CableState& state : states_) sum += std::abs(state.strain);
     if (round > feeding_rounds && std::abs(sum - before) < settled * static_cast<double>(cables())) break;

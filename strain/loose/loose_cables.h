@@ -1,5 +1,5 @@
-// Where all cables of one hose lie, sample by sample (README W32 to W36): first each ring turns, then each
-// cable goes to the minimum of its energy about its place there.
+// Places of all cables of one hose, sample by sample ((W32) to (W36) in strain/theory.md). First each ring turns. Then each
+// cable moves to the minimum of its energy about its place in the ring.
 #pragma once
 
 #include <cstddef>
@@ -16,28 +16,28 @@ namespace dresslife::strain {
 struct LooseSettings {
   double length = 0;          ///< of the hose's axis between the clamps [m]
   std::size_t elements = 64;  ///< of equal length
-  double rest_curvature = 0;  ///< about d2, of the hose in which the cables were laid [1/m]
-  bool presses = true;        ///< computes how they press on what they lie against
+  double rest_curvature = 0;  ///< about d2, of the hose as the cables were laid [1/m]
+  bool presses = true;        ///< computes the contact forces
 
   bool operator==(const LooseSettings&) const = default;
 };
 
-/// Radius in which a cable can wind: by its play about its place, or with its whole ring, or alone, about the hose's
-/// axis [m].
+/// Returns the radius in which a cable can wind [m]: its play about its place, or the radius of its ring, or, for a cable alone,
+/// its distance limit from the hose's axis.
 double winding_radius(const LooseCable& cable);
 
-/// Pieces into which cables as fit_in_hose() leaves them are to be cut for their waves to be seen. What is
-/// too long by a share s winds in a room of radius c with k c = sqrt(2 s), about a place that its lay turns,
-/// and second differences miss (k h)^2/12 of its curvature: 0.5 % at most, so that waves half as long,
-/// between a core and a wall that leave less room, still miss no more than the 2 % that are warned of. At
-/// least 64: with 32 the worst wire of `side_panel` was wrong by decades. length: of the axis [m].
+/// Returns the number of elements that resolves the waves of cables; call fit_in_hose() before. An excess length by a share s
+/// winds in a room of radius c with k c = sqrt(2 s), about a place that turns by the lay. Second differences miss (k h)^2/12
+/// of its curvature. The limit is 0.5 %, so that waves of half the length, between a core and a wall that leave less room, miss
+/// at most the 2 % of the warning. At least 64 elements: with 32 the worst wire of `side_panel` was wrong by decades.
+/// length: of the axis [m].
 std::size_t elements_of_waves(const std::vector<LooseCable>& cables, double length);
 
 class LooseCables {
  public:
-  /// cables: of one hose; those that meet each other as fit_in_hose() leaves them (strain/loose/rings.h).
+  /// cables: of one hose, after fit_in_hose() (strain/loose/rings.h).
   LooseCables(const std::vector<LooseCable>& cables, const LooseSettings& settings);
-  LooseCables(const LooseCables&) = delete;  // its cables know its frames
+  LooseCables(const LooseCables&) = delete;  // lines_ and rings_ point to each other's frames
 
   std::size_t nodes() const { return hose_.nodes(); }
   std::size_t cables() const { return lines_.count(); }
@@ -45,37 +45,38 @@ class LooseCables {
   const LooseCable& cable(std::size_t k) const { return lines_.cable(k); }
   double laid_in(std::size_t k) const { return lines_.laid_in(k); }  ///< see CableLines
 
-  /// Whether these are the same cables in the same hose: under the same motion they rest at the same places.
+  /// Returns whether these are the same cables in the same hose, which rest at the same places under the same motion.
   bool same_cables(const LooseCables& other) const;
 
   bool any_ring() const { return !rings_.empty(); }
-  /// Before the first sample: the ring begins wound with all of its cables' slack, by random_winding() or by a turn (node) [rad].
+  /// Winds the rings at the start, with all of their slack: by random_winding(), or by a turn (node) [rad]. Call before the first
+  /// sample.
   void wind(std::uint64_t seed);
   void wind(const std::vector<double>& turn);
-  /// Before the first sample: cables go on from where those of `other` are, which may differ in all but number, rings and
-  /// nodes.
+  /// Continues from the state of `other`, which must have the same numbers of cables, rings and nodes. Call before the first
+  /// sample.
   void go_on_from(const LooseCables& other);
-  /// As if only this share of the slack were in the hose; above 1: more of it.
+  /// Sets the share of the slack that is in the hose; it can exceed 1.
   void feed_in(double share);
-  /// By how much curvatures differ from those of the same cables that began otherwise, over their own: root mean squares
+  /// Returns the difference of curvature to the same cables from another start, over their own curvature: root mean squares
   /// over cables and nodes.
   double apart(const LooseCables& other) const;
 
-  /// At the samples to come twist takes this share of a cable's length, if nothing pulls.
+  /// Sets the shortening of an untensioned cable by twist for the next samples, a share of its length.
   void shorten(std::size_t cable, double share);
-  /// Takes all cables to where they rest at the next sample. hose: (node). step: since the sample before [s].
+  /// Moves all cables to their rests at the next sample. hose: (node). step: since the previous sample [s].
   void advance(std::span<const HoseNode> hose, double step);
-  /// The same for several that share nothing but the hose and its samples: side by side they take less time,
-  /// and lie as they would alone.
+  /// Advances several objects that share only the hose and its samples. Side by side they need less time; the results are those
+  /// of separate calls.
   static void advance(std::span<LooseCables* const> all, std::span<const HoseNode> hose, double step);
 
   const CableState& state(std::size_t cable) const { return states_[cable]; }
-  /// Samples at which a ring or a cable was still moving when the work was cut short, since forget_restless().
+  /// Returns the number of samples since forget_restless() at which a ring or a cable did not converge in the allowed iterations.
   std::size_t restless() const { return restless_; }
   void forget_restless() { restless_ = 0; }
-  std::size_t iterations() const { return iterations_; }  ///< of all cables so far
-  /// Share of the curvature of cables that their nodes are too far apart to see, root of mean squares over
-  /// nodes and samples; the largest of all cables.
+  std::size_t iterations() const { return iterations_; }  ///< sum over all cables and samples
+  /// Returns the share of the curvature that the distance of nodes misses, as a ratio of root mean squares over nodes and
+  /// samples; the largest of all cables.
   double mesh_error() const;
 
  private:
@@ -89,8 +90,8 @@ class LooseCables {
   CableLines lines_;
   LineBench bench_;
   std::vector<Ring> rings_;
-  std::vector<const CableLines::Frame*> frames_;        ///< (cable)
-  std::vector<std::pair<Ring*, std::size_t>> in_ring_;  ///< (cable) its ring and number there; null: in none
+  std::vector<const CableLines::Frame*> frames_;        ///< (cable) of its place
+  std::vector<std::pair<Ring*, std::size_t>> in_ring_;  ///< (cable) its ring and its number there; null: no ring
   std::vector<CableState> states_;
   std::size_t restless_ = 0, iterations_ = 0;
   bool started_ = false, rests_ = true, wound_ = false;

@@ -14,14 +14,14 @@ using Eigen::Vector2d;
 
 constexpr double at_rest = 1e-5;      // [rad]: 0.2 um of a cable 20 mm from the axis
 constexpr double longest_turn = 0.2;  // in one step [rad]: 4 mm of such a cable
-// A ring that snaps over turns by up to 10 rad: 50 of the longest turns. One that is stopped on its way leaves its
-// cables bent to 50 1/m and pressed with 400 N where 5 1/m and 3 N would be.
+// A ring that snaps turns by up to 10 rad, which is 50 of the longest turns. If the iteration stops on the way, cables are bent
+// to 50 1/m and pressed with 400 N instead of 5 1/m and 3 N.
 constexpr int most_iterations = 300;
 constexpr int most_tries = 8;
-constexpr double least_shift = 1e-4;  // of the largest diagonal, where the matrix is not positive
+constexpr double least_shift = 1e-4;  // share of the largest diagonal, added if the matrix is not positive definite
 
-/// A symmetric matrix with two bands beside the diagonal, (row, 3), as factors in place. Returns how many
-/// pivots are negative, which is how many eigenvalues are (Sylvester).
+/// Replaces a symmetric matrix with two bands beside the diagonal, (row, 3), by its factors. Returns the number of negative
+/// pivots, which is the number of negative eigenvalues (Sylvester).
 std::size_t factor(std::vector<double>& bands, std::size_t rows) {
   std::size_t negative = 0;
   for (std::size_t i = 0; i < rows; ++i) {
@@ -87,7 +87,7 @@ void Ring::go_on_from(const Ring& other) {
   lines_.go_on_from(other.lines_);
 }
 
-/// Every cable to where the turn has it. with_slope: and the slope there.
+/// Moves every cable to its place at the turn psi_. with_slope: also computes the slope there.
 void Ring::place(const HoseLine& hose, bool with_slope) {
   for (std::size_t i = 1; i + 1 < hose.nodes(); ++i)
     frame_[i] = turned(hose.turn[i], {std::cos(psi_[i]), std::sin(psi_[i])});
@@ -95,7 +95,8 @@ void Ring::place(const HoseLine& hose, bool with_slope) {
   if (with_slope) loose_kernels().slope_of_turn(lines_.batch(), slope_.data());
 }
 
-/// From where place() was with the slope: Newton's way to the minimum of the quadratic at hand, shifted by as much as makes that positive.
+/// Returns Newton's step to the minimum of the local quadratic, with a shift that makes it positive definite. Precondition:
+/// place() with the slope.
 Eigen::VectorXd Ring::newton_turn() {
   const std::size_t rows = slope_.size(), lanes = lines_.batch().lanes;
   const auto count = static_cast<Eigen::Index>(lines_.count());
@@ -108,7 +109,7 @@ Eigen::VectorXd Ring::newton_turn() {
   };
   const auto gained = by_cable(gained_, rows), solved = by_cable(solved_, rows);
   const auto soft = by_cable(products_, lines_.count());
-  Eigen::VectorXd root(count);  // of each cable's stiffness against its mean gain
+  Eigen::VectorXd root(count);  // square roots of each cable's stiffness against its mean gain
   for (Eigen::Index k = 0; k < count; ++k)
     root[k] = std::sqrt(lines_.batch().stiffness[k] / lines_.batch().length);
   double largest = 0;
@@ -125,7 +126,7 @@ Eigen::VectorXd Ring::newton_turn() {
     loose_kernels().products(gained_.data(), solved_.data(), rows, lanes, products_.data());
     const Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(count, count) +
                                   root.asDiagonal() * (soft + soft.transpose()) / 2 * root.asDiagonal();
-    // The whole matrix is positive if as many eigenvalues are negative here as there (Haynsworth).
+    // The whole matrix is positive definite if the numbers of negative eigenvalues of the two are equal (Haynsworth).
     const Eigen::VectorXd eigenvalues =
         negative == 0 ? Eigen::VectorXd()
                       : Eigen::VectorXd(whole.selfadjointView<Eigen::Lower>().eigenvalues());
@@ -137,7 +138,7 @@ Eigen::VectorXd Ring::newton_turn() {
   }
 }
 
-/// A step of Newton's. Returns its largest turn [rad].
+/// Does one step of Newton's method. Returns its largest turn [rad].
 double Ring::step(const HoseLine& hose) {
   const Eigen::VectorXd turn = newton_turn();
   const auto rows = static_cast<Eigen::Index>(slope_.size());

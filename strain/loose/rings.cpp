@@ -24,7 +24,7 @@ void fit_in_hose(std::vector<LooseCable>& cables, const HoseSection& section) {
     cable.gap = room.gap;
     cable.farthest = room.farthest;
     cable.nearest = room.nearest;
-    if (section.room == 1) continue;  // not a digit changes
+    if (section.room == 1) continue;  // leaves the values bitwise equal
     cable.gap *= section.room;
     cable.farthest = at + section.room * (room.farthest - at);
     cable.nearest = std::max(0.0, at - section.room * (at - room.nearest));

@@ -1,8 +1,6 @@
-// What stops cables that lie around the axis of a hose: its wall, its core, and each other.
+// Limits of cables that lie around the axis of a hose: its wall, its core, and each other.
 //
-// How far each can go is geometry (pipeline/cable/room.h).
-//
-// It is a reduced model on purpose: see README W35 for what contact between all discs gives instead.
+// The distances are geometry (pipeline/cable/room.h). This reduced model is used on purpose; see (W35) in strain/theory.md.
 #pragma once
 
 #include <vector>
@@ -11,16 +9,16 @@
 
 namespace dresslife::strain {
 
-/// The parts of the hose that cables can touch.
+/// Parts of the hose that cables can touch.
 struct HoseSection {
   double inner_radius = without_limit;  ///< of the wall [m]
-  double core_radius = 0;               ///< of what fills the middle and is no cable [m]
-  double room = 1;                      ///< share of how far cables could leave their places that they have
+  double core_radius = 0;               ///< of the parts in the middle that are no cables [m]
+  double room = 1;                      ///< factor on the distances by which cables can leave their places
 };
 
-/// Fills in `farthest`, `nearest`, `ring` and `gap` of cables at their places. Where places overlap with one
-/// another, the wall or the core, there is no room, and the cable can only leave the other way. A cable with
-/// a play of its own keeps to that alone.
+/// Sets `farthest`, `nearest`, `ring` and `gap` of cables at their places. If places overlap with each other, the wall or the
+/// core, there is no room in this direction, and the cable can only leave in the other. A cable with a play of its own has only
+/// this limit.
 void fit_in_hose(std::vector<LooseCable>& cables, const HoseSection& section);
 
 }  // namespace dresslife::strain

@@ -10,7 +10,7 @@ CableTension::CableTension(const LooseCable& cable, double laid_in)
   assert(free_length_rate_ > 0 && cable.grip >= 0);
   if (cable.grip == 0)
     most_ = 0;
-  else if (cable.grip < cable.axial_stiffness)  // beyond, it would be torn out of itself
+  else if (cable.grip < cable.axial_stiffness)  // a larger grip would exceed the strength
     most_ = cable.grip / cable.axial_stiffness;
 }
 

@@ -1,10 +1,10 @@
-// The tension of a cable between two clamps from the stretch of its path, with what its clamps let through
-// (README W33).
+// The tension of a cable between two clamps, from the stretch of its path and from its slip through the clamps ((W33) in
+// strain/theory.md).
 //
 // The cable is gripped at both ends and slides along its path in between:
 //     strain = (1 + g) / ((1 + slack) (1 + g0) (1 - s)) - 1 - slipped,   T = E A strain,   |T| <= grip,
-// g the mean gain of its path, g0 that of its path at installation, s what twist takes from its
-// length (W37). Where T would exceed the grip, the cable slips: it has another free length from then on.
+// g is the mean gain of its path, g0 that of its path at installation, s the shortening by twist (W37). When T would exceed the
+// grip, the cable slips, and its free length is different from then on.
 #pragma once
 
 #include "strain/loose/cable.h"
@@ -18,27 +18,27 @@ class CableTension {
 
   double laid_in() const { return laid_in_; }
   double free_length_rate() const { return free_length_rate_; }  ///< free length over that of the hose
-  double slipped() const { return slipped_; }  ///< through the clamps, over the cable's length; > 0: let out
-  double most_strain() const { return held_ ? without_limit : most_; }  ///< at the grip, pulled or pressed
+  double slipped() const { return slipped_; }  ///< length through the clamps over the cable's length; > 0: let out
+  double most_strain() const { return held_ ? without_limit : most_; }  ///< strain at the grip, pulled or pressed
 
-  /// mean_gain: of a path. Returns its strain there, and remembers what slipped: the sample is over.
+  /// Returns the strain of a path with the given mean gain, and stores the slip. Call once per sample, at its end.
   double settle(double mean_gain);
 
-  /// What slipped through the clamps is that of another.
+  /// Takes over the slip of another cable.
   void go_on_from(const CableTension& other) { slipped_ = other.slipped_; }
 
-  /// As if only this share of the slack were in the hose yet; 1: all of it. It is installed by hand, and
-  /// clamps let nothing through before all of it is there.
+  /// Sets the share of the slack that is in the hose; 1: all of it. Below 1 the clamps do not slip, because a cable is installed
+  /// by hand.
   void feed_in(double share);
 
-  /// What twist takes from its length at this sample, over it, if nothing pulls (README W37).
+  /// Sets the shortening by twist of an untensioned cable at this sample, over its length (W37).
   void shorten(double share);
 
  private:
   double slack_, laid_in_, free_length_rate_, fed_in_ = 1, shortened_ = 0;
   double most_ = without_limit;
   double slipped_ = 0;
-  bool held_ = false;  ///< while slack is fed in
+  bool held_ = false;  ///< true while slack is fed in
 };
 
 }  // namespace dresslife::strain

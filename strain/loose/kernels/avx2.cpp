@@ -6,7 +6,7 @@
 #define DRESSLIFE_MACHINE_NAME "avx2"
 #define DRESSLIFE_TARGET HWY_AVX2
 
-#include "pipeline/base/simd.h"  // and what loops use from outside: it must be compiled for any machine
+#include "pipeline/base/simd.h"  // included here, with its own includes, because it must be compiled for any machine
 
 DRESSLIFE_BEGIN_MACHINE
 #include "strain/loose/kernels/body.h"

@@ -1,10 +1,10 @@
-// The hot loops of loose cables, for one instruction set: included by portable.cpp, avx2.cpp, .. , each of
-// which names it (pipeline/base/simd.h).
+// The hot loops of loose cables for one instruction set. portable.cpp, avx2.cpp and avx512.cpp include this file, each for its
+// own set (pipeline/base/simd.h).
 //
-// The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill
-// that wait. Cables take from 2 to 60 iterations: one that rests leaves its lane to the next.
+// Along a cable each node depends on the previous one. Two packs of cables at a time use the waiting time. Cables need 2 to 60
+// iterations: a cable at rest gives its lane to the next.
 #include "pipeline/base/simd.h"
-// simd.h declares what the templates below are used with
+// simd.h declares the functions that the templates below use
 #include "strain/loose/kernels/loose_kernels.h"
 
 namespace dresslife::strain {
@@ -13,17 +13,18 @@ namespace {
 
 using namespace simd;
 
-// A cable rests where Newton's next step moves no node by more. The steps shrink quadratically, so what is
-// left is far less; 1e-7 m over two elements of 30 mm are 1e-4 1/m of curvature, 5e-7 of a cable's strain.
+// A cable rests if Newton's next step moves every node by less. The steps shrink quadratically, so the remaining error is much
+// smaller; 1e-7 m over two elements of 30 mm are 1e-4 1/m of curvature, 5e-7 of strain in a cable.
 constexpr double at_rest = 1e-7;  // [m]
-// Farther in one step, contacts would be jumped over: a cable's radius.
+// A longer step would jump over contacts: a cable's radius.
 constexpr double longest_step = 4e-3;  // [m]
-// Of stiffness per length where that is not positive [N/m2]. With 100 four times as many shifts were tried (robot 1).
+// First addition to the stiffness per length if the matrix is not positive definite [N/m2]. With 100 four times as many shifts
+// were needed (robot 1).
 constexpr double first_shift = 2e4;
-constexpr int most_shifts = 60;        // by factors of four: beyond what any number of a cable holds
+constexpr int most_shifts = 60;        // by factors of four: more than any cable needs
 constexpr int most_tries = 12;
-// Steps that are not longer are taken whole, so many at most: then many nodes meet their contacts at once. A search along the
-// step would stop at the first of them. Longer steps could end in another place of rest.
+// Up to this length a step is taken as a whole, in the first most_whole_steps iterations. Many nodes then reach their contacts at
+// once. A search along the step would stop at the first contact. Longer steps could end at another rest.
 constexpr double whole_step = 1e-3;  // [m]
 constexpr int most_whole_steps = 20;
 
@@ -41,16 +42,16 @@ inline Pair select(const DoubleMask& mask, const Pair& yes, const Pair& no) {
   return {simd::select(mask, yes.x, no.x), simd::select(mask, yes.y, no.y)};
 }
 
-/// How far the cables of a pack are on their way to rest, (lane).
+/// Progress of the cables of a pack on their way to rest, (lane).
 struct Progress {
-  double busy[pack_size] = {};    // 1: there is one that does not rest yet
-  double trying[pack_size] = {};  // 1: it has a step of Newton's, of which a share is tried
+  double busy[pack_size] = {};    // 1: a cable that does not rest yet
+  double trying[pack_size] = {};  // 1: has a step of Newton's method, of which it tries a share
   double share[pack_size] = {}, tries[pack_size] = {};
   double down[pack_size] = {},
-         largest[pack_size] = {};  // of the step: the slope along it, its way of a node [m]
+         largest[pack_size] = {};  // of the step: slope along it, largest movement of a node [m]
   double shift[pack_size] = {},
-         shifts[pack_size] = {};  // of stiffness per length [N/m2], and how often it grew
-  double took[pack_size] = {};    // iterations
+         shifts[pack_size] = {};  // added stiffness per length [N/m2], and number of increases
+  double took[pack_size] = {};    // number of iterations
 
   void begin(int lane) {
     busy[lane] = 1;
@@ -60,7 +61,7 @@ struct Progress {
 
 inline DoubleMask set(const double* of) { return greater(load<Pack>(of), Pack(0.0)); }
 
-/// `packs` packs of cables from lane `first` on.
+/// `packs` packs of cables, starting at lane `first`.
 template <int packs>
 struct Lines {
   const LineBatch& of;
@@ -95,7 +96,7 @@ struct Lines {
   void round(int most, Progress* progress) const;
 };
 
-/// Strain and tension from the gain of the path (README W33), and what the tension gains with it.
+/// Computes strain and tension from the gain of the path (W33), and the derivative of the tension by the gain.
 template <int packs>
 void Lines<packs>::answer() const {
   const std::size_t last = of.nodes - 1;
@@ -133,7 +134,7 @@ void Lines<packs>::answer() const {
   }
 }
 
-/// What contact at one node adds, per length.
+/// Contributions of contact at one node, per length.
 template <int packs>
 struct Lines<packs>::Touch {
   Pack press, xx, xy, yy;
@@ -141,8 +142,8 @@ struct Lines<packs>::Touch {
 
   inline Touch() : press(0.0), xx(0.0), xy(0.0), yy(0.0), slope{Pack(0.0), Pack(0.0)} {}
 
-  /// Along `normal`, which leads out of what is touched, where `mask`. depth > 0. across: stiffness across
-  /// the normal over that along it.
+  /// Adds a contact in the lanes of `mask`. normal: out of the contact partner. depth > 0. across: stiffness across the normal
+  /// over that along it.
   inline void add(const DoubleMask& mask, const Pack& stiffness, const Pair& normal, const Pack& depth,
                   const Pack& across) {
     const Pack none(0.0), force = stiffness * depth, rest = 1.0 - across;
@@ -170,7 +171,7 @@ inline void Lines<packs>::contacts(std::size_t node, int p, Touch& touch) const 
     touch.add(beyond, wall, {-out.x, -out.y}, deep, deep * per_away);
     touch.add(within, wall, out, shallow, -(shallow * per_away));
   }
-  // without play a spring in every direction
+  // zero play: a spring in every direction
   const DoubleMask sprung = equal(play, zero), at_play = greater(moved2, play * play) | sprung;
   if (bits(at_play)) {
     const Pack moved = square_root(moved2), depth = moved - play;
@@ -185,7 +186,7 @@ inline void Lines<packs>::contacts(std::size_t node, int p, Touch& touch) const 
   if (bits(beside)) touch.add(beside, wall, side * along, depth, zero);
 }
 
-/// How cables press where they are.
+/// Stores the contact forces of cables at their present positions.
 template <int packs>
 void Lines<packs>::put_press(int p) const {
   for (std::size_t i = 1; i + 1 < of.nodes; ++i) {
@@ -195,7 +196,7 @@ void Lines<packs>::put_press(int p) const {
   }
 }
 
-/// Of the energy over each node inside; with_contact: with blocks.
+/// Computes the slope of the energy at each inner node; with_contact: including contact, with its blocks.
 template <int packs>
 template <bool with_contact>
 void Lines<packs>::slopes() const {
@@ -208,7 +209,7 @@ void Lines<packs>::slopes() const {
     const Pair clamped = pair(of.path, 0, p);
     here[p] = clamped;
     next[p] = pair(of.path, 1, p);
-    // A clamp holds it as it was laid: beyond lies the mirror image, of its place in `rest` likewise.
+    // A clamp holds the cable as it was laid: beyond it is the mirror image, also of its place in `rest`.
     bent_here[p] = same(of.curvature, 0) - pair(of.rest, 0, p) + Pack(2 * per_h2) * (next[p] - here[p]);
     bending[p] = at(of.bending_stiffness, k) * Pack(per_h);
     mass[p] = at(of.mass_per_length, k) * Pack(h);
@@ -247,14 +248,14 @@ void Lines<packs>::slopes() const {
   }
 }
 
-/// L D L^T of bending, tension, drag and contact: of each node the inverse of its pivot, and that times what
-/// ties it to the next one. negative: how many pivots are, which is how many eigenvalues are (Sylvester).
+/// Computes L D L^T of bending, tension, drag and contact: for each node the inverse of its pivot, and this inverse times the
+/// coupling to the next node. negative: number of negative pivots, which is that of negative eigenvalues (Sylvester).
 template <int packs>
 void Lines<packs>::factor(const Progress* progress, Pack* negative) const {
   const std::size_t last = of.nodes - 1, lanes = of.lanes;
   const double h = of.spacing;
   Pack tied2[packs], tie[packs], diagonal[packs];
-  // what the elimination of the nodes before leaves: of the diagonal of this node and the next, and the tie
+  // result of eliminating the previous nodes: for the diagonals of this node and the next, and for the coupling
   Pack here_xx[packs], here_xy[packs], here_yy[packs], next_xx[packs], next_xy[packs], next_yy[packs];
   Pack xx[packs], xy[packs], yx[packs], yy[packs];
   for (int p = 0; p < packs; ++p) {
@@ -295,7 +296,7 @@ void Lines<packs>::factor(const Progress* progress, Pack* negative) const {
   }
 }
 
-/// -slope and gained as right-hand sides, to their solutions in step and soft.
+/// Solves for the right-hand sides -slope and gained; the solutions are `solved` and `soft`.
 template <int packs>
 void Lines<packs>::substitute() const {
   const std::size_t last = of.nodes - 1, lanes = of.lanes;
@@ -303,7 +304,7 @@ void Lines<packs>::substitute() const {
   double* const solution[sides] = {of.solved, of.soft};
   Pack tied2[packs];
   Pair here[packs][sides],
-      next[packs][sides];  // what is taken off the right-hand sides of this node and the next
+      next[packs][sides];  // to be subtracted from the right-hand sides of this node and the next
   for (int p = 0; p < packs; ++p) {
     tied2[p] = at(of.bending_stiffness, lane(p)) * Pack(1 / (of.spacing * of.spacing * of.spacing));
     for (int s = 0; s < sides; ++s) here[p][s] = next[p][s] = {Pack(0.0), Pack(0.0)};
@@ -344,7 +345,7 @@ void Lines<packs>::substitute() const {
     }
 }
 
-/// Of cables that try a step: whether they take its share, try a shorter one, or are given up.
+/// Decides for cables that try a step: accept its share, try a shorter one, or give up.
 template <int packs>
 void Lines<packs>::judge(int most, Progress* progress) const {
   const Pack zero(0.0);
@@ -367,8 +368,8 @@ void Lines<packs>::judge(int most, Progress* progress) const {
   }
 }
 
-/// step: to the minimum of the quadratic at hand, of those that do not try one. Where it is not positive the
-/// next one has more stiffness.
+/// Computes the step to the minimum of the local quadratic, for cables that do not try one. If the quadratic is not positive
+/// definite, the next attempt adds more stiffness.
 template <int packs>
 void Lines<packs>::newton_step(Progress* progress) const {
   const std::size_t last = of.nodes - 1;
@@ -388,7 +389,7 @@ void Lines<packs>::newton_step(Progress* progress) const {
     Progress& at_p = progress[p];
     const Pack shift = load<Pack>(at_p.shift), shifts = load<Pack>(at_p.shifts);
     const Pack spring = at(of.stiffness, lane(p)) / Pack(of.length), whole = 1.0 + spring * soft[p];
-    // The whole matrix is positive if its eigenvalues with and without the rank one say so (Haynsworth).
+    // The whole matrix is positive definite if its eigenvalues with and without the rank-one part agree (Haynsworth).
     const DoubleMask positive =
         (equal(negative[p], zero) & greater(whole, zero)) | (equal(negative[p], one) & at_least(zero, whole));
     const DoubleMask wants = set(at_p.busy) & equal(load<Pack>(at_p.trying), zero);
@@ -421,9 +422,9 @@ void Lines<packs>::newton_step(Progress* progress) const {
   }
 }
 
-/// path: `share` of the step on from `from`; a cable whose step is short rests there. A node that lies against a
-/// round wall goes along it: in polar coordinates about its centre, since a straight way would press it in by the
-/// square of its length. going: where each node is heading there.
+/// Sets path to `from` plus `share` of the step; a cable with a short step rests there. A node in contact with a round wall moves
+/// in polar coordinates about the wall's centre, because a straight movement would press it in by the square of its length.
+/// going: direction of movement of each node at its new position.
 template <int packs>
 void Lines<packs>::go(Progress* progress) const {
   Pack share[packs];
@@ -448,7 +449,7 @@ void Lines<packs>::go(Progress* progress) const {
         const Pack reach = square_root(reach2), per_reach = 1.0 / reach;
         const Pair out = per_reach * arm, across{-out.y, out.x};
         const Pack rise = dot(out, step), turn = dot(across, step) * per_reach;
-        // by 2 atan(half), which is the angle itself up to its third power: no sine, no cosine
+        // turn by 2 atan(half), equal to the angle up to the third power, without sine and cosine
         const Pack half = 0.5 * share[p] * turn, scale = 1.0 / (1.0 + half * half);
         const Pack cosine = (1.0 - half * half) * scale, sine = 2.0 * half * scale;
         const Pair now{out.x * cosine - out.y * sine, out.x * sine + out.y * cosine};
@@ -476,7 +477,7 @@ Pack Lines<packs>::along_way(int p) const {
   return sum;
 }
 
-/// Of each cable the energy's slope where it is, then a step of Newton's or a shorter share of the last one.
+/// Does one iteration for each cable: the slope of the energy, then a step of Newton's method or a shorter share of the last one.
 template <int packs>
 __attribute__((flatten)) void Lines<packs>::round(int most, Progress* progress) const {
   answer();
@@ -486,7 +487,7 @@ __attribute__((flatten)) void Lines<packs>::round(int most, Progress* progress) 
   go(progress);
 }
 
-/// `rows` numbers of a cable from one batch to another.
+/// Copies `rows` numbers of a cable from one batch to another.
 void copy(const double* from, std::size_t from_lanes, double* to, std::size_t to_lanes, std::size_t rows) {
   for (std::size_t i = 0; i < rows; ++i) to[i * to_lanes] = from[i * from_lanes];
 }
@@ -504,7 +505,7 @@ void from_bench(const LineBatch& bench, std::size_t lane, const WaitingCable& ca
   if (bench.press) copy(bench.press + lane, bench.lanes, kept.press + cable.lane, kept.lanes, bench.nodes);
 }
 
-/// What a cable does depends on none of the others.
+/// Cables have no influence on each other.
 void relax(const LineBatch& room, const WaitingCable* cables, std::size_t count, int most) {
   constexpr int packs = 2;
   LineBatch bench = room;
@@ -520,7 +521,7 @@ void relax(const LineBatch& room, const WaitingCable* cables, std::size_t count,
   };
   for (std::size_t lane = 0; lane < packs * pack_size; ++lane) {
     take(lane);
-    if (!in_lane[lane]) to_bench(cables[0], bench, lane);  // numbers for a spare lane
+    if (!in_lane[lane]) to_bench(cables[0], bench, lane);  // valid numbers for a spare lane
   }
   const auto busy = [&](int p) { return bits(set(progress[p].busy)) != 0; };
   while (busy(0) || busy(1)) {
@@ -546,8 +547,8 @@ inline Pair turned(const Pair& of, const Pair& by) { return {of.x * by.x - of.y 
 inline Pair turned_back(const Pair& of, const Pair& by) { return {of.x * by.x + of.y * by.y, of.y * by.x - of.x * by.y}; }
 inline Pack length(const Pair& of) { return square_root(dot(of, of)); }
 
-/// `at` after another way like the last one. The distance from the hose's axis changes by as much as before: on a straight way
-/// a cable that slides along a round wall would leave it.
+/// Returns the position after the same movement as in the previous sample. The distance from the hose's axis changes by the same
+/// amount as before, because on a straight line a cable that slides along a round wall would leave it.
 inline Pair gone_on(const Pair& at, const Pair& way) {
   const Pair to = at + way;
   const Pack distance = length(to), before = length(at), wanted = 2.0 * before - length(at - way);
@@ -577,7 +578,7 @@ void follow(const LineBatch& batch, const LineAnswer& answer) {
   const Pack half(0.5), inverse(1 / (batch.spacing * batch.spacing));
   for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
     const Lines<1> lines{batch, k};
-    Pair behind = lines.pair(batch.path, 1, 0), here = lines.pair(batch.path, 0, 0);  // beyond a clamp lies the mirror image
+    Pair behind = lines.pair(batch.path, 1, 0), here = lines.pair(batch.path, 0, 0);  // beyond a clamp: the mirror image
     Pack rate_behind(0.0), sum(0.0);
     for (std::size_t i = 0; i <= last; ++i) {
       const Pair K = Lines<1>::same(batch.curvature, i);
@@ -647,7 +648,7 @@ void place(const LineBatch& batch, const double* laid, const double* frame, bool
   }
 }
 
-/// A cable's way when its ring turns.
+/// Returns the direction of a cable's movement when its ring turns.
 inline Pair across(const Pair& path) { return {-path.y, path.x}; }
 
 void slope_of_turn(const LineBatch& batch, double* slope) {
@@ -688,7 +689,7 @@ void assemble_turn(const LineBatch& batch, const RingSystem& system) {
 
 void substitute_turn(const double* bands, std::size_t rows, std::size_t lanes, double* table) {
   for (std::size_t k = 0; k < lanes; k += pack_size) {
-    Pack before(0.0), before2(0.0);  // of the two rows before
+    Pack before(0.0), before2(0.0);  // of the two previous rows
     for (std::size_t i = 0; i < rows; ++i) {
       double* const at_row = table + i * lanes + k;
       Pack x = load<Pack>(at_row);
@@ -710,7 +711,7 @@ void substitute_turn(const double* bands, std::size_t rows, std::size_t lanes, d
   }
 }
 
-/// Sums wait for themselves from row to row: those of eight columns at a time.
+/// A sum depends on that of the previous row, so eight columns are summed at a time.
 void products(const double* a, const double* b, std::size_t rows, std::size_t lanes, double* product) {
   for (std::size_t k = 0; k < lanes; k += most_lanes)
     for (std::size_t j = 0; j < lanes; j += pack_size) {

@@ -1,9 +1,9 @@
-// The hot loops of loose cables for every machine that a build is for (simd.h).
+// The hot loops of loose cables for every machine for which a build is made (simd.h).
 #define DRESSLIFE_MACHINE portable
 #define DRESSLIFE_MACHINE_KERNELS portable_loose
 #define DRESSLIFE_MACHINE_NAME "portable"
 
-#include "pipeline/base/simd.h"  // and what loops use from outside: it must be compiled for any machine
+#include "pipeline/base/simd.h"  // included here, with its own includes, because it must be compiled for any machine
 
 DRESSLIFE_BEGIN_MACHINE
 #include "strain/loose/kernels/body.h"
