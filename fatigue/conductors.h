@@ -1,4 +1,4 @@
-// The conductors of a dresspack as bundles of wires, and how much longer than its first wire each lasts.
+// The conductors of a dresspack as bundles of wires, and how much longer than its first wire each of them lasts.
 #pragma once
 
 #include <functional>
@@ -13,46 +13,44 @@
 
 namespace dresslife::fatigue {
 
-/// Path of the part that holds this wire: "cable 3/conductor 2/layer 1/wire 17" lies in "cable 3/conductor
-/// 2", "wire 5" in the dresspack, "". Layers are no parts.
+/// Returns the path of the part that contains this wire: "cable 3/conductor 2/layer 1/wire 17" lies in "cable 3/conductor
+/// 2", "wire 5" in the dresspack, "". Layers are not parts.
 std::string conductor_of(const std::string& wire, const std::vector<std::string>& layer_names);
 
 struct Conductors {
   std::vector<std::string> path;   ///< (conductor) in order of appearance
   std::vector<ConductorWires> bundle;  ///< (conductor)
   std::vector<std::size_t> worst;  ///< (conductor) its site with the largest damage
-  /// (component) the conductor that a wire lies in, no_site for the hose's wall; and which of its wires it
-  /// is.
+  /// (component) the conductor that contains a wire, no_site for the hose's wall; and the wire's number in it.
   std::vector<std::size_t> of_component, wire_of_component;
 };
 
-/// All wires of a set of sites; component (site) names each one's wire. A wire's damage is that of its worst
+/// Returns the conductors of all wires of a set of sites. component (site): names its wire. A wire's damage is that of its worst
 /// site.
 Conductors conductors_of(const SiteDamage& all, const TextColumn& component,
                          const std::vector<std::string>& layer_names);
 
-/// Damage of all wires everywhere, (conductor). segment_of(site) < segments.
+/// Returns the damage of all wires in all segments, (conductor). segment_of(site) < segments.
 std::vector<PlacesOfConductor> places_of(const SiteDamage& all, const TextColumn& component,
                                          const Conductors& conductors, std::size_t segments,
                                          const std::function<std::size_t(std::size_t)>& segment_of);
 
-/// (F16) With k of n wires broken the rest strain n/(n-k) times as much; rate[k] is the damage then, over the
-/// damage before, of the conductor's worst wire, whose damage under a scaled history is
-/// `scaled_damage(factor)`. An upper bound: bending imposes its strain on every wire alone, only a pull is
-/// shared.
+/// Returns the rates of load sharing (F16). With k of n wires broken the remaining ones strain n/(n-k) times as much. rate[k] is
+/// the damage of the conductor's worst wire then, over its damage before. scaled_damage(factor): damage of this wire under its
+/// scaled history. The rates are an upper bound: bending imposes its strain on every wire alone, only a pull is shared.
 std::vector<double> sharing_rates(std::size_t wires, const std::function<double(double)>& scaled_damage);
 
-/// Draws of load sharing: a percentile's place in the distribution is then known to 1.6 % or better.
+/// Number of samples for load sharing. A percentile's share of the distribution is then known to 1.6 % or better.
 inline constexpr int sharing_draws = 1000;
 
-/// Percentiles of the life of one kind.
+/// Percentiles of the life for one definition of failure.
 struct LifeScatter {
   Percentiles first_wire, first_conductor;  ///< of the whole dresspack
-  FirstPlace first_place;                   ///< the planner's: one that lost its share at one place
+  FirstPlace first_place;                   ///< the planner's life: the first conductor that lost its share of wires at one place
   std::vector<FailureLives> conductor;      ///< (conductor)
   std::vector<double> place;                ///< (conductor) median_place_lives()
 };
-/// Lives in repeats. Precondition for load_sharing: bundles with rates.
+/// Returns lives in repeats. Precondition for load_sharing: bundles with rates.
 LifeScatter life_scatter(const Conductors& conductors, const std::vector<PlacesOfConductor>& places,
                          std::size_t segments, const pipeline::Fatigue& settings);
 

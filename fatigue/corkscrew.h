@@ -1,24 +1,24 @@
-// Corkscrew: a loose cable that compression and twist wind into a tight coil inside its hose.
+// Corkscrew: compression and twist wind a loose cable into a tight coil inside its hose.
 //
 // A cable of stiffnesses E I and G J under compression P and torque M = G J twist lies in a room of radius r. A helix of
 // wave number q and a small radius a changes its energy per length by a^2/2 times
 //     E I q^4 - M q^3 - P q^2 + k,     k = |P| kappa / r.
-// k is the line load that holds the cable at the wall where the hose is bent by kappa. Both limits must be passed:
+// k is the line load that holds the cable at the wall in a bend of the hose with curvature kappa. Both limits must be exceeded:
 // 1. The coil begins. The straight cable is unstable if this is negative for a q of at least one turn in its length L,
 //     M >= min over q >= 2 pi / L of  E I q + k / q^3 - P / q.                                               (F33)
 //    k = 0, P = 0: 2 pi E I / L (Greenhill 1883). k = 0, M = 0: 4 pi^2 E I / L^2 (Euler, clamped ends). k = 0, a long
 //    cable under tension T: 2 sqrt(E I T). M = 0: 2 sqrt(E I |P| kappa / r) (Dawson and Paslay 1984, with this line load).
-// 2. The coil is tight. At the wall its q has the least energy, 4 E I q^2 = 3 M q + 2 P, and its curvature is r q^2 (M = 0:
+// 2. The coil is tight. At the wall it has the q of least energy, 4 E I q^2 = 3 M q + 2 P, and the curvature r q^2 (M = 0:
 //    Lubinski, Althouse and Logan 1962). It reaches kappa_c = r q_c^2 at
 //     M = (4 E I q_c^2 - 2 P) / (3 q_c).                                                                     (F34)
-//    A coil below kappa_c is the cable's usual rest in a hose with slack. Its strain is in the lives of the wires (W32).
+//    A coil below kappa_c is the usual rest of a cable with slack in a hose. Its strain is in the lives of the wires (W32).
 // kappa_c: 1 / 5 diameters, the tightest bend that a maker allows (bend_limit.h).
 //
-// A repeat after which the robot's joints have returned, but for whole turns, and that leaves the dresspack twisted by D adds
-// G J D / L to M. The repeats until both limits are passed are the life.
-// E I and G J are those of a cable whose parts slide, which is safe. Not contained: weight across the hose (which
+// If the robot's joints return after a repeat, except for whole turns, and the repeat leaves the dresspack twisted by D, each
+// repeat adds G J D / L to M. The life is the number of repeats until both limits are exceeded.
+// E I and G J are those of a cable with sliding parts, which is safe. Not contained: weight across the hose (which
 // stabilises), friction at the wall, coils with steep turns (r q > 0.5), a lay that a twist opens inside a cable. The force
-// of a cable is its largest one along the hose. A dresspack with rings or further clamps counts with its whole length.
+// of a cable is its largest one along the hose. A dresspack with rings or further clamps is evaluated with its whole length.
 #pragma once
 
 #include <cstddef>
@@ -38,33 +38,35 @@ struct BoredCable {
   double tightest = 0;  ///< kappa_c [1/m]
   double length = 0;    ///< L [m]
 
-  /// Torque at which the coil begins (F33). compression [N], negative: tension; curvature: kappa of the hose [1/m]. [N m]
+  /// Returns the torque at which the coil begins (F33) [N m]. compression [N], negative: tension; curvature: kappa of the hose
+  /// [1/m].
   double torque_to_coil(double compression, double curvature) const;
-  /// Torque at which the coil is tight (F34), negative where the compression alone suffices [N m].
+  /// Returns the torque at which the coil is tight (F34) [N m]; negative if the compression alone suffices.
   double torque_to_tighten(double compression) const;
-  /// The larger of both: from there on it is a corkscrew [N m].
+  /// Returns the larger of the two torques, from which on the cable is a corkscrew [N m].
   double critical_torque(double compression, double curvature) const;
-  /// Factor on compression and torque at which it is one; at most largest_margin.
+  /// Returns the factor on compression and torque at which the cable is a corkscrew; at most largest_margin.
   double margin(double compression, double torque, double curvature) const;
   static constexpr double largest_margin = 1000;
 };
 
 /// The loose cable of a dresspack that is nearest to a corkscrew.
 struct Corkscrew {
-  std::size_t cable = 0;  ///< of the strain file
-  double margin = 0;      ///< on its forces and twist
+  std::size_t cable = 0;  ///< index in the strain file
+  double margin = 0;      ///< factor on its forces and twist
   double repeats =
-      0;  ///< until it is one; infinite: no repeat leaves a twist, or it is far; 1: in every repeat
-  double turn_left = 0;  ///< D, 0 below `least_turn_left` [rad]
+      0;  ///< until it is a corkscrew; infinite: no repeat leaves a twist, or the limits are far; 1: in every repeat
+  double turn_left = 0;  ///< D; 0 if below `least_turn_left` [rad]
   double position = 0;   ///< of the place from the base clamp [m]
   std::size_t sample = 0;
 };
 
-/// Less is left by the digits of a twist and by a motion that repeats only nearly [rad]. ESTIMATE.
+/// Smaller twists can come from rounding and from a motion that repeats only approximately [rad]. ESTIMATE.
 constexpr double least_turn_left = 0.01;
 
-/// tension: (cable, sample) of the strain file, largest along each cable by size [N]. Nothing: no cable of the dresspack lies
-/// loose in a room of known size, or the forces are not known or not believable (believable.h).
+/// Returns the cable with the smallest margin. tension: (cable, sample) of the strain file, largest along each cable by size [N].
+/// std::nullopt: no cable of the dresspack lies loose in a room of known size, or the forces are unknown or not believable
+/// (believable.h).
 std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pipeline::Job& job,
                                    std::size_t dresspack, const std::vector<std::vector<double>>& tension);
 

@@ -1,9 +1,9 @@
-// What can fail in a dresspack, and how the life of each mode depends on what is uncertain
+// Failure modes of a dresspack, and how the life of each mode depends on uncertain parameters
 // (pipeline/life/first_failure.h).
 //
-// A mode is: the first conductor of the cables of one name that has lost its share of wires at one place. A
-// job with signal cables and power cables has two, and each dresspack has its own. The hose's wall is no
-// mode: its law has not been compared with a test.
+// A mode is: the first conductor of the cables of one name has lost its share of wires at one place. A job with signal cables
+// and power cables has two modes, and each dresspack has its own. The hose's wall is not a mode, because its law has not been
+// compared with a test.
 #pragma once
 
 #include <functional>
@@ -24,9 +24,9 @@ class ModeList {
   std::size_t size() const { return name_.size(); }
   const std::string& name(std::size_t mode) const { return name_[mode]; }  ///< "wires of signal cable"
   std::size_t dresspack(std::size_t mode) const { return dresspack_[mode]; }
-  /// Of a wire's path; no_site: it is of no mode.
+  /// Returns the mode of a wire's path; no_site: none.
   std::size_t of(const std::string& wire) const;
-  /// (component) the same for a whole column.
+  /// Returns the mode of each path of a column, (component).
   std::vector<std::size_t> of(const TextColumn& component) const;
 
  private:
@@ -36,7 +36,7 @@ class ModeList {
   std::vector<std::size_t> dresspack_;
 };
 
-/// What the lives of modes follow from.
+/// Input for the lives of modes.
 struct ModeInputs {
   const pipeline::Job& job;
   const SiteSet& sites;
@@ -46,14 +46,14 @@ struct ModeInputs {
   const std::vector<PlacesOfConductor>& places;
   std::size_t segments, threads;
   std::function<std::vector<float>(std::size_t site)> strains_of;
-  std::vector<std::size_t> starts;    ///< (rest) of loose cables, see read_rests()
-  std::vector<VariedStrains> varied;  ///< empty: nothing is uncertain but the scatter of wires
-  /// (mode) lives of the worst wire [repeats] if everything inside the cables is glued, and if it slips freely.
+  std::vector<std::size_t> starts;    ///< (rest) number of starts of loose cables, see read_rests()
+  std::vector<VariedStrains> varied;  ///< empty: only the scatter of wires is uncertain
+  /// (mode) life of the worst wire [repeats] if everything inside the cables is glued, and if it slips freely.
   std::vector<double> glued, free;
   Percentiles planned;  ///< of all modes together, over the scatter of wires [repeats]
 };
 
-/// At least one. Without job.uncertainty only the scatter of wires is uncertain.
+/// Returns at least one mode. Without job.uncertainty only the scatter of wires is uncertain.
 pipeline::FailureModes failure_modes(const ModeList& modes, const ModeInputs& inputs);
 
 }  // namespace dresslife::fatigue

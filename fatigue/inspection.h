@@ -1,10 +1,10 @@
 // Whether visual checks find abrasion before the surface is worn through.
 //
-// A dresspack that fails at the age T is visibly worn from the age v T on. Checks find it by (F32), pipeline/life/visual_checks.h,
-// with W = (1 - v) T. v follows from the depth d h at which wear is visible. The worn area grows evenly, so v = A(d h, b) / A(h, b)
-// with (F28), (F29) at the arc b that is worn through first.
+// A dresspack that fails at the age T is visibly worn from the age v T on. Checks find it by (F32),
+// pipeline/life/visual_checks.h, with W = (1 - v) T. v follows from the depth d h at which wear is visible. The worn area grows
+// evenly, so v = A(d h, b) / A(h, b) with (F28), (F29) at the arc b that is worn through first.
 //
-// Not contained: damage that every check misses at the same place, wear that is seen and left.
+// Not contained: damage that every check misses at the same place; wear that is seen but not repaired.
 #pragma once
 
 #include <vector>
@@ -15,11 +15,11 @@
 
 namespace dresslife::fatigue {
 
-/// Of one mode, until the end of the robot's life.
+/// Results for one mode, until the end of the robot's life.
 struct Inspected {
-  double failed_share = 0;  ///< of all samples
-  double found_share = 0;   ///< of those that fail, before they do; not a number: none fails
-  double unseen_share = 0;  ///< of all samples: they fail, and no check has found it
+  double failed_share = 0;  ///< share of all samples
+  double found_share = 0;   ///< share of the failing samples that a check finds before they fail; NaN: none fails
+  double unseen_share = 0;  ///< share of all samples that fail without being found
 };
 /// lives: (sample) log10 repeats; repeat: duration of one [s]; visible_from: v. Precondition: the interval is not 0.
 Inspected inspected(const std::vector<double>& lives, double repeat, double visible_from,

@@ -1,5 +1,4 @@
-// strain.h5 in, life.h5 out: reads, evaluates and writes what pipeline/files/formats.cpp lists for
-// dresslife-life.
+// Reads strain.h5 and writes the datasets of life.h5 that pipeline/files/formats.cpp lists for dresslife-life.
 #pragma once
 
 #include <functional>
@@ -15,14 +14,14 @@ struct Job;
 
 namespace dresslife::fatigue {
 
-/// What the stage prints on a terminal.
+/// Messages that the stage prints on a terminal.
 struct Notes {
   std::vector<pipeline::Warning> warnings;
   std::string summary;  ///< one line: life, place, wire
 };
 
-/// Writes all of life.h5 but the stamp. Memory: the damage of every site, the reversals of a block of sites,
-/// and one row of samples; it does not grow with the length of the motion otherwise.
+/// Writes all of life.h5 except the stamp. Memory: the damage of every site, the reversals of a block of sites, and one row of
+/// samples; apart from that it does not grow with the length of the motion.
 /// @throws pipeline::InputError when the strain file contradicts itself.
 Notes write_life(const pipeline::FileReader& strain, const pipeline::Job& job, pipeline::FileWriter& life,
                  std::size_t threads, const std::function<void(double)>& progress);

@@ -1,10 +1,10 @@
-// A smooth positive function of one positive argument, tabulated for the innermost loop.
+// A table of a smooth positive function of one positive argument, for the innermost loop.
 //
-// Nodes split every octave [2^e, 2^(e+1)) into equal cells, so the cell of x is the leading bits of its
-// floating-point number and its place in the cell the trailing ones: no logarithm, no search. In a cell the
-// function is the cubic that has its values and slopes at both ends (Hermite). Largest relative error for y = x^p:
+// Nodes divide every octave [2^e, 2^(e+1)) into equal cells. The leading bits of the floating-point number x are the number of
+// its cell, the trailing bits its place in the cell, so neither a logarithm nor a search is needed. In a cell the
+// function is the cubic with the function's values and slopes at both ends (Hermite). Largest relative error for y = x^p:
 //     |p (p-1) (p-2) (p-3)| / 384 h^4,   h = 1 / cells per octave                                     (F9)
-// With the 128 cells used here that is 1e-9 at p = 5, 5e-8 at p = 10 and 1.1e-6 at p = 20.
+// With the 128 cells per octave used here this is 1e-9 at p = 5, 5e-8 at p = 10 and 1.1e-6 at p = 20.
 #pragma once
 
 #include <array>
@@ -19,14 +19,14 @@ class LogTable {
  public:
   static constexpr int cells_per_octave_log2 = 7;
 
-  /// Tabulates y and its slope over at least [low, high]. The function must be smooth on
-  /// all of it: kinks and limits belong to the caller. Precondition: 0 < low < high, both normal numbers.
+  /// Tabulates y and its slope over at least [low, high]. The function must be smooth on this range; the caller treats kinks and
+  /// limits. Precondition: 0 < low < high, both normal numbers.
   LogTable(double low, double high, const std::function<double(double)>& y,
            const std::function<double(double)>& slope);
 
-  /// The table as plain numbers, for loops that read several values at a time.
+  /// The table as plain data, for loops that read several values at a time.
   struct View {
-    const double* cells = nullptr;  ///< (cell, power of the place in it), each cell on a boundary of 32 bytes
+    const double* cells = nullptr;  ///< (cell, power of the place in it); each cell starts at a multiple of 32 bytes
     std::uint64_t first = 0;        ///< number of the first cell
     double low = 0, high = 0;
   };

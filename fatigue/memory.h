@@ -1,4 +1,4 @@
-// The memory of a fatigue evaluation, from the sizes of its strain file (pipeline/stage/memory.h).
+// Memory of a fatigue evaluation, from the sizes of its strain file (pipeline/stage/memory.h).
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
-// Mean stress that relaxes while a motion repeats (README F22, F23).
+// Relaxation of mean stress while a motion repeats ((F22), (F23)).
 //
-// A repeated history runs between two strains; its outermost loop is off centre by a stress
+// A repeated history runs between two strains. Its outermost loop has an offset stress
 //     s_0 = +-[curve(L) - branch(R)/2],  L the largest |strain|, R the range,                        (F22)
-// and so is every loop in it: they keep their places in the outer one (F4). In repeat n the offset is s_0 n^r
-// (Jhansale and Topper 1971), r = -r1 (eps_a/eps_th - 1) above eps_th, else 0 (Landgraf and Chernenkoff
-// 1988), eps_a = R/2. What is left of it, n^r, is its share here.
+// and so have all loops inside it, because their positions in the outermost loop are fixed (F4). In repeat n the offset is
+// s_0 n^r (Jhansale and Topper 1971), r = -r1 (eps_a/eps_th - 1) above eps_th, else 0 (Landgraf and Chernenkoff
+// 1988), eps_a = R/2. The remaining part n^r is called the share.
 #pragma once
 
 #include <functional>
@@ -15,13 +15,13 @@
 
 namespace dresslife::fatigue {
 
-/// How a material's offset falls; built once, const in use.
+/// Law by which a material's offset falls. Built once, then only read.
 class Relaxation {
  public:
   Relaxation(const pipeline::Material& material, const pipeline::Fatigue& settings);
-  bool never() const { return never_; }        ///< the offset stays, whatever the amplitude
-  bool complete() const { return complete_; }  ///< it is gone before the first repeat
-  /// r <= 0 of a history with this strain amplitude: continuous, 0 up to the threshold. Precondition: neither
+  bool never() const { return never_; }        ///< the offset stays at any amplitude
+  bool complete() const { return complete_; }  ///< the offset is zero before the first repeat
+  /// Returns r <= 0 of a history with this strain amplitude. It is continuous, and 0 up to the threshold. Precondition: neither
   /// never() nor complete().
   double exponent(double strain_amplitude) const;
 
@@ -30,21 +30,20 @@ class Relaxation {
   double threshold_ = 0, rate_ = 0;
 };
 
-/// Mean of n^r over the first so many repeats, of which the first, and a part of it, has the whole offset.
-/// Falls with both; 1 for r = 0, 0 for a life without end.
+/// Returns the mean of n^r over the first `repeats` repeats, with the whole offset in the first repeat or a part of it. Falls
+/// with both arguments; 1 for r = 0, 0 for infinite `repeats`.
 double mean_share(double repeats, double exponent);
 
-/// Damage per repeat with each of these shares of the offset left.
+/// Writes the damage per repeat for each of these remaining shares of the offset.
 using DamageOfShares = std::function<void(std::span<const double> share, std::span<double> damage)>;
 
-/// Repeats until the damage sums up to 1 (F23): the integral over n of damage(max(n, 1)^r) reaches 1.
-/// Infinite where it has not by 2^50 and has stopped. The damage must go one way with the share, as that of
-/// all mean stress rules does. Where it is smooth the life is right within 1e-5, below a hundred repeats
-/// within 5e-4. Precondition: r <= 0.
+/// Returns the number of repeats at which the damage sums up to 1 (F23): the integral over n of damage(max(n, 1)^r) reaches 1.
+/// Infinity if it has not reached 1 by 2^50 and does not grow. Error of the life for smooth damage: 1e-5, below a hundred repeats
+/// 5e-4. Precondition: r <= 0; damage is monotonic in the share, as it is for all mean stress rules.
 double relaxing_life(double exponent, const DamageOfShares& damage);
 
-/// The same to some ten per cent, and 1e15 at most, from `damage(share)` at one share for each power of ten:
-/// for the innermost loop. ten_to_exponent: 10^r; middle_share: 5.5^r, in the middle of 1 to 10.
+/// Returns this life with an error of some ten per cent, at most 1e15, from one value of damage(share) for each power of ten;
+/// for the innermost loop. ten_to_exponent: 10^r. middle_share: 5.5^r, in the middle of 1 to 10.
 template <class Damage>
 double rough_relaxing_life(double ten_to_exponent, double middle_share, const Damage& damage) {
   constexpr int powers = 15;  // most_reversals

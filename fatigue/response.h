@@ -1,6 +1,5 @@
-// How the worst wire's life answers to what is not known: its material's constants, and strains that
-// dresslife-strain worked out with other friction, slack, play and grips (/variation of strain.h5). README
-// (F27).
+// Dependence of the worst wire's life on uncertain parameters (F27): the material's constants, and strains that dresslife-strain
+// computed with other friction, slack, play and grips (/variation of strain.h5).
 #pragma once
 
 #include <span>
@@ -12,36 +11,36 @@
 
 namespace dresslife::fatigue {
 
-/// Histories of the wires that may be the worst, at one point of the strain side.
+/// Histories of the likely worst wires at one point of the strain parameters.
 struct VariedStrains {
-  std::array<double, pipeline::strain_parameters> z{};  ///< 0 of rest
-  std::size_t rest = 0;                                 ///< where loose cables rest; 0: the job's own place
+  std::array<double, pipeline::strain_parameters> z{};  ///< 0 for rest
+  std::size_t rest = 0;                                 ///< rest of the loose cables; 0: the job's own
   pipeline::Inside inside = pipeline::Inside::as_is;
-  std::vector<std::vector<float>> strains;  ///< (wire) of its reversals
-  std::vector<std::size_t> site;            ///< (wire) of the job's own set: it gives the material
+  std::vector<std::vector<float>> strains;  ///< (wire) strains of its reversals
+  std::vector<std::size_t> site;            ///< (wire) number among the job's own sites, which gives the material
 };
 
-/// strain.h5's /variation; nothing where the strain stage tried none.
+/// Reads /variation of strain.h5; empty if the strain stage computed none.
 std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, std::size_t sites);
 
-/// Of those, the wires of sites that `counts` (site).
+/// Returns the variations with only the wires whose sites are true in `counts` (site).
 std::vector<VariedStrains> only(const std::vector<VariedStrains>& varied, const std::vector<bool>& counts);
 
-/// (rest) how many starts of loose cables came to each place of rest; empty: no ring of them.
+/// Returns the number of starts of loose cables at each rest, (rest); empty: the cables form no ring.
 std::vector<std::size_t> read_rests(const pipeline::FileReader& strain);
 
-/// log10 of the worst wire's life in repeats at every point and over strength and slope, (point, strength,
-/// slope); the first point is as the job stands, `own` its wires. starts: (rest), see read_rests() and put_rests().
+/// Fills in log10 of the worst wire's life in repeats at every point and over strength and slope, (point, strength, slope). The
+/// first point is the job itself with its wires `own`. starts: (rest), see read_rests() and put_rests().
 void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
                    std::span<const VariedStrains> varied, const std::vector<std::size_t>& starts,
                    const SiteSet& sites, const TextColumn& component, const pipeline::Job& job,
                    std::size_t threads);
 
-/// (W40) Lives at the rests of loose cables become a parameter of the response: the z of a rest is the normal score of its
-/// life among those of all starts less that of the job's own rest, and the mean of what is known is less by that of the
-/// job's own. What a variation changes from another rest it changes from the job's own, too (pipeline::together()). At
-/// another slack lives stay as computed: cables leave their rest there (strain/measurements.md).
-/// response: at 0 and at the points of varied. starts: (rest), of which varied has all but the first.
+/// (W40) Makes the lives at the rests of loose cables a parameter of the response. The z of a rest is the normal score of its
+/// life among those of all starts, minus the score of the job's own rest. The mean of the prior is reduced by the same score. The
+/// effect of a variation that starts from another rest is used for the job's own rest, too (pipeline::together()). At another
+/// slack lives stay as computed, because cables leave their rest there (strain/measurements.md).
+/// response: at 0 and at the points of varied. starts: (rest); varied contains all rests except the first.
 void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> varied,
                const std::vector<std::size_t>& starts);
 

@@ -1,4 +1,4 @@
-// Life of a wire under one closed cycle: strain-life curves with the influence of mean stress.
+// Life of a wire under one closed cycle: strain-life curves with the effect of mean stress.
 //
 // With N cycles, 2N reversals, strain amplitude eps_a, largest and mean stress of the cycle s_max and s_m:
 //   Coffin-Manson (8):  eps_a = sf/E (2N)^b + ef (2N)^c
@@ -9,9 +9,9 @@
 // (numbers as in the thesis by S. Backman, 2018; Morrow 1968; Smith, Watson and Topper 1970; Walker 1970 in
 // the strain-life form of Dowling 2009). Damage of a cycle: 1/N.
 //
-// Lives are solved over 1 <= 2N <= `longest`, 1e15 unless the caller needs more. A load beyond the curve at
-// 2N = 1 breaks the wire on its first reversal: 2N = 1 and a damage of 2 per cycle, whatever the excess; the
-// curve says nothing there. A life beyond `longest` does no damage.
+// Lives are solved within 1 <= 2N <= `longest`; `longest` is 1e15 by default. A load beyond the curve at 2N = 1 is outside the
+// curve's range: the wire breaks on its first reversal, with 2N = 1 and a damage of 2 per cycle for any excess. A life beyond
+// `longest` does no damage.
 #pragma once
 
 #include <vector>
@@ -24,51 +24,50 @@ namespace dresslife::fatigue {
 constexpr double fewest_reversals = 1;
 constexpr double most_reversals = 1e15;
 
-/// y(x) = A x^p + C x^q, A, C > 0, p, q < 0: falls from infinity to 0, so that each y > 0 has one x.
+/// y(x) = A x^p + C x^q, A, C > 0, p, q < 0. It falls from infinity to 0, so each y > 0 has one x.
 class PowerSum {
  public:
   PowerSum(double a, double p, double c, double q);
   double operator()(double x) const;
   double slope(double x) const;    ///< dy/dx < 0
-  double inverse(double y) const;  ///< y > 0; x to rounding
+  double inverse(double y) const;  ///< precondition: y > 0; x is exact to rounding
 
  private:
   double a_, p_, c_, q_;
 };
 
-/// What one cycle does to the metal.
+/// Strain and stress of one cycle.
 struct CycleLoad {
   double strain_amplitude = 0;  ///< eps_a [1]
   double stress_max = 0;        ///< [Pa]
   double stress_mean = 0;       ///< [Pa]
 };
 
-/// Lives by (8), (9) or (F7), exact to rounding; DamageCounter in damage.h is the fast counterpart.
+/// Lives by (8), (9), (F7) or (F12), exact to rounding. DamageCounter in damage.h computes the same faster.
 class StrainLife {
  public:
-  /// Amplitudes up to `endurance_strain` do no damage. longest: 2N.
+  /// Amplitudes up to `endurance_strain` do no damage. longest: largest 2N.
   StrainLife(const pipeline::Material& material, pipeline::MeanStress mean_stress,
              double endurance_strain = 0, double longest = most_reversals);
 
-  double reversals(const CycleLoad& load) const;  ///< 2N; infinity where the load does no damage
+  double reversals(const CycleLoad& load) const;  ///< 2N; infinity if the load does no damage
   double damage(const CycleLoad& load) const;     ///< 1/N of one full cycle; 0 to 2
 
-  const PowerSum& coffin_manson() const { return coffin_manson_; }  ///< (8): eps_a of 2N
-  const PowerSum& swt() const { return swt_; }                      ///< (9): s_max eps_a [Pa] of 2N
+  const PowerSum& coffin_manson() const { return coffin_manson_; }  ///< (8): eps_a as a function of 2N
+  const PowerSum& swt() const { return swt_; }                      ///< (9): s_max eps_a [Pa] as a function of 2N
   pipeline::MeanStress mean_stress() const { return mean_stress_; }
   double endurance_strain() const { return endurance_strain_; }
   double longest() const { return longest_; }
 
-  /// Morrow's curve is (8) on a stretched life axis, so one curve serves every mean stress (F8). With u = 1 -
-  /// s_m/sf and 2N = k x, k = u^(1/(c-b)): u sf/E (k x)^b + ef (k x)^c = k^c (sf/E x^b + ef x^c), since u k^b
-  /// = k^c.
+  /// Morrow's curve is (8) with a scaled life axis, so one curve serves every mean stress (F8). With u = 1 - s_m/sf and 2N = k x,
+  /// k = u^(1/(c-b)): u sf/E (k x)^b + ef (k x)^c = k^c (sf/E x^b + ef x^c), since u k^b = k^c.
   struct MorrowScale {
-    double strain;  ///< k^c: eps_a / strain is read on (8)
-    double life;    ///< k: times x gives 2N
+    double strain;  ///< k^c: (8) is read at eps_a / strain
+    double life;    ///< k: 2N is life times x
   };
   MorrowScale morrow_scale(double stress_mean) const;  ///< precondition: s_m < sf
 
-  /// 2N / 2N* of (F12): below 1 for tension. Precondition: s_max > 0.
+  /// Returns 2N / 2N* of (F12), which is below 1 for tension. Precondition: s_max > 0.
   double walker_stretch(double stress_max, double stress_mean) const;
   double fatigue_strength() const { return material_.fatigue_strength; }
 
@@ -80,15 +79,15 @@ class StrainLife {
   double walker_power_;  // -(1-gamma)/b
 };
 
-/// Life from measured points (eps_a, N), straight between them in log eps_a and log N (F13); beyond the first
-/// and the last the end pieces go on, within the same 1 <= 2N <= longest. For polymers, which (8) does not fit.
-/// Mean stress and strain are those of the test: no correction applies.
+/// Life from measured points (eps_a, N), linear between them in log eps_a and log N (F13). Beyond the first and the last point
+/// the end pieces are extended, within the same 1 <= 2N <= longest. For polymers, which (8) does not fit. Mean stress and strain
+/// are those of the test; no correction is applied.
 class StrainLifeTable {
  public:
   /// Precondition: at least two points, strains falling, cycles rising.
   explicit StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points,
                            double longest = most_reversals);
-  double cycles(double strain_amplitude) const;  ///< N; infinity where the load does no damage
+  double cycles(double strain_amplitude) const;  ///< N; infinity if the load does no damage
   double damage(double strain_amplitude) const { return 1 / cycles(strain_amplitude); }
 
  private:

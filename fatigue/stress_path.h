@@ -1,12 +1,11 @@
-// Stress that belongs to a strain path: elastic, or of a metal that has reached its stable cyclic curve.
+// Stress along a strain path: elastic, or of a metal that has reached its stable cyclic curve.
 //
 // Cyclic curve (Ramberg and Osgood 1943), (F2):        eps = s / E + (s / K')^(1 / n')
-// Branches (Masing 1926), (F3):                        d_eps / 2 = curve(d_s / 2), from the last open
-// reversal Material memory (Clormann and Seeger 1985), (F4):    a strain beyond the largest |strain| so far
-// lies on the cyclic curve itself; a branch that comes back to the reversal below its origin closes that
-// loop, and the branch that the loop interrupted goes on as if the loop had not been. Assumptions: one axis,
-// stable metal (no softening; how its mean stress relaxes is added in relaxation.h), equal in tension and
-// compression.
+// Branches (Masing 1926), (F3):                        d_eps / 2 = curve(d_s / 2), from the last open reversal
+// Material memory (Clormann and Seeger 1985), (F4):    a strain beyond the largest |strain| so far lies on the cyclic curve
+// itself. A branch that returns to the reversal below its origin closes this loop, and the interrupted branch continues as
+// without the loop. Assumptions: one axis, stable metal (no softening; relaxation.h adds the relaxation of mean stress), equal in
+// tension and compression.
 #pragma once
 
 #include <functional>
@@ -24,8 +23,7 @@ class CyclicCurve {
  public:
   /// Precondition: E > 0, K' > 0, 0 < n' <= 1.
   CyclicCurve(double youngs_modulus, double strength, double hardening_exponent);
-  /// K' and n' of the material; what it leaves out follows by compatibility with (8), (F5):
-  /// n' = b / c, K' = sigma_f' / epsilon_f'^n'.
+  /// Uses K' and n' of the material. Missing values follow from compatibility with (8), (F5): n' = b / c, K' = sf' / ef'^n'.
   explicit CyclicCurve(const pipeline::Material& material);
 
   double strain(double stress) const;  ///< [1]
@@ -42,18 +40,18 @@ class CyclicCurve {
   double modulus_, strength_, hardening_exponent_;
 };
 
-/// What to tell the user when the material's own K' or n' differs by more than a tenth from (F5): then
-/// elastic and plastic strain of the cyclic curve are not those of the life curve, and cyclic stress and life
-/// contradict each other. Empty when they agree or are not given.
+/// Returns a warning when the material's own K' or n' differs by more than a tenth from (F5). Then elastic and plastic strain of
+/// the cyclic curve are not those of the life curve, so cyclic stress and life contradict each other. std::nullopt if they agree
+/// or are not given.
 std::optional<pipeline::Warning> compatibility_warning(const pipeline::Material& material);
 
-/// Masing branches with material memory (F3, F4) over a curve given for values >= 0. Starts at rest in the
-/// origin. With stress(strain) as curve it gives stress along a strain path; with a notch rule's curves
-/// the local stress or strain along a path of nominal stress.
+/// Masing branches with material memory (F3, F4) over a curve for values >= 0. Starts at rest in the origin. With stress(strain)
+/// as curve the response is the stress along a strain path; with a notch rule's curves it is the local stress or strain along a
+/// path of nominal stress.
 class MemoryPath {
  public:
   explicit MemoryPath(std::function<double(double)> curve) : curve_(std::move(curve)) {}
-  /// Goes straight from where the path is to `input`; returns the response there.
+  /// Moves monotonically from the present input to `input`. Returns the response there.
   double go_to(double input);
 
  private:
@@ -62,8 +60,8 @@ class MemoryPath {
   };
   double on_curve(double input) const;
   std::function<double(double)> curve_;
-  double largest_ = 0;               // |input| so far
-  std::vector<Point> open_{{0, 0}};  // reversals whose loops are not closed, and where the path is
+  double largest_ = 0;               // largest |input| so far
+  std::vector<Point> open_{{0, 0}};  // reversals of open loops, and the present point
 };
 
 }  // namespace dresslife::fatigue

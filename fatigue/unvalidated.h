@@ -1,4 +1,4 @@
-// Failure modes beside the wires whose law has not been compared with a test, and what is not evaluated at all.
+// Failure modes besides the wires whose law has not been compared with a test, and modes that are not evaluated.
 #pragma once
 
 #include <string>
@@ -13,19 +13,19 @@ struct Job;
 
 namespace dresslife::fatigue {
 
-/// All of these modes but the hose's wall. lives: (sample) log10 repeats by the validated modes; what is uncertain of the model and
-/// the motion is shared with them, the mode's own spread is sampled beside them. tension: see corkscrew.h.
-/// Errors: InputError for a patch that lies nowhere, and for deformations that are not of the dresspack's segments.
+/// Returns all of these modes except the hose's wall. lives: (sample) log10 repeats by the validated modes. The samples of model
+/// and motion uncertainty are shared with them; the mode's own spread is sampled in addition. tension: see corkscrew.h.
+/// Errors: InputError for a patch outside the dresspack, and for deformations that do not match the dresspack's segments.
 std::vector<pipeline::UnvalidatedMode> unvalidated_modes(const pipeline::FileReader& strain, const pipeline::Job& job,
                                                          const std::vector<double>& lives,
                                                          const std::vector<std::vector<double>>& tension);
 
-/// Percentiles of a mode's own lives and what it would change if it counted. own, lives: (sample) log10 repeats.
-/// repeat: duration of one [s].
+/// Sets the percentiles of a mode's own lives and the result if the mode counted. own, lives: (sample) log10 repeats.
+/// repeat: duration of one repeat [s].
 void set_lives(pipeline::UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives, double repeat);
 
-/// The parts and modes of the job that have no life, in words: "power cable, kinks of the hose, corkscrew, fretting and grip at clamps, connectors".
-/// corkscrew: it is evaluated for all dresspacks.
+/// Returns the parts and modes of the job that have no life, in words: "power cable, kinks of the hose, corkscrew, fretting and
+/// grip at clamps, connectors". corkscrew: it was evaluated for all dresspacks.
 std::string not_evaluated(const pipeline::FileReader& strain, const pipeline::Job& job, bool corkscrew);
 
 }  // namespace dresslife::fatigue

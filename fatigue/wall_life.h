@@ -1,13 +1,15 @@
-// The life of a hose's wall over what is uncertain, beside the headline.
+// Distribution of the life of a hose's wall over uncertain parameters. It is reported besides the headline.
 //
-// The place of the wall with the largest damage lives for W repeats. With the strain amplitudes of its life curve times f it lives
-// for W(f), counted again. With z, y, u standard normal and m, s the job's uncertainty.motion and scatter of lives,
+// The place of the wall with the largest damage lives for W repeats. If the strain amplitudes of its life curve are multiplied by
+// f, it lives for W(f), which is counted anew. With z, y, u standard normal and m, s the job's uncertainty.motion and scatter of
+// lives,
 //     log10 life = log10 W(1.4^z) + y log10 m + u s                                                          (F37)
-// z: strength of the wall's material (pipeline/job/wall_strength.h), which hoses of one material share and `dresslife calibrate`
-// learns from dresspacks in service. y: the motion of the wires' samples. s is that of the wires, an ESTIMATE for a polymer.
+// z: strength of the wall's material (pipeline/job/wall_strength.h), which is common to hoses of one material and which
+// `dresslife calibrate` learns from dresspacks in service. y: the motion in the wires' samples. s is that of the wires, an
+// ESTIMATE for a polymer.
 // A curve of two points N ~ strain^-k gives W(f) = W f^k, so without motion the deviation of log10 of life is hypot(k log10 1.4, s).
 //
-// Not contained: pressure, temperature, another place that comes first with another strength (none does if k is constant).
+// Not contained: pressure, temperature, another worst place at another strength (which does not occur if k is constant).
 #pragma once
 
 #include <span>
@@ -21,10 +23,11 @@ struct Job;
 
 namespace dresslife::fatigue {
 
-/// (F37). worst_place: strains of the wall's worst place in one repeat.
+/// Returns the response (F37). worst_place: reversals of the wall's worst place in one repeat.
 pipeline::LifeResponse wall_response(std::span<const Reversal> worst_place, const pipeline::Job& job, std::size_t dresspack);
 
-/// By the law of the wall with its median strength: bends of a straight hose to its bend radius limit; 0 without measured points.
+/// Returns by the wall's law, with its median strength, the number of bends of a straight hose to its bend radius limit; 0
+/// without measured points.
 double wall_bends_at_limit(const pipeline::LifeResponse& wall, const pipeline::Job& job, std::size_t dresspack);
 
 }  // namespace dresslife::fatigue
