@@ -11,10 +11,10 @@
 namespace dresslife::fatigue {
 namespace {
 
-constexpr double standing = 1e-6;  // a joint that moves less does not move [rad]
-constexpr double ridge = 1e-6;     // of the terms' mean variance: decides only what the motion leaves open
+constexpr double standing = 1e-6;  // [rad] a joint with a smaller range stands still
+constexpr double ridge = 1e-6;     // of the mean variance of the terms: decides only what the motion leaves open
 
-/// q_1 .. q_n, then q_i q_k for k >= i.
+/// Writes q_1 .. q_n, then q_i q_k for k >= i.
 void fill_terms(const Eigen::VectorXd& q, Eigen::VectorXd& terms) {
   const Eigen::Index n = q.size();
   terms.head(n) = q;
@@ -111,7 +111,7 @@ Eigen::VectorXd StrainOfJoints::scaled(std::size_t sample) const {
 
 std::vector<double> StrainOfJoints::change(std::size_t from, std::size_t to) const {
   const Eigen::VectorXd begin = scaled(from), end = scaled(to);
-  const Eigen::VectorXd slope = linear_ + quadratic_ * (begin + end);  // f' = b + 2 Q q, q half-way
+  const Eigen::VectorXd slope = linear_ + quadratic_ * (begin + end);  // f' = b + 2 Q q at the mean q
   std::vector<double> changes(joints(), 0.0);
   for (std::size_t i = 0; i < active_.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);

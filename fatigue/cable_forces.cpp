@@ -42,7 +42,7 @@ const pipeline::Component& component_of(const pipeline::FileReader& strain, cons
       "make the file again with dresslife-strain");
 }
 
-/// Its strains leave what they are taken from.
+/// Moves some cables out of `cables`; their strains there are empty afterwards.
 std::vector<PulledCable> taken(Cables& cables, const std::vector<std::size_t>& which) {
   std::vector<PulledCable> of_span;
   for (const std::size_t k : which) of_span.push_back(std::move(cables.all[k]));
@@ -80,31 +80,32 @@ struct Cure {
   std::string cause, remedy;
 };
 
-/// What is known of a cable beside its force.
+/// Data of a cable besides its force.
 struct CableFacts {
   std::string name;
-  std::string key;            ///< of its dresspack as a line of the job: "dresspack"
-  std::size_t number = 0;     ///< of its component in that dresspack, 1 first
+  std::string key;            ///< its dresspack as a line of the job: "dresspack"
+  std::size_t number = 0;     ///< number of its component in this dresspack, from 1
   const pipeline::Component* component = nullptr;
   const pipeline::Dresspack* dresspack = nullptr;
   double room = 0, least_gain = 0, most_gain = 0;  ///< /cable/room, /cable/path_gain
-  bool has_room = false;                           ///< the file has these
-  double winding_slack = 0;                        ///< see pipeline/cable/excess.h; 0: not known, or not needed
+  bool has_room = false;                           ///< the file contains these
+  double winding_slack = 0;                        ///< see pipeline/cable/excess.h; 0: unknown, or not needed
 };
 
-/// Of the component, which all cables of its `count` share, as a line of the job: "dresspack.components.2.slack_percent".
+/// Returns a key of the component, which all its `count` cables share, as a line of the job:
+/// "dresspack.components.2.slack_percent".
 std::string cable_key(const CableFacts& facts, const char* key) {
   return fmt::format("{}.components.{}.{}", facts.key, facts.number, key);
 }
 
-/// Of the slacks that fit that nearest to the present one, as a line of the job.
+/// Returns the slack nearest to the present one within the fitting range, as a line of the job.
 std::string slack_line(const CableFacts& facts, double least, double most) {
   const std::string low = pipeline::percent_above(least), high = pipeline::percent_below(most);
   return fmt::format("{}: {} ({} .. {} fit; now {:.3g})", cable_key(facts, "slack_percent"),
                      facts.component->laying.slack < 100 * least ? low : high, low, high, facts.component->laying.slack);
 }
 
-/// Why a cable that keeps its place at both clamps is pulled, and what would let it move.
+/// Returns the cause of the pull in a cable that is held at its place and at both clamps, and the remedy.
 Cure held_cure(const CableFacts& facts, bool known_bore, double least, double most) {
   const std::string path = fmt::format("its place in the dresspack and both clamps hold it, while its path changes by {:.2g} "
                                        ".. {:.2g} %",
@@ -118,14 +119,14 @@ Cure held_cure(const CableFacts& facts, bool known_bore, double least, double mo
                             cable_key(facts, "base_grip_N"))};
 }
 
-/// Room for excess that is wound. Excess s in a room c makes a helix of curvature 2 s/c (excess.h), which must keep
-/// the bend radius that the usual rule asks of the cable itself.
+/// Returns the room per wound excess. Excess s in a room c makes a helix of curvature 2 s/c (excess.h), which must keep
+/// the bend radius that the usual rule demands for the cable itself.
 double room_per_excess(const CableFacts& facts) {
   return 2 * pipeline::least_bend_diameters * 2 * facts.component->radius;
 }
 
-/// Slack that makes no force beyond the limit: by the gains of its path, and by what a helix in its room keeps.
-/// acceleration: motion.acceleration_percent.
+/// Returns the cause and the remedy of a large force: a slack whose force is within the limit, by the gains of the path and by
+/// the excess that a helix in its room can take. acceleration: motion.acceleration_percent.
 Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed, double acceleration) {
   const double limit = pipeline::believable_share * cable.strength(), slack = facts.component->laying.slack / 100;
   if (sticks)
@@ -133,7 +134,7 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
   if (!facts.has_room)
     return {"slack, play, grips or position of the cable", cable_key(facts, "slack_percent") + " (run dresslife-strain again for its value)"};
   const double least = std::max(0.0, facts.most_gain - cable.strain_at(limit));
-  // Also in the straight hose, of which pipeline::slack_warnings() warns.
+  // Includes the straight hose, for which pipeline::slack_warnings() warns.
   const double most = std::min(0.0, facts.least_gain) + pipeline::excess_at_force(cable, limit, facts.room);
   if (!pipeline::lies_loose(*facts.dresspack, *facts.component))
     return held_cure(facts, pipeline::inner_radius(*facts.dresspack).has_value(), least, most);
@@ -165,7 +166,7 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
                              1e3 * needed, cable_key(facts, "play_mm"), 1e3 * needed, cable_key(facts, "helix_radius_mm"), facts.key)};
 }
 
-/// pulls: of the span in which a cable takes most of its strength. moment: "at 1.2 s, program step 3 'text'".
+/// tension: of the cable with the largest share of its strength. moment: "at 1.2 s, program step 3 'text'".
 pipeline::Warning force_warning(const CableFacts& facts, const pipeline::CableForce& cable, double tension,
                                 const std::string& moment, bool sticks, double acceleration) {
   const Cure cure = cure_of(facts, cable, sticks, tension < 0, acceleration);
@@ -200,7 +201,7 @@ std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipel
   return all;
 }
 
-/// "at 1.2 s, program step 3 'text'"
+/// Returns "at 1.2 s, program step 3 'text'".
 std::string moment_of(const pipeline::FileReader& strain, std::size_t sample) {
   const auto time = strain.read<double>("/time");
   const auto step = strain.read<std::int32_t>("/program/step");
@@ -233,12 +234,12 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
   const std::vector<CableFacts> facts = facts_of(strain, job);
   const auto carried = strain.read<double>("/cable_span/hose_moment");
   std::vector<std::vector<double>> tension(cables.all.size());
-  std::vector<double> cable_moment, hose_moment;  // of the span whose cables ask most of their hose
+  std::vector<double> cable_moment, hose_moment;  // of the span with the largest moment of cables over the moment of the hose
   std::vector<pipeline::CableForce> force;
   for (const PulledCable& cable : cables.all) force.push_back(cable.force);
   double force_share = 0, moment_share = 0, relief_share = 0;
-  std::size_t strained = 0, at_sample = 0;   // the cable that takes most of its strength, and when
-  std::size_t bender = 0, bent_sample = 0;  // the cable that pulls most at the most bent clamp, and when
+  std::size_t strained = 0, at_sample = 0;   // cable with the largest share of its strength, and the sample
+  std::size_t bender = 0, bent_sample = 0;  // cable with the largest pull at the most bent clamp, and the sample
   for (std::size_t span = 0; span < cables.spans; ++span) {
     std::vector<std::size_t> in_span;
     for (std::size_t k = 0; k < cables.all.size(); ++k)

@@ -11,7 +11,7 @@ std::string parent_of(const std::string& path) {
   return slash == std::string::npos ? "" : path.substr(0, slash);
 }
 
-/// Worst site of each wire: (component); no_site for places of the hose's wall.
+/// Returns the worst site of each wire: (component); no_site for places of the hose's wall.
 std::vector<std::size_t> worst_site_of_wires(const SiteDamage& all, const TextColumn& component) {
   return worst_by_group(all, component.values.size(), [&](std::size_t site) {
     return all.is_wire(site) ? static_cast<std::size_t>(component.index[site]) : no_site;

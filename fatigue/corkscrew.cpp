@@ -24,8 +24,8 @@ BoredCable bored(const pipeline::Dresspack& dresspack, const pipeline::Component
           room, 1 / (tightest_diameters * 2 * cable.radius), length};
 }
 
-/// Whether the robot ends in the pose in which it begins, but for whole turns of its joints. Without this the next repeat
-/// begins with a move that is not in the motion, and what is left of the twist is not known.
+/// Returns whether the robot ends in its first pose, except for whole turns of its joints. Otherwise the next repeat
+/// starts with a move that is not in the motion, and the remaining twist is unknown.
 bool returns(const pipeline::FileReader& strain) {
   if (!strain.has("/robot/joint_position")) return false;
   const auto angle = strain.read<double>("/robot/joint_position");
@@ -37,9 +37,9 @@ bool returns(const pipeline::FileReader& strain) {
   return true;
 }
 
-/// How a dresspack lies, by its segments.
+/// Segments, length and remaining twist of a dresspack.
 struct Shape {
-  std::vector<std::size_t> segment;  ///< of the file
+  std::vector<std::size_t> segment;  ///< numbers in the file
   std::vector<double> middle;        ///< from the base clamp [m]
   double length = 0, turn_left = 0;  ///< [m], [rad]
 
@@ -78,7 +78,7 @@ double BoredCable::critical_torque(double compression, double curvature) const {
 
 double BoredCable::margin(double compression, double torque, double curvature) const {
   double low = 0, high = largest_margin;
-  constexpr int halvings = 50;  // down to rounding
+  constexpr int halvings = 50;  // until rounding
   for (int k = 0; k < halvings; ++k) {
     const double middle = (low + high) / 2;
     (middle * torque >= critical_torque(middle * compression, curvature) ? high : low) = middle;
@@ -108,7 +108,7 @@ std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pip
     if (std::any_of(tension[k].begin(), tension[k].end(), [&](double pull) { return std::abs(pull) > most; }))
       return {};
     const BoredCable cable = bored(mounted, part, force, room[k], shape.length);
-    const double growth = cable.torsion * shape.turn_left / shape.length;  // of the torque by a repeat
+    const double growth = cable.torsion * shape.turn_left / shape.length;  // increase of the torque per repeat
     if (!worst)
       worst =
           Corkscrew{k, BoredCable::largest_margin, std::numeric_limits<double>::infinity(), shape.turn_left};
@@ -116,7 +116,7 @@ std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pip
       for (std::size_t i = 0; i < shape.segment.size(); ++i) {
         const std::size_t row = t * segments + shape.segment[i];
         const double compression = -tension[k][t], torque = cable.torsion * std::abs(twist[row]);
-        // Only what is beyond both limits under the forces and the twist of the smallest margin has a smaller one.
+        // A smaller margin needs a place that is beyond both limits under the forces and the twist of the smallest margin so far.
         const bool tight = worst->margin * torque >= cable.torque_to_tighten(worst->margin * compression);
         if (!tight && growth == 0) continue;
         const double bend = std::hypot(curvature[2 * row], curvature[2 * row + 1]);

@@ -18,14 +18,14 @@ using pipeline::Counting;
 using pipeline::MeanStress;
 using pipeline::Stress;
 
-/// Replaces samples by positions, so that cycles counted from the result lead back to `path`.
+/// Returns the path with positions instead of samples, so that cycles counted from the result point into `path`.
 std::vector<Reversal> numbered(std::span<const Reversal> path) {
   std::vector<Reversal> result(path.begin(), path.end());
   for (std::size_t i = 0; i < result.size(); ++i) result[i].sample = static_cast<std::int64_t>(i);
   return result;
 }
 
-/// What goes from the stress of a whole history when `share` of its offset is left (F22): the middle of its
+/// Returns the stress that a history loses when `share` of its offset remains (F22). The whole offset is the middle of its
 /// outermost loop, whose tips are its largest and its smallest strain.
 double relaxed_by(std::span<const Reversal> path, std::span<const double> stress, double share) {
   const auto [low, high] = std::minmax_element(
@@ -33,7 +33,7 @@ double relaxed_by(std::span<const Reversal> path, std::span<const double> stress
   return (1 - share) * (stress[low - path.begin()] / 2 + stress[high - path.begin()] / 2);
 }
 
-/// Cycles with the stress from curve(strain >= 0) under Masing's rule and damage(eps_a, s_max, s_m).
+/// Returns the cycles, with the stress from curve(strain >= 0) under Masing's rule and damage(eps_a, s_max, s_m).
 template <class Curve, class Damage>
 std::vector<DamagingCycle> list_cycles(std::span<const Reversal> reversals, Counting counting, double share,
                                        const Curve& curve, const Damage& damage) {
@@ -155,16 +155,16 @@ class BranchTable {
   LogTable::View view() const { return table_.view(); }
 
  private:
-  static constexpr double largest_range = 8;         // strain; beyond it the exact curve
-  static constexpr double plastic_share = 1e-9;      // of the strain below which a branch counts as straight
-  static constexpr double smallest_range = 0x1p-40;  // bounds the table where even tiny strains are plastic
+  static constexpr double largest_range = 8;         // strain; the exact curve is used beyond it
+  static constexpr double plastic_share = 1e-9;      // plastic share of the strain below which a branch counts as straight
+  static constexpr double smallest_range = 0x1p-40;  // lower end of the table if even tiny strains are plastic
 
-  /// d stress / d strain at this stress.
+  /// Returns d stress / d strain at this stress.
   static double slope(const CyclicCurve& curve, double stress) {
     const double elastic = stress / curve.youngs_modulus(), plastic = curve.strain(stress) - elastic;
     return stress / (elastic + std::max(plastic, 0.0) / curve.hardening_exponent());
   }
-  /// Range at which the plastic strain is `plastic_share` of the elastic: (s/K')^(1/n') = share s/E.
+  /// Returns the range at which the plastic strain is `plastic_share` of the elastic: (s/K')^(1/n') = share s/E.
   static double elastic_limit(const CyclicCurve& curve) {
     const double n = curve.hardening_exponent();
     if (n == 1) return largest_range / 2;
@@ -178,7 +178,7 @@ class BranchTable {
   double elastic_;
 };
 
-/// Damage 2/(2N) where the falling curve y(2N) has this value.
+/// Damage 2/(2N) as a function of the value of the falling curve y(2N).
 class CurveTable {
  public:
   CurveTable(const PowerSum& curve, double fewest, double most)
@@ -200,13 +200,13 @@ class CurveTable {
   LogTable table_;
 };
 
-// ---- mean stress: all that this file knows of each rule ---------------------------------------------------
+// ---- rules of mean stress ---------------------------------------------------------------------------------
 
 struct MetalTables;
 
-// A rule has: life_room, by which its lives may leave those of the curve (8) that it reads; read(), which
-// hands a table to the loop that counts side by side where damage is a function of amplitude, or of amplitude
-// times the largest stress, and nothing where it is not; and damage() of one load.
+// A rule has three members. life_room: factor by which its lives may differ from those of the curve (8) that it reads. read():
+// gives a table to the side-by-side loop and returns true, if damage is a function of amplitude or of amplitude times the largest
+// stress; else returns false. damage(): damage of one load.
 
 struct WithoutMeanStress {  // (8)
   static constexpr double life_room = 1;
@@ -220,19 +220,19 @@ struct SmithWatsonTopper {  // (9)
   static double damage(const MetalTables& metal, double amplitude, double stress_max, double);
 };
 
-struct Morrow {  // (F7): the axis is stretched by u^(1/(c-b)), which leaves room for s_m of -2 sf to 0.999 sf
+struct Morrow {  // (F7): the axis is scaled by u^(1/(c-b)); the room allows s_m from -2 sf to 0.999 sf
   static constexpr double life_room = 1e7;
   static bool read(const MetalTables&, LockstepTables&) { return false; }
   static double damage(const MetalTables& metal, double amplitude, double, double stress_mean);
 };
 
-struct Walker {  // (F12): by (s_a/s_max)^(-(1-gamma)/b), for copper down to s_a = 0.03 s_max
+struct Walker {  // (F12): by (s_a/s_max)^(-(1-gamma)/b); for copper the room allows s_a down to 0.03 s_max
   static constexpr double life_room = 1e7;
   static bool read(const MetalTables&, LockstepTables&) { return false; }
   static double damage(const MetalTables& metal, double amplitude, double stress_max, double stress_mean);
 };
 
-/// Calls use(rule). A rule of pipeline/job/fatigue.h that is not here does not compile.
+/// Calls use(rule). Each value of MeanStress in pipeline/job/fatigue.h must have a case, else this does not compile.
 template <class Use>
 auto with_rule(MeanStress rule, const Use& use) {
   switch (rule) {
@@ -248,7 +248,7 @@ auto with_rule(MeanStress rule, const Use& use) {
   throw std::logic_error("no such rule of mean stress");
 }
 
-/// What the loop reads for a metal.
+/// Tables of the loop for a metal.
 struct MetalTables {
   MetalTables(const pipeline::Material& m, const pipeline::Fatigue& f, double longest)
       : life(m, f.mean_stress, f.endurance_strain, longest),
@@ -264,7 +264,7 @@ struct MetalTables {
   CurveTable strain_damage, swt_damage;
 };
 
-/// Of a curve whose axis is stretched: within the same lives as the others.
+/// Limits the damage of a curve with a scaled axis to the same lives as other curves.
 double within_lives(double damage, double longest) {
   return damage < 2 / longest ? 0 : std::min(damage, 2 / fewest_reversals);
 }
@@ -294,7 +294,7 @@ double SmithWatsonTopper::damage(const MetalTables& metal, double amplitude, dou
 double Walker::damage(const MetalTables& metal, double amplitude, double stress_max, double stress_mean) {
   if (stress_max <= 0) return 0;
   const double stretch = metal.life.walker_stretch(stress_max, stress_mean);
-  if (stretch < 1 / life_room || stretch > life_room)  // beyond the table: solved
+  if (stretch < 1 / life_room || stretch > life_room)  // outside the table: solved
     return metal.life.damage({amplitude, stress_max, stress_mean});
   return within_lives(metal.strain_damage(amplitude) / stretch, metal.life.longest());
 }
@@ -305,8 +305,8 @@ double Morrow::damage(const MetalTables& metal, double amplitude, double, double
   return within_lives(metal.strain_damage(amplitude / scale.strain) / scale.life, metal.life.longest());
 }
 
-/// True if rises and falls take turns strictly, as dresslife-strain writes them. No branch, and whole numbers
-/// instead of truth values: the compiler vectorises it.
+/// Returns whether rises and falls alternate strictly, as dresslife-strain writes them. Uses integers and no branch, so that the
+/// compiler vectorises it.
 bool alternates(std::span<const float> strains) {
   const float* const at = strains.data();
   int strict = 1;
@@ -318,8 +318,8 @@ bool alternates(std::span<const float> strains) {
   return strict != 0;
 }
 
-/// The reversals of a repeated history that need not alternate: rises and falls in turns, also over the joint
-/// of its end and its begin. Empty for a constant one.
+/// Returns the reversals of one period of a repeated history with any sequence of strains: rises and falls alternate, also across
+/// the joint of its end and its begin. Empty for a constant history.
 std::vector<float> alternating_period(std::span<const float> strains) {
   const auto is_smaller = [](float a, float b) { return std::fabs(a) < std::fabs(b); };
   const std::size_t largest = std::max_element(strains.begin(), strains.end(), is_smaller) - strains.begin();
@@ -331,12 +331,12 @@ std::vector<float> alternating_period(std::span<const float> strains) {
     const bool continues = n > 1 && (period[n - 1] > period[n - 2]) == (strain > period[n - 1]);
     continues ? period[n - 1] = strain : period.emplace_back(strain);
   }
-  period.pop_back();  // the largest once more
+  period.pop_back();  // the second copy of the largest
   return period;
 }
 
-/// Stress at every reversal of a history that starts at rest: MemoryPath without its calls. Alternating
-/// reversals never continue a direction, so that case is left out.
+/// Computes the stress at every reversal of a history that starts at rest, like MemoryPath but without its calls. The case of a
+/// continued direction is left out, because the reversals must alternate.
 template <class Range>
 void follow_stress(std::span<const float> strains, const Range& stress_range, std::vector<double>& stress,
                    std::vector<double>& open, std::vector<double>& response) {
@@ -363,14 +363,14 @@ void follow_stress(std::span<const float> strains, const Range& stress_range, st
   }
 }
 
-/// count_half_cycles() with damage, over alternating reversals.
+/// Returns the damage of count_half_cycles() for alternating reversals.
 template <class Range, class Damage>
 double sum_half_cycles(std::span<const float> strains, const Range& stress_range, const Damage& damage,
                        DamageCounter::Workspace& w) {
   follow_stress(strains, stress_range, w.stress, w.strain, w.period);
   w.open.resize(strains.size());
   std::uint32_t* const open = w.open.data();
-  std::size_t first = 0, size = 0;  // of those open
+  std::size_t first = 0, size = 0;  // of the open reversals
   double sum = 0;
   const auto add = [&](double count, std::uint32_t a, std::uint32_t b) {
     const double amplitude = std::fabs(double(strains[a]) - double(strains[b])) / 2;
@@ -391,7 +391,7 @@ double sum_half_cycles(std::span<const float> strains, const Range& stress_range
   return sum;
 }
 
-/// The outermost loop's offset and half its range of stress, with the largest strain taken for tension.
+/// Offset and half the stress range of the outermost loop, with the sign for a largest strain in tension.
 struct OuterLoop {
   double offset, half_range;
 };
@@ -423,7 +423,7 @@ struct DamageCounter::Tables {
   pipeline::Material material;
   pipeline::Fatigue settings;
   Relaxation relaxation;
-  std::optional<MetalTables> metal;  // one of the two
+  std::optional<MetalTables> metal;  // one of the two has a value
   std::optional<StrainLifeTable> measured;
   const Lockstep& lockstep;
   LockstepTables side_by_side;
@@ -435,7 +435,7 @@ DamageCounter::DamageCounter(const pipeline::Material& material, const pipeline:
 DamageCounter::~DamageCounter() = default;
 DamageCounter::DamageCounter(DamageCounter&&) noexcept = default;
 
-/// Calls use(stress_range, damage) with the functions that the settings ask for.
+/// Calls use(stress_range, damage) with the functions of the settings.
 template <class Use>
 auto DamageCounter::Tables::with_functions(const Use& use) const {
   const auto with_damage = [&](const auto& stress_range) {
@@ -458,7 +458,7 @@ auto DamageCounter::Tables::with_functions(const Use& use) const {
   return with_damage([modulus = material.youngs_modulus](double range) { return modulus * range; });
 }
 
-/// (F22) at the largest strain.
+/// Returns the stress at the largest strain (F22).
 template <class Rule>
 double DamageCounter::Tables::first_stress(double largest, double range, double share) const {
   const double kept = stress_range(2 * std::fabs(largest)) / 2;
@@ -468,8 +468,8 @@ double DamageCounter::Tables::first_stress(double largest, double range, double 
   return relaxed + share * (kept - relaxed);
 }
 
-/// Of a life that the outermost loop alone would have, once in every repeat. Other loops shorten it, by a
-/// tenth or by ten; the share changes by that to the power r.
+/// Returns the mean share for the life that the outermost loop alone would have, once in every repeat. Other loops shorten this
+/// life, by a tenth or by a factor of ten; the share changes by this factor to the power r.
 template <class Rule>
 double DamageCounter::Tables::expected_share(double largest, double range, const OuterLoop& loop) const {
   if (relaxation.complete()) return 0;
@@ -484,7 +484,7 @@ double DamageCounter::Tables::expected_share(double largest, double range, const
   return mean_share(life, exponent);
 }
 
-/// Tables are read side by side; what is none, one load at a time.
+/// Fills the tables of the side-by-side loop. Functions without a table are called for one load at a time.
 void DamageCounter::Tables::fill_side_by_side() {
   LockstepTables& to = side_by_side;
   to.material = this;

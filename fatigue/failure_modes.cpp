@@ -10,20 +10,21 @@ namespace {
 
 using pipeline::LifeResponse;
 
-// Decades from the first wire's life to the conductor's. In a bend the wires within 18 deg of the worst have 0.95 of its
-// strain and twice its life: they are the tenth that is the failure. More, up to no damage, is a peculiarity of the medians
-// of the parameters, at which hardly a wire is damaged. W(z) is known of the worst wire alone, and would be added to it.
+// Most decades from the first wire's life to the conductor's. In a bend the wires within 18 deg of the worst have 0.95 of its
+// strain and twice its life; they are the tenth whose loss is the failure. A larger distance, up to no damage, occurs only at the
+// medians of the parameters, where hardly any wire is damaged. W(z) is known for the worst wire only, and is added to the
+// distance.
 constexpr double most_after_first_wire = 1;
-constexpr std::size_t likely_anywhere = 32;  // worst wires of a mode, beside the worst of each segment
+constexpr std::size_t likely_anywhere = 32;  // number of worst wires of a mode, in addition to the worst wire of each segment
 
-/// "signal cable" of "signal cable 3/conductor 2/layer 1/wire 17"; empty: the wire lies right in the dresspack.
+/// Returns "signal cable" for "signal cable 3/conductor 2/layer 1/wire 17"; empty: the wire lies directly in the dresspack.
 std::string cable_of(const std::string& wire, const std::vector<std::string>& layer_names) {
   if (conductor_of(wire, layer_names).empty()) return "";
   const std::string kinds = layer_of(wire, layer_names);
   return kinds.substr(0, kinds.find('/'));
 }
 
-/// Of the wire at this place of a job.
+/// Returns the name of the mode of the wire at this place of a job.
 std::string name_of_mode(const pipeline::Job& job, const PathInJob& place,
                          const std::vector<std::vector<std::string>>& layers) {
   const std::string dresspack = pipeline::name_among(job, place.dresspack);
@@ -72,7 +73,7 @@ class Modes {
   std::size_t mode_of(std::size_t site) const {
     return in_.damage.is_wire(site) ? of_component_[in_.component.index[site]] : no_site;
   }
-  /// Modes of the same dresspack, itself one of them.
+  /// Returns the number of modes of the same dresspack, including this one.
   std::size_t neighbours(std::size_t mode) const {
     std::size_t count = 0;
     for (std::size_t other = 0; other < list_.size(); ++other)
@@ -82,11 +83,11 @@ class Modes {
 
   pipeline::ParameterKnowledge knowledge() const {
     pipeline::ParameterKnowledge known = pipeline::knowledge_of(in_.job);
-    if (in_.job.calibration)  // z counts from the job as it stands, in whose keys are the calibration's medians
+    if (in_.job.calibration)  // z counts from the job itself, whose keys contain the calibration's medians
       for (const pipeline::LearnedParameter& learned : in_.job.calibration->parameters)
         for (std::size_t p = 0; p < pipeline::uncertain_count; ++p)
           if (pipeline::uncertain_parameters()[p].name == learned.name &&
-              p != index_of(pipeline::Uncertain::rest))  // counted in fill_response()
+              p != index_of(pipeline::Uncertain::rest))  // see fill_response()
             known.mean(static_cast<Eigen::Index>(p)) -= learned.median;
     if (!in_.job.uncertainty.enabled) known.mean.setZero(), known.covariance.setZero();
     return known;
@@ -97,7 +98,7 @@ class Modes {
         .front();
   }
 
-  /// Those of the job's own wires that may be the worst once something is known better.
+  /// Returns the job's own wires of which one can be the worst with other parameters.
   VariedStrains likely_worst(std::size_t mode) const {
     std::vector<std::size_t> sites = worst_by_group(in_.damage, in_.segments, [&](std::size_t site) {
       return mode_of(site) == mode ? static_cast<std::size_t>(in_.sites.segment(site)) : no_site;
@@ -117,7 +118,7 @@ class Modes {
     return own;
   }
 
-  /// Lives over the scatter of the mode's wires, also with another scatter.
+  /// Adds the lives over the scatter of the mode's wires, also with other values of the scatter.
   void add_planned(std::size_t mode, LifeResponse& response) const {
     std::vector<PlacesOfConductor> places;
     std::vector<ConductorWires> bundles;
@@ -146,7 +147,7 @@ class Modes {
       for (double& life : lives) life -= std::max(0.0, excess);
   }
 
-  /// log10 of the worst wire's median life at a point of the strain side; at 0: W(0).
+  /// Returns log10 of the worst wire's median life at a point of the strain parameters; at 0: W(0).
   static double first_wire_life(const LifeResponse& response, std::size_t point = 0) {
     const auto zero = [](const std::vector<double>& nodes) {
       return static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), 0.0) - nodes.begin());
@@ -156,7 +157,7 @@ class Modes {
                                   zero(response.slope));
   }
 
-  /// Without damage the bound is W there, which counts damage up to longer lives.
+  /// Sets a bound. Without damage the bound is W at this point, which includes damage at longer lives.
   static void set_bound(LifeResponse& response, pipeline::Inside inside, double repeats) {
     double& bound = response.bound[static_cast<std::size_t>(inside)];
     bound = log10_life(repeats);

@@ -13,12 +13,12 @@ namespace {
 using pipeline::normal_density;
 using pipeline::normal_share;
 
-constexpr double log_accuracy = 1e-10;  // of ln life
+constexpr double log_accuracy = 1e-10;  // [ln life]
 
-/// Integral of Phi from minus infinity to y.
+/// Returns the integral of Phi from minus infinity to y.
 double integral_of_normal(double y) { return y * normal_share(y) + normal_density(y); }
 
-/// Where a probability that grows with ln t passes `share`, between two logarithms.
+/// Returns the ln t between low and high at which a rising probability reaches `share`.
 template <class Probability>
 double bisect(double low, double high, double share, const Probability& probability) {
   while (high - low > log_accuracy) {
@@ -29,8 +29,8 @@ double bisect(double low, double high, double share, const Probability& probabil
   return (low + high) / 2;
 }
 
-/// Cubics with the values and slopes at the ends of each of 128 cells of a deviation: wrong by h^4/384 times
-/// the fourth derivative, at most 1.4.
+/// Cubics with the values and slopes at the ends of each cell, 128 cells per standard deviation. The error is h^4/384 times
+/// the fourth derivative, which is at most 1.4.
 class NormalTable {
  public:
   static constexpr double reach = 8;
@@ -67,8 +67,8 @@ double tabulated_normal(double z) {
 double Scatter::own() const { return log10 * std::sqrt(1 - shared); }
 double Scatter::common() const { return log10 * std::sqrt(shared); }
 
-// Event after event: with p the next one's probability, P(k) becomes P(k) (1-p) + P(k-1) p. Only the counts
-// below `count` are followed; what leaves them has reached it.
+// Adds one event after the other: with p the next probability, P(k) becomes P(k) (1-p) + P(k-1) p. Only counts
+// below `count` are stored; the probability that leaves them is summed in `reached`.
 double at_least(std::span<const double> probability, std::size_t count) {
   if (count == 0) return 1;
   std::vector<double> exactly(count, 0.0);
@@ -87,8 +87,8 @@ LifeDistribution::LifeDistribution(Probability own, double low, double high, dou
   if (common_ > 0 && low_ < high_) tabulate();
 }
 
-// With s the common deviation, P(x) = integral of F(u) phi((x - u)/s) du/s; F straight between points, so its
-// slope m of a piece counts m [I(x - u0) - I(x - u1)], I(y) = s G(y/s), G' = Phi.
+// With s the common deviation, P(x) = integral of F(u) phi((x - u)/s) du/s. F is linear between points, so a piece with
+// slope m contributes m [I(x - u0) - I(x - u1)], I(y) = s G(y/s), G' = Phi.
 double LifeDistribution::operator()(double log_life) const {
   if (low_ == high_) {
     if (common_ == 0) return log_life >= low_ ? 1 : 0;
@@ -104,8 +104,8 @@ double LifeDistribution::operator()(double log_life) const {
   return sum * common_ / width_;
 }
 
-// Straight pieces of width h add h^2/6 to the variance: 0.35 % of what the own and the common part have,
-// whose own part is about a tenth of the way from one end to the other wide.
+// Linear pieces of width h add h^2/6 to the variance: 0.35 % of the variance of own and common part. The deviation of the own
+// part is about a tenth of the distance between both ends.
 void LifeDistribution::tabulate() {
   constexpr double negligible = 1e-6, piece = 0.145;  // piece^2/6 = 0.0035
   const double accuracy = std::max(1e-4 * (high_ - low_), 0.02 * common_);
@@ -157,7 +157,7 @@ Wires::Wires(std::span<const double> damage) {
 
 double Wires::failed(double log_time, std::size_t count, double own, std::vector<double>& memory) const {
   memory.clear();
-  constexpr double far = 6.5;  // deviations: a probability of 4e-11
+  constexpr double far = 6.5;  // standard deviations: a probability of 4e-11
   for (const double median : log_) {
     const double z = (log_time - median) / own;
     if (z < -far) break;
@@ -166,7 +166,7 @@ double Wires::failed(double log_time, std::size_t count, double own, std::vector
   return at_least(memory, count);
 }
 
-/// Of the count-th of some wires; precondition: so many are damaged.
+/// Returns the distribution of the count-th break. Precondition: at least `count` wires are damaged.
 LifeDistribution distribution_of(std::shared_ptr<const Wires> wires, std::size_t count, Scatter scatter) {
   const double own = scatter.own() * std::numbers::ln10;
   return {[wires, count, own, memory = std::vector<double>()](double log_time) mutable {

@@ -39,7 +39,7 @@ std::vector<float> as_floats(const std::vector<Reversal>& reversals) {
   return strains;
 }
 
-/// Everything about the file that several parts of the output need.
+/// Data that several parts of the output need.
 struct Context {
   const FileReader& strain;
   const pipeline::Job& job;
@@ -54,8 +54,8 @@ struct Context {
   SiteCounters counters;
   SiteDamage damage;
   std::optional<JudgedPlanes> planes;
-  std::size_t worst = no_site;       // of the wires
-  std::size_t worst_wall = no_site;  // of the hose
+  std::size_t worst = no_site;       // worst wire
+  std::size_t worst_wall = no_site;  // worst place of the hose's wall
 
   Context(const FileReader& strain_file, const pipeline::Job& the_job, FileWriter& life_file,
           std::size_t thread_count)
@@ -86,7 +86,7 @@ struct Context {
     return site == no_site ? 0 : dresspack[static_cast<std::size_t>(sites.segment(site))];
   }
 
-  /// From where a segment's wires are evaluated to its dresspack's tool clamp, along it [m].
+  /// Returns the distance along the dresspack from the place where a segment's wires are evaluated to the tool clamp [m].
   double from_tool(std::size_t segment) const {
     const auto [first, end] = segments_of(dresspack[segment]);
     const double length = std::accumulate(segment_length.begin() + static_cast<std::ptrdiff_t>(first),
@@ -97,8 +97,8 @@ struct Context {
   const std::string* step_at(std::size_t sample) const {
     return step[sample] < 0 ? nullptr : &step_text[step[sample]];
   }
-  /// They add up to the site's damage, also where that is another one's ratio (F21).
-  /// Where mean stress relaxes, with what is left of it in the mean of its life.
+  /// Returns the cycles of a site. They add up to the site's damage, also if this was scaled by another site's ratio (F21).
+  /// If mean stress relaxes, their stress is that of the mean share over the life.
   std::vector<DamagingCycle> cycles_of(std::size_t site) const {
     if (site == no_site) return {};
     const double share = offset_share(site);
@@ -112,7 +112,7 @@ struct Context {
     return counters.of(site).share_over(life_in_repeats(damage.damage[site]), strains_of(site));
   }
   std::vector<float> strains_of(std::size_t site) const { return as_floats(reversals_of(site)); }
-  /// Of the strain that the site was judged by.
+  /// Returns the reversals of the strain with which the site was evaluated.
   std::vector<Reversal> reversals_of(std::size_t site) const {
     if (!planes || !planes->of(site)) return sites.reversals_of(site);
     std::vector<Reversal> reversals = find_reversals(planes->strain_of(site));
@@ -151,7 +151,7 @@ std::vector<double> damage_at(const Context& c, const std::vector<std::size_t>& 
 
 void write_sites(const Context& c) {
   std::vector<double> values;
-  in_blocks(c.sites.size(), [&](std::size_t first, std::size_t count) {  // refuses what is no number
+  in_blocks(c.sites.size(), [&](std::size_t first, std::size_t count) {  // throws for values that are not finite
     for (const char* table : {"/site/helix", "/site/fibre"}) c.strain.read_rows(table, first, count, values);
   });
   for (const char* table :
@@ -185,7 +185,7 @@ void write_listed_cycles(const Context& c) {
   put_column("/cycles/damage", [](const DamagingCycle& d) { return d.damage; });
 }
 
-/// The worst wire, or place of the hose's wall, of each segment.
+/// Returns the worst wire, or place of the hose's wall, of each segment.
 std::vector<std::size_t> worst_by_segment(const Context& c, bool wires) {
   return worst_by_group(c.damage, c.segment_length.size(), [&](std::size_t site) {
     return c.damage.is_wire(site) == wires ? static_cast<std::size_t>(c.sites.segment(site)) : no_site;
@@ -206,7 +206,7 @@ void write_segments(const Context& c) {
   }
 }
 
-/// The worst wire of each dresspack.
+/// Writes the worst wire of each dresspack.
 void write_dresspacks(const Context& c) {
   std::vector<std::string> names;
   for (const pipeline::MountedDresspack& mounted : c.job.dresspacks) names.push_back(mounted.name);
@@ -219,7 +219,7 @@ void write_dresspacks(const Context& c) {
   c.life.attribute("worst_dresspack", pipeline::name_among(c.job, c.dresspack_of(c.worst)));
 }
 
-/// The layers of wires, and which one each component lies in; no_site: the hose's wall.
+/// The layers of wires, and the layer of each component; no_site: the hose's wall.
 struct Layers {
   std::vector<std::string> name;
   std::vector<std::size_t> of_component;
@@ -254,8 +254,8 @@ void write_layers(const Context& c) {
   put(c.life, "/layer/damage", damage_at(c, worst));
 }
 
-/// One layer of wires in one segment is a group. The relaxation of the worst wire stands for
-/// that of the others (F24).
+/// Groups for settle(): one layer of wires in one segment is a group. The relaxation of its worst wire is used for the others
+/// (F24).
 struct SettledGroups {
   Layers layers;
   std::size_t count;
@@ -274,7 +274,7 @@ struct SettledGroups {
   }
 };
 
-/// The worst wire of a conductor, when its neighbours have left it their load.
+/// Returns the rates of load sharing, from the conductor's worst wire.
 std::vector<double> sharing_rates_of(const Context& c, std::size_t worst, std::size_t wires) {
   const DamageCounter& counter = c.counters.of(worst);
   DamageCounter::Workspace workspace;
@@ -301,7 +301,7 @@ Conductors loaded_conductors(const Context& c) {
   return conductors;
 }
 
-/// uncertain: over everything that is uncertain, too; null: only the scatter of wires is.
+/// uncertain: lives over all uncertain parameters; null: only the scatter of wires is uncertain.
 void write_scatter(const Context& c, const Conductors& conductors, const LifeScatter& scatter,
                    const pipeline::FirstFailures* uncertain) {
   std::vector<std::uint32_t> wires;
@@ -328,8 +328,8 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
   }
 }
 
-/// The planner's place beside the lives: of the soonest conductor of the mode that fails first most often; where no conductor
-/// can fail it has no name. p10 [repeats]
+/// Writes the planner's place: that of the conductor that fails soonest in the mode that most often fails first. The name is
+/// empty if no conductor can fail. p10_repeats: [repeats].
 void write_first_place(const Context& c, const Conductors& conductors, const FirstPlace& first, const ModeList& modes,
                        std::size_t failing_mode, double p10_repeats) {
   const double p10 = hours(p10_repeats, c.repeat_seconds());
@@ -344,7 +344,7 @@ void write_first_place(const Context& c, const Conductors& conductors, const Fir
   c.life.attribute("failing_position_from_tool", known ? c.from_tool(place->segment) : 0.0);
 }
 
-/// The whole strain history of the worst wire; empty where only its turning points are known.
+/// Returns the whole strain history of the worst wire; empty if only its turning points are known.
 std::vector<double> worst_history(const Context& c) {
   if (c.worst == no_site) return {};
   if (c.planes && c.planes->of(c.worst)) return c.planes->strain_of(c.worst);
@@ -355,7 +355,7 @@ std::vector<double> worst_history(const Context& c) {
   return strain;
 }
 
-/// With the stress that belongs to it, where a wire was evaluated.
+/// Writes the strain of the worst wire, and its stress if a wire was evaluated.
 void put_worst(const Context& c, const std::vector<double>& strain) {
   put(c.life, "/worst/strain", strain);
   if (c.worst != no_site)
@@ -364,7 +364,7 @@ void put_worst(const Context& c, const std::vector<double>& strain) {
                      c.offset_share(c.worst)));
 }
 
-/// Writes it; straight between the turning points where there is none. Returns what is known of it.
+/// Writes the strain of the worst wire; linear between the turning points if the history is unknown. Returns the known strains.
 std::vector<Reversal> write_worst_strain(const Context& c) {
   const std::vector<double> history = worst_history(c);
   if (history.empty()) {
@@ -394,7 +394,7 @@ void write_program(const Context& c, const std::vector<DamagingCycle>& cycles) {
   put(c.life, "/program/damage_opened", by_step(Moment::opens));
 }
 
-/// Which clamp of each dresspack is near.
+/// Writes the damage near each clamp of each dresspack.
 void write_clamps(const Context& c) {
   const std::vector<double> damage = damage_at(c, worst_by_segment(c, true));
   std::vector<std::string> names;
@@ -416,7 +416,7 @@ void write_clamps(const Context& c) {
   put(c.life, "/clamp/damage", near);
 }
 
-/// Which joint, and which clamp is near. Nothing of the joints when the motion was given by its clamps.
+/// Writes the damage by joint and clamp. Writes nothing about joints if the motion is given by its clamps.
 void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles,
                   const std::vector<Reversal>& known) {
   write_clamps(c);
@@ -467,7 +467,7 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   return worst;
 }
 
-/// before, place: go before the names of the attributes.
+/// before, place: prefixes of the names of the attributes.
 void put_attributes(FileWriter& life, const Worst& worst, const std::string& before, const std::string& place) {
   life.attribute(before + "life_repeats", worst.repeats);
   life.attribute(before + "life_hours", worst.life_hours);
@@ -480,13 +480,13 @@ void put_attributes(FileWriter& life, const Worst& worst, const std::string& bef
   life.attribute(place + "step", worst.step);
 }
 
-/// What the mesh of loose cables leaves out, handed on to the ranking.
+/// Copies the curvature error of the mesh of loose cables, for the ranking.
 void copy_mesh_error(const Context& c) {
   constexpr const char* name = "loose_mesh_error";
   if (c.strain.has_attribute(name)) c.life.attribute(name, c.strain.number_attribute(name));
 }
 
-/// "uncertainty.ratings typical (strength x 1.2, model x 1.3)"; empty: without.
+/// Returns "uncertainty.ratings typical (strength x 1.2, model x 1.3)"; empty: no typical ratings.
 std::string ratings_words(const pipeline::Job& job) {
   if (!job.calibration || !job.calibration->typical) return "";
   std::vector<std::string> words;
@@ -499,7 +499,7 @@ std::string ratings_words(const pipeline::Job& job) {
   return fmt::format("uncertainty.ratings typical ({})", fmt::join(words, ", "));
 }
 
-/// What the dresspacks leave out, for everybody who plans with these hours.
+/// Writes the estimates of the dresspacks, which a reader of the hours must know.
 void write_estimates(const Context& c) {
   std::string words;
   for (std::size_t d = 0; d < c.job.dresspacks.size(); ++d) {
@@ -511,7 +511,7 @@ void write_estimates(const Context& c) {
   c.life.attribute("estimates", words);
 }
 
-/// The effect of mean stress on the worst wire's life: the same history with all of its mean stress, and without any.
+/// Writes the effect of mean stress on the worst wire's life: with all of the mean stress, and without it.
 void write_mean_stress(const Context& c) {
   if (c.worst == no_site) return;
   const pipeline::Material& material = pipeline::material_of(c.job, c.sites.material()[c.worst]);
@@ -527,7 +527,7 @@ void write_mean_stress(const Context& c) {
   c.life.attribute("mean_stress_left", c.offset_share(c.worst));
 }
 
-/// The worst wire's life, place and moment. Returns the summary for the terminal.
+/// Writes the worst wire's life, place and time. Returns the summary for the terminal.
 std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycles, double p10_repeats) {
   const Worst worst = worst_of(c, c.worst, cycles);
   put_attributes(c.life, worst, "", "worst_");
@@ -551,7 +551,7 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
       worst.position_from_tool, worst.step.empty() ? "" : ", worst during '" + worst.step + "'");
 }
 
-/// The hose's wall beside the wires (F37); nothing without a wall. lives: (sample) log10 repeats of the validated modes.
+/// Writes the life of the hose's wall (F37); nothing without a wall. lives: (sample) log10 repeats of the validated modes.
 std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c, const std::vector<double>& lives) {
   if (c.worst_wall == no_site) return {};
   const auto worst_sites = worst_by_segment(c, false);
@@ -584,8 +584,8 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c, const std::v
   return modes;
 }
 
-/// Modes that are not in the planner's hours. Returns notes for the terminal. lives: (sample) log10 repeats of those
-/// that are. tension: see corkscrew.h.
+/// Writes the modes that are not in the planner's hours. Returns notes for the terminal. lives: (sample) log10 repeats of the
+/// validated modes. tension: see corkscrew.h.
 std::string write_unvalidated(const Context& c, const std::vector<double>& lives,
                               const std::vector<std::vector<double>>& tension) {
   std::vector<pipeline::UnvalidatedMode> modes = unvalidated_modes(c.strain, c.job, lives, tension);
@@ -609,8 +609,8 @@ std::string write_unvalidated(const Context& c, const std::vector<double>& lives
   return summary;
 }
 
-/// Whether the job itself lets every level slip this way, but for its cables, which slide in a bound as they
-/// do in the job: then its own sites, which are all wires and not only the likely worst ones, are the bound.
+/// Returns whether every level of the job slips in this manner. Cables are excepted, because in a bound they slide as in the job.
+/// Then the job's own sites are the bound; they are all wires, not only the likely worst ones.
 bool is_own_slip(const pipeline::Job& job, pipeline::Slip slip) {
   const auto holds_wires = [](const pipeline::MountedDresspack& mounted) {
     return std::any_of(mounted.dresspack.components.begin(), mounted.dresspack.components.end(),
@@ -633,7 +633,7 @@ SiteDamage damage_of_bound(const Context& c, const SiteSet& sites, const TextCol
   return damage;
 }
 
-/// Returns the worst wire's life of each mode [repeats].
+/// Writes a bound. Returns the worst wire's life of each mode [repeats].
 std::vector<double> write_bound(const Context& c, const ModeList& modes, const std::string& name,
                                 pipeline::Slip slip, const std::function<void(double)>& progress) {
   const SiteSet sites(c.strain, "/bound_" + name);
@@ -658,7 +658,7 @@ std::vector<double> write_bound(const Context& c, const ModeList& modes, const s
   return lives;
 }
 
-/// The shear of the worst wire, and what planes were judged.
+/// Writes the shear of the worst wire, and the evaluated planes.
 void write_shear(const Context& c) {
   if (c.planes && !c.planes->empty()) {
     std::vector<double> angle, damage;
@@ -682,7 +682,7 @@ void write_shear(const Context& c) {
   c.life.attribute("worst_shear_range", *high - *low);
 }
 
-/// Lives over everything that is uncertain (F27), with bounds, causes, and what to measure.
+/// Writes the lives over all uncertain parameters (F27), with bounds, causes, and the best measurement.
 pipeline::FirstFailures write_first_failures(const Context& c, const pipeline::FailureModes& modes) {
   pipeline::FirstFailures lives = pipeline::summary_of(modes, "");
   const auto put_hours = [&](const std::string& name, double repeats) {
@@ -740,8 +740,8 @@ pipeline::FirstFailures first_failures_of(const Context& c, const ModeList& mode
   return write_first_failures(c, failure_modes(modes, inputs));
 }
 
-/// Judges the planes, where the strain file asks for it, in the place of the equivalent strain; then lets
-/// mean stress relax over each site's life.
+/// Evaluates the planes if the strain file contains them, and replaces the damage of the equivalent strain. Then applies the
+/// relaxation of mean stress over each site's life.
 void judge(Context& c) {
   c.planes.emplace(c.strain, c.sites, c.counters, c.job, c.threads);
   const SettledGroups group_of(c, c.sites, c.component);
@@ -751,7 +751,7 @@ void judge(Context& c) {
       c.threads);
 }
 
-/// Where the job goes beyond the tests from which its calibration was learned.
+/// Returns warnings where the job exceeds the tests from which its calibration was learned.
 std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
   if (!c.job.calibration || c.job.calibration->typical || c.worst == no_site) return {};
   pipeline::Experience experience;
@@ -771,7 +771,7 @@ std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
 }
 
 std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
-  std::map<std::string, pipeline::Warning> contradictions;  // sorted and once each
+  std::map<std::string, pipeline::Warning> contradictions;  // sorted, without duplicates
   for (const std::string& name : c.sites.material().values) {
     const auto& packs = c.job.dresspacks;
     if (std::any_of(packs.begin(), packs.end(), [&](const pipeline::MountedDresspack& mounted) {
@@ -810,7 +810,7 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   Context c(strain, job, life, threads);
   check_steps(c);
   pipeline::check_lengths(c.strain, free_lengths(c.job));
-  // The three sets are about equally large.
+  // The three sets have about equal sizes.
   c.damage = damage_of(c.sites, c.counters, threads, [&](double share) { progress(share / 3); });
   judge(c);
   c.worst = c.damage.worst_wire();

@@ -1,4 +1,4 @@
-// dresslife-fatigue: strain.h5 in, life.h5 out.
+// dresslife-fatigue: reads strain.h5 and writes life.h5.
 #include "fatigue/life_file.h"
 #include "fatigue/memory.h"
 #include "pipeline/base/threads.h"

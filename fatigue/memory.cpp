@@ -10,7 +10,7 @@
 namespace dresslife::fatigue {
 namespace {
 
-/// The most turning points of one site: it is read whole.
+/// Returns the largest number of turning points of one site, because a site is read as a whole.
 double longest_site(const pipeline::FileReader& file, const std::string& group) {
   std::vector<std::uint64_t> offset;
   const std::string dataset = group + "/reversal/offset";
@@ -27,14 +27,13 @@ double longest_site(const pipeline::FileReader& file, const std::string& group) 
 }  // namespace
 
 pipeline::MemoryNeed memory_of(const pipeline::FileReader& strain, std::size_t threads) {
-  constexpr double program = 20 << 20;  // itself, its libraries, a job and the tables of its materials
-  // Segment, offset and two indices of texts; damage, range and what each site is; its life on the way to the
-  // file.
+  constexpr double program = 20 << 20;  // program, libraries, a job and the tables of its materials
+  // Segment, offset and two indices of texts; damage, range and kind of each site; its life as written to the file.
   constexpr double of_a_site = 4 + 8 + 2 * 4 + 3 * 8 + 8;
   constexpr double of_a_bound_site = 4 + 8 + 2 * 4 + 2 * 8;
-  constexpr double of_a_turn = 2 * sizeof(float);  // a block, and the next one being read
+  constexpr double of_a_turn = 2 * sizeof(float);  // a block, and the next one
   constexpr double of_a_listed_turn =
-      2 * sizeof(Reversal) + 4 * sizeof(double);  // of one site, followed exactly
+      2 * sizeof(Reversal) + 4 * sizeof(double);  // of one site with exact stress
   const std::string bytes_of_sites = "fewer simulation.segments or strain.surface_fibres";
   const std::string sampling = "a lower simulation.sample_rate_Hz, or split the motion";
   const auto rows = [&](const char* dataset) {
@@ -58,14 +57,13 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& strain, std::size_t t
   const std::size_t samples = strain.rows("/time");
   const double joints =
       strain.has("/robot/joint_position") ? static_cast<double>(strain.row_size("/robot/joint_position")) : 0;
-  // Of a cable as they are read and by themselves its three strains, its force, and both on their way to the
-  // file.
+  // Per cable: three strains, both as read and separated; its force in memory and as written to the file.
   constexpr double of_a_cable = 2 * 3 + 2;
   constexpr double histories = 8;  // times, steps, damage by opening and closing, the worst wire's strain
   need.add(static_cast<double>(samples) * (histories + 2 * joints + of_a_cable * rows("/cable/span")) *
                sizeof(double),
            fmt::format("histories of {} samples", samples), sampling);
-  // Tables of sites are copied and looked at in blocks of text and numbers.
+  // Tables of sites are copied and checked in blocks of text and numbers.
   constexpr double table_block = (1 << 15) * 300.0;
   need.add(std::min(table_block, sites * 300), "tables of sites");
   const std::map<std::string, std::size_t> axes{{"sample", samples},

@@ -14,15 +14,15 @@
 namespace dresslife::fatigue {
 namespace {
 
-constexpr double certain = 1e-6;  // short of 1
+constexpr double certain = 1e-6;  // distance from a probability of 1
 
 /// A conductor in one segment.
 struct Place {
   std::size_t conductor, segment;
-  double log_life;  // of the wire with whose break it fails, all lives median
+  double log_life;  // of the wire whose break is the failure, if all lives are medians
 };
 
-/// All that can fail, soonest first.
+/// Returns all places that can fail, shortest life first.
 std::vector<Place> places_of(std::span<const PlacesOfConductor> places,
                              std::span<const ConductorWires> bundles, std::size_t segments,
                              double failed_percent) {
@@ -44,7 +44,7 @@ std::vector<Place> places_of(std::span<const PlacesOfConductor> places,
   return all;
 }
 
-/// A place that could matter.
+/// A place whose failure can influence the result.
 struct JudgedPlace {
   Wires wires;
   std::size_t conductor, segment, count;
@@ -55,11 +55,11 @@ std::span<const double> damage_at(const PlacesOfConductor& places, std::size_t s
   return std::span(places.damage).subspan(segment * wires, wires);
 }
 
-/// When the first of a dresspack's places has failed.
+/// Failure of the first of a dresspack's places.
 class Places {
  public:
-  /// all: of this dresspack, soonest first, not empty. haste: ln of how much sooner sharing may make one
-  /// fail.
+  /// all: of this dresspack, shortest life first, not empty. haste: ln of the largest factor by which load sharing can shorten a
+  /// life.
   Places(std::span<const PlacesOfConductor> places, std::span<const ConductorWires> bundles,
          const std::vector<Place>& all, double failed_percent, double own, double haste)
       : own_(own) {
@@ -70,14 +70,14 @@ class Places {
     };
     least_ = neglected / double(all.size());
     constexpr std::size_t soonest =
-        64;  // enough to know about when the first of all will have failed for certain
+        64;  // enough places to find the time by which the first has certainly failed
     for (std::size_t i = 0; i < std::min(soonest, all.size()); ++i) judged_.push_back(judged(all[i]));
     take_conductors(bundles);
     latest_ = latest_of_judged(all.front().log_life);
     judged_.clear();
     std::vector<double> memory;
     for (const Place& place : all) {
-      // k broken need one of the n - k + 1 that last longest among them, each no likelier than the k-th.
+      // k broken wires include one of the n - k + 1 longest-lived ones, each at most as likely to break as the k-th.
       const double wires = double(bundles[place.conductor].damage.size());
       if (own_ > 0 ? wires * tabulated_normal((latest_ + haste - place.log_life) / own_) < least_
                    : place.log_life > latest_ + haste)
@@ -90,7 +90,7 @@ class Places {
     take_conductors(bundles);
   }
 
-  /// (F26) with the common factor given. Precondition: own > 0.
+  /// Returns (F26) for a given common factor. Precondition: own > 0.
   double failed(double log_time, std::vector<double>& memory) const {
     double none = 1;
     auto place = judged_.begin();
@@ -110,7 +110,7 @@ class Places {
     return 1 - none;
   }
 
-  /// Between -9 deviations of the first wire and when the soonest place has failed for certain.
+  /// Returns the start of the time range: -9 deviations of the first wire. latest(): the first place has certainly failed.
   double earliest() const {
     double first = infinity;
     for (const JudgedPlace& place : judged_) first = std::min(first, place.wires.log_life(0));
@@ -120,7 +120,7 @@ class Places {
   const std::vector<JudgedPlace>& judged() const { return judged_; }
 
  private:
-  /// Sorts what is judged by conductor, and looks up each conductor's wires at their worst places.
+  /// Sorts the evaluated places by conductor, and creates each conductor's wires with their worst places.
   void take_conductors(std::span<const ConductorWires> bundles) {
     std::stable_sort(judged_.begin(), judged_.end(),
                      [](const JudgedPlace& a, const JudgedPlace& b) { return a.conductor < b.conductor; });
@@ -130,7 +130,7 @@ class Places {
         anywhere_.push_back({Wires(bundles[place.conductor].damage), place.conductor, 0, place.count, 0});
   }
 
-  /// When the first of those judged so far has failed for certain: with more of them, no later.
+  /// Returns the time by which the first of the evaluated places has certainly failed; more places can only make it earlier.
   double latest_of_judged(double soonest) const {
     double low = soonest - LifeDistribution::farthest * own_,
            high = soonest + LifeDistribution::farthest * own_;
@@ -143,8 +143,8 @@ class Places {
   }
 
   double own_, latest_ = 0, least_ = 0;
-  std::vector<JudgedPlace> judged_;    // by conductor
-  std::vector<JudgedPlace> anywhere_;  // each of their conductors by its wires' worst places
+  std::vector<JudgedPlace> judged_;    // sorted by conductor
+  std::vector<JudgedPlace> anywhere_;  // (conductor) its wires with their worst places
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace dresslife::fatigue {
 namespace {
 
-constexpr std::size_t rows_at_once = 64;  // histories held in memory, times two
+constexpr std::size_t rows_at_once = 64;  // number of histories in memory, each with strain and shear
 
 std::vector<double> row_of_floats(const std::vector<float>& rows, std::size_t row, std::size_t samples) {
   const auto first = rows.begin() + static_cast<std::ptrdiff_t>(row * samples);
@@ -73,7 +73,7 @@ std::vector<double> JudgedPlanes::strain_of(std::size_t site) const {
 
 void JudgedPlanes::apply(SiteDamage& all, std::size_t groups,
                          const std::function<std::size_t(std::size_t)>& group_of) const {
-  std::vector<std::size_t> leader(groups, no_site);  // rows
+  std::vector<std::size_t> leader(groups, no_site);  // (group) row of its worst evaluated wire
   for (std::size_t row = 0; row < site_.size(); ++row) {
     std::size_t& best = leader[group_of(site_[row])];
     if (best == no_site || plane_[row].damage > plane_[best].damage) best = row;

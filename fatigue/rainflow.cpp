@@ -9,10 +9,10 @@
 namespace dresslife::fatigue {
 namespace {
 
-/// True if going from top to next covers the range from below to top (F1). top is an extreme between the two.
+/// Returns whether the way from top to next covers the range from below to top (F1). top is an extreme between the two.
 bool covers(double below, double top, double next) { return next > top ? next >= below : next <= below; }
 
-/// True if next lies beyond top in the direction from below to top.
+/// Returns whether next lies beyond top in the direction from below to top.
 bool continues(double below, double top, double next) { return (top > below) == (next > top); }
 
 /// Appends a reversal so that rises and falls alternate.
@@ -70,7 +70,7 @@ std::vector<Cycle> count_half_cycles(std::span<const Reversal> reversals) {
         "leave out what is no turn, or count the repeated history");
   std::vector<Cycle> cycles;
   std::vector<Reversal> open;
-  std::size_t first = 0;  // of those still open
+  std::size_t first = 0;  // of the open reversals
   for (const Reversal& next : reversals) {
     if (!open.empty() && open.back().strain == next.strain) continue;
     while (open.size() - first >= 2) {

@@ -14,9 +14,9 @@ namespace {
 using pipeline::Rating;
 using pipeline::RigKind;
 
-constexpr std::size_t directions = 12;  // a range is missed by 1 - cos(7.5 deg), a damage by 4 % at m = 5
+constexpr std::size_t directions = 12;  // error of a range: 1 - cos(7.5 deg), of a damage: 4 % at m = 5
 
-using Damage = std::array<double, 3>;  // with a damage exponent one deviation lower, its median, one higher
+using Damage = std::array<double, 3>;  // with the damage exponent one deviation below its median, at its median, one above
 using Exponents = std::array<double, 3>;
 
 bool is_twisted(const Rating& rating) { return rating.rig.kind == RigKind::torsion; }
@@ -41,7 +41,7 @@ struct Sum {
   std::size_t sample = 0;
 };
 
-/// ranges: in units of `unit`.
+/// Returns the sums of a history. Ranges are divided by `unit`.
 Sum sum_of(std::span<const double> history, const Exponents& exponents, double unit) {
   Sum result;
   const std::vector<Reversal> reversals = find_reversals(history);
@@ -58,7 +58,7 @@ Sum sum_of(std::span<const double> history, const Exponents& exponents, double u
   return result;
 }
 
-/// In the worst direction.
+/// Returns the sums of bending in the worst direction.
 Sum bends_of(const SegmentMotion& segment, const Exponents& exponents, double unit) {
   Sum worst;
   std::vector<double> history(segment.curvature1.size());
@@ -72,7 +72,7 @@ Sum bends_of(const SegmentMotion& segment, const Exponents& exponents, double un
   return worst;
 }
 
-/// Per repeat, by the rating of this kind that promises most.
+/// The cycles of all ratings of one kind; the rating that allows the largest sum counts.
 class Promise {
  public:
   Promise(const pipeline::Component& cable, const Exponents& exponents, bool twisted) {
@@ -94,8 +94,8 @@ class Promise {
   }
 
  private:
-  double unit_ = 0;  // range of the first rating, by which powers keep within numbers
-  Damage all_{};     // promised sum of range^m
+  double unit_ = 0;  // range of the first rating; keeps the powers in the range of floating-point numbers
+  Damage all_{};     // allowed sum of range^m
 };
 
 }  // namespace

@@ -10,11 +10,11 @@
 namespace dresslife::fatigue {
 namespace {
 
-constexpr double usual_rate = 0.085;     // Landgraf and Chernenkoff 1988, of steels
-constexpr double most_repeats = 0x1p50;  // as many cycles do no damage (strain_life.h)
+constexpr double usual_rate = 0.085;     // Landgraf and Chernenkoff 1988, for steels
+constexpr double most_repeats = 0x1p50;  // cycles with longer lives do no damage (strain_life.h)
 
-// Gauss and Legendre's four nodes on [0, 1]: exact for polynomials up to the seventh degree. n^r on an octave
-// is analytic within three half widths of its middle, so the error falls like (3 + sqrt 8)^-8 = 7e-7.
+// Gauss-Legendre quadrature with four nodes on [0, 1]: exact for polynomials up to the seventh degree. n^r on an octave
+// is analytic within three half widths of its middle, so the relative error is about (3 + sqrt 8)^-8 = 7e-7.
 constexpr std::size_t nodes = 4;
 constexpr std::array<double, nodes> place{0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
                                           0.93056815579702629};
@@ -22,7 +22,7 @@ constexpr std::array<double, nodes> weight{0.17392742256872693, 0.32607257743127
                                            0.17392742256872693};
 using Values = std::array<double, nodes>;
 
-/// The cubic through the values at the nodes.
+/// Returns the value at x of the cubic through the values at the nodes.
 double cubic_at(const Values& value, double x) {
   double sum = 0;
   for (std::size_t i = 0; i < nodes; ++i) {
@@ -34,14 +34,14 @@ double cubic_at(const Values& value, double x) {
   return sum;
 }
 
-/// Its integral from 0 to x.
+/// Returns the integral of this cubic from 0 to x.
 double integral_to(const Values& value, double x) {
   double sum = 0;
   for (std::size_t i = 0; i < nodes; ++i) sum += weight[i] * cubic_at(value, x * place[i]);
   return x * sum;
 }
 
-/// Where that integral reaches `target`, at most integral_to(1).
+/// Returns the x at which this integral reaches `target`. Precondition: target <= integral_to(value, 1).
 double place_of(const Values& value, double target) {
   double low = 0, high = 1;
   for (int halving = 0; halving < 50; ++halving) {
@@ -99,7 +99,7 @@ double relaxing_life(double exponent, const DamageOfShares& damage) {
   const auto [at_first, at_last] = ends;
   if (at_first >= 1) return 1 / at_first;
   if (exponent == 0 || at_first == at_last) return at_first > 0 ? 1 / at_first : infinity;
-  // Before the damage could have reached a millionth its share in the sum cannot matter.
+  // As long as the damage is below a millionth, the share has no visible influence on the sum.
   const double largest = std::max(at_first, at_last);
   double repeats = std::clamp(1e-6 / largest, 1.0, most_repeats);
   double sum = repeats > 1 ? 0.0 : at_first;

@@ -17,8 +17,8 @@ namespace {
 using pipeline::LifeResponse;
 
 constexpr std::size_t likely_wires =
-    24;  // at each point by the job's material, judged over all its constants
-constexpr std::size_t settled_wires = 2;  // of them, with mean stress relaxing exactly
+    24;  // at each point, selected by the job's material and evaluated for all its constants
+constexpr std::size_t settled_wires = 2;  // of them, with exact relaxation of mean stress
 const std::vector<double> strength_nodes{-2, -1, 0, 1, 2}, slope_nodes{-1.5, 0, 1.5};
 
 const double longest = 2 * std::pow(10, LifeResponse::undamaged);  // reversals of one cycle
@@ -27,7 +27,7 @@ double log10_of_life(double damage) {
   return damage > 0 ? std::min(-std::log10(damage), LifeResponse::undamaged) : LifeResponse::undamaged;
 }
 
-/// Damage of each wire by the loop's rough share (F24).
+/// Returns the damage of each wire with the rough share of the loop (F24).
 std::vector<double> damage_of(const VariedStrains& at, const std::vector<std::size_t>& wires,
                               const SiteCounters& counters, DamageCounter::Workspace& workspace) {
   std::vector<double> damage(wires.size());
@@ -42,7 +42,7 @@ std::vector<double> damage_of(const VariedStrains& at, const std::vector<std::si
   return damage;
 }
 
-/// The `count` of them with the largest damage.
+/// Returns the `count` wires with the largest damage.
 std::vector<std::size_t> worst_of(const std::vector<std::size_t>& wires, const std::vector<double>& damage,
                                   std::size_t count) {
   std::vector<std::size_t> worst;
@@ -52,21 +52,21 @@ std::vector<std::size_t> worst_of(const std::vector<std::size_t>& wires, const s
   return worst;
 }
 
-/// With mean stress relaxing exactly (F23) for those that are likely the worst.
+/// Returns log10 of the shortest life, with exact relaxation of mean stress (F23) for the likely worst wires.
 double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires,
                   const SiteCounters& counters, DamageCounter::Workspace& workspace) {
   const std::vector<double> rough = damage_of(at, wires, counters, workspace);
   double worst = 0;
   for (const std::size_t wire : worst_of(wires, rough, settled_wires))
     worst = std::max(worst, counters.of(at.site[wire]).settled_damage(at.strains[wire], workspace));
-  // A mean stress is followed for 2^50 repeats. Beyond them the rough share has to do.
+  // Relaxation is followed for 2^50 repeats. For longer lives the rough share is used.
   if (worst == 0 && !rough.empty()) worst = *std::ranges::max_element(rough);
   return log10_of_life(worst);
 }
 
 constexpr std::size_t of_rest = index_of(pipeline::Uncertain::rest), of_slack = index_of(pipeline::Uncertain::slack);
 
-/// Whether a variation is another rest of the starts and nothing else.
+/// Returns whether a variation differs from the job only by the rest.
 bool is_rest(const VariedStrains& at) {
   return at.rest > 0 && at.inside == pipeline::Inside::as_is &&
          std::all_of(at.z.begin(), at.z.end(), [](double z) { return z == 0; });
@@ -81,7 +81,7 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
   const auto site = strain.read<std::uint32_t>("/variation/row/site");
   const auto turning = strain.read<std::uint32_t>("/variation/row/turning");
   const auto strains = strain.read<float>("/variation/strain");
-  constexpr std::size_t in_row = pipeline::index_of(pipeline::Uncertain::rest);  // rest has a list of its own
+  constexpr std::size_t in_row = pipeline::index_of(pipeline::Uncertain::rest);  // rest has its own list
   std::vector<VariedStrains> all(z.size() / in_row);
   for (std::size_t v = 0; v < all.size(); ++v)
     std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(v * in_row), in_row, all[v].z.begin());

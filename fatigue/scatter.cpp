@@ -14,7 +14,7 @@
 namespace dresslife::fatigue {
 namespace {
 
-/// The life at which a share of the draws (sorted) has failed.
+/// Returns the life at which a share of the samples (sorted) has failed.
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * double(sorted.size()) - 0.5;
   const auto below = static_cast<std::size_t>(std::clamp(place, 0.0, double(sorted.size() - 1)));
@@ -32,12 +32,13 @@ std::array<std::size_t, failures> counts_of(const ConductorWires& bundle, double
   return {1, pipeline::wires_of_share(failed_percent, bundle.damage.size()), bundle.damage.size()};
 }
 
-/// log10 of the factor that all wires of a dresspack have in common in a draw; their streams count from 0 up.
+/// Returns log10 of the common factor of a dresspack's wires in a sample. Its stream counts down from the largest number, those
+/// of the wires count up from 0.
 double common_of(std::size_t dresspack, std::uint64_t draw, Scatter scatter) {
   return scatter.common() > 0 ? scatter.common() * normal_of(~std::uint64_t{dresspack}, draw) : 0;
 }
 
-/// Factors of the lives of a conductor's wires in one draw, (wire).
+/// Computes the factors of the lives of a conductor's wires in one sample, (wire).
 void draw_factors(const ConductorWires& bundle, std::uint64_t first_stream, std::uint64_t draw,
                   Scatter scatter, std::vector<double>& factors) {
   factors.clear();
@@ -46,7 +47,7 @@ void draw_factors(const ConductorWires& bundle, std::uint64_t first_stream, std:
     factors.push_back(std::pow(10, common + scatter.own() * normal_of(first_stream + wire, draw)));
 }
 
-/// Lives at which 1, 2, ... `count` of wires with this damage have broken, (wire). rate: Bundle's.
+/// Computes the lives at which 1, 2, ... `count` of wires with this damage have broken. rate: see ConductorWires.
 void order_breaks(std::span<const double> damage, std::span<const double> factors,
                   std::span<const double> rate, std::size_t count, std::vector<double>& breaks) {
   breaks.clear();
@@ -161,7 +162,7 @@ SharedLives shared_lives(std::span<const ConductorWires> bundles, double failed_
 Percentiles shared_place_lives(std::span<const ConductorWires> bundles,
                                std::span<const PlaceOfConductor> places, double failed_percent,
                                Scatter scatter, int draws, const DamageAt& damage_at) {
-  std::vector<std::uint64_t> stream;  // (conductor), as shared_lives() draws them
+  std::vector<std::uint64_t> stream;  // (conductor) first stream, as in shared_lives()
   std::uint64_t next = 0;
   for (const ConductorWires& bundle : bundles) {
     stream.push_back(next);

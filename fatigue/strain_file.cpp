@@ -8,7 +8,7 @@
 namespace dresslife::fatigue {
 namespace {
 
-constexpr std::size_t block_rows = 1 << 15;  // of site tables: a few megabytes of text
+constexpr std::size_t block_rows = 1 << 15;  // rows of site tables: a few megabytes of text
 
 }  // namespace
 
@@ -93,7 +93,7 @@ std::size_t SiteSet::end_of_block(std::size_t begin) const {
 void SiteSet::for_each_block(const Visit& visit) const {
   std::vector<float> strains, next;
   std::size_t begin = 0, end = 0;
-  const auto read_ahead = [&] {  // what follows `end`
+  const auto read_ahead = [&] {  // reads the block after `end`
     if (end == size()) return;
     file_.read_rows(group_ + "/reversal/strain", offset_[end], offset_[end_of_block(end)] - offset_[end],
                     next);

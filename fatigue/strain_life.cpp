@@ -10,7 +10,7 @@
 namespace dresslife::fatigue {
 namespace {
 
-constexpr double swt_walker_exponent = 0.5;  // for which s_max^(1-gamma) s_a^gamma is SWT's sqrt(s_max s_a)
+constexpr double swt_walker_exponent = 0.5;  // makes s_max^(1-gamma) s_a^gamma equal to SWT's sqrt(s_max s_a)
 
 double bounded(double reversals, double longest) {
   return reversals > longest ? infinity : std::max(reversals, fewest_reversals);
@@ -27,8 +27,8 @@ double PowerSum::operator()(double x) const { return a_ * std::pow(x, p_) + c_ *
 double PowerSum::slope(double x) const { return (a_ * p_ * std::pow(x, p_) + c_ * q_ * std::pow(x, q_)) / x; }
 
 // In l = ln x the logarithm of the sum is convex (log-sum-exp) and falls. Where the larger term alone equals
-// y the sum is at or above y, left of the root, and from there Newton's steps go right to it without
-// overshooting. The root lies within ln(2)/min(-p, -q) of the start, so the answer is bracketed too.
+// y the sum is at or above y, left of the root. From there Newton's steps approach the root without
+// overshooting. The root is within ln(2)/min(-p, -q) of the start.
 double PowerSum::inverse(double y) const {
   assert(y > 0);
   const double target = std::log(y), log_a = std::log(a_), log_c = std::log(c_);

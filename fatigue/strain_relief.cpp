@@ -19,10 +19,10 @@ double held_by_strain_relief(double diameter) {
                                        {43e-3, 90},
                                        {55e-3, 100},
                                        {any, 115}}};
-  constexpr double rounding = 1e-9;  // of a diameter from a radius in mm [m]
+  constexpr double rounding = 1e-9;  // [m] of a diameter from a radius in mm
   for (const Step& step : steps)
     if (diameter <= step.to + rounding) return step.force;
-  return 0;  // not a number
+  return 0;  // diameter is NaN
 }
 
 }  // namespace dresslife::fatigue

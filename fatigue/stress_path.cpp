@@ -10,7 +10,7 @@ namespace dresslife::fatigue {
 namespace {
 
 constexpr double agreement =
-    0.1;  // of K' and n' with (F5): fits of the same test series scatter by several percent
+    0.1;  // relative, of K' and n' with (F5): fits of one test series scatter by several percent
 
 double compatible_exponent(const pipeline::Material& m) {
   return m.fatigue_strength_exponent / m.fatigue_ductility_exponent;
@@ -39,7 +39,7 @@ double CyclicCurve::strain(double stress) const {
 }
 
 // strain(s) rises and is convex, since 1/n' >= 1. At s = min(E eps, K' eps^n') one of its two terms alone
-// equals eps, so this is at or above the root, and from there Newton's steps go down to it without
+// equals eps, so this s is at or above the root. From there Newton's steps approach the root without
 // overshooting.
 double CyclicCurve::stress(double strain) const {
   const double target = std::fabs(strain);
@@ -80,7 +80,7 @@ double MemoryPath::go_to(double input) {
     open_.assign(1, {input, on_curve(input)});
     return open_.back().response;
   }
-  // Not a reversal after all: the path goes on in its direction.
+  // The last point was not a reversal: the path continues in its direction.
   if (open_.size() > 1 &&
       (input > open_.back().input) == (open_.back().input > open_[open_.size() - 2].input)) {
     open_.pop_back();

@@ -29,7 +29,7 @@
 namespace dresslife::fatigue {
 namespace {
 
-/// "signal cable 3" of several equal cables, "power cable" of a single one. path: of a cable in the job.
+/// Returns "signal cable 3" for one of several equal cables, "power cable" for a single one. path: of a cable in the job.
 std::string cable_in_words(const pipeline::Job& job, const std::string& path) {
   return path_in_job(job, path_in_words(job, path)).inside;
 }
@@ -40,7 +40,7 @@ using pipeline::UnvalidatedMode;
 
 constexpr const char *table_of_work = "/rubbing/work", *work_of_jackets = "/jacket/work";
 
-/// Throws for patches that are none. group: of the file, "/rubbing".
+/// Throws InputError for invalid patches. group: of the file, "/rubbing".
 class PatchCheck {
  public:
   PatchCheck(const FileReader& strain, std::string group, std::span<const double> place)
@@ -50,7 +50,7 @@ class PatchCheck {
     throw pipeline::InputError(strain_.where(), group_ + ": " + what,
                                "make the file again with dresslife-strain");
   }
-  /// owner: a dresspack or a cable of the file, of so many.
+  /// Checks one patch. owner: number of its dresspack or cable in the file; owners: how many the file has.
   void see(std::size_t row, std::int32_t owner, std::size_t owners, double work) {
     const double* const p = place_.data() + 4 * row;
     const auto is_length = [](double value, double longest) { return value > 0 && value <= longest; };
@@ -66,14 +66,14 @@ class PatchCheck {
   }
 
  private:
-  static constexpr double turn = 2 * std::numbers::pi, most = 1e3;  // [m] of a dresspack
+  static constexpr double turn = 2 * std::numbers::pi, most = 1e3;  // most: largest length of a dresspack [m]
   const FileReader& strain_;
   std::string group_;
   std::span<const double> place_;
   double shortest_ = most, end_ = 0;
 };
 
-/// (dresspack) the patches of each.
+/// Returns the patches of each dresspack, (dresspack).
 std::vector<std::vector<RubbedPatch>> patches_of(const FileReader& strain, std::size_t dresspacks) {
   const auto dresspack = strain.read<std::int32_t>("/rubbing/dresspack");
   const auto place = strain.read<double>("/rubbing/place"), work = strain.read<double>(table_of_work),
@@ -91,7 +91,7 @@ std::vector<std::vector<RubbedPatch>> patches_of(const FileReader& strain, std::
   return patches;
 }
 
-/// (cable of the file) the patches of its jacket.
+/// Returns the patches of each jacket, (cable of the file).
 std::vector<std::vector<RubbedPatch>> patches_of_jackets(const FileReader& strain, std::size_t cables,
                                                          const std::vector<double>& time) {
   const auto cable = strain.read<std::int32_t>("/jacket/cable");
@@ -110,7 +110,7 @@ std::vector<std::vector<RubbedPatch>> patches_of_jackets(const FileReader& strai
   return patches;
 }
 
-/// What every mode is found from, and the modes so far.
+/// Input of every mode, and the modes found so far.
 struct Search {
   const FileReader& strain;
   const pipeline::Job& job;
@@ -130,8 +130,8 @@ struct Search {
   double repeat() const { return time.empty() ? 0 : time.back() - time.front(); }  ///< [s]
   std::vector<double> never() const { return std::vector<double>(lives.size(), std::numeric_limits<double>::infinity()); }
 
-  /// Over the samples that the validated modes have; its spread, a deviation of log10 of repeats, is of its own. of: a part; what
-  /// has the same mode and part shares that spread, too.
+  /// Returns lives over the samples of the validated modes. log10_spread: standard deviation of log10 of repeats, sampled
+  /// independently of them. of: a part; modes with equal mode and part have the same samples of the spread.
   std::vector<double> own_lives(const UnvalidatedMode& mode, double repeats, double log10_spread, const std::string& of = "") const {
     if (!std::isfinite(repeats)) return never();
     LifeResponse response;
@@ -153,7 +153,7 @@ struct Search {
     set_lives(mode, std::move(own), lives, repeat());
   }
 
-  /// Segments and length of the dresspack's piece from a place to its tool clamp, and the program line.
+  /// Sets segments and distance from a place to the tool clamp, and the program line.
   void put_place(UnvalidatedMode& mode, std::size_t dresspack, double position, std::size_t sample) const {
     const auto length = strain.read<double>("/segment/length");
     const auto of = pipeline::dresspack_of_segments(strain);
@@ -164,7 +164,7 @@ struct Search {
     if (sample < step.size() && step[sample] >= 0) mode.step = text[static_cast<std::size_t>(step[sample])];
   }
 
-  /// Lives of what wears, of which the worst patch is given, and where it is.
+  /// Sets the place of the worst patch. Returns the lives of the wear.
   std::vector<double> put_wear(UnvalidatedMode& mode, std::size_t dresspack, const Abrasion& worn) const {
     if (std::isfinite(worn.repeats))
       put_place(mode, dresspack, worn.position,
@@ -173,7 +173,7 @@ struct Search {
   }
 };
 
-/// Its components and those of its core.
+/// Returns the components of a dresspack and those of its core.
 std::vector<const pipeline::Component*> parts_of(const pipeline::Dresspack& dresspack) {
   std::vector<const pipeline::Component*> parts;
   for (const auto* const of : {&dresspack.components, &dresspack.core_components})
@@ -183,7 +183,7 @@ std::vector<const pipeline::Component*> parts_of(const pipeline::Dresspack& dres
 
 bool is_rated(const pipeline::Component& part) { return part.plain && !part.ratings.empty(); }
 
-/// How one dresspack deforms; in its outermost segments as at the clamps where the wires are evaluated there, too.
+/// Deformation of one dresspack. If wires are evaluated at the clamps, its outermost segments have the deformation there.
 struct HoseMotion {
   std::vector<SegmentMotion> segments;
   std::vector<double> position;  ///< (segment) from the base clamp [m]
@@ -210,7 +210,7 @@ struct HoseMotion {
     if (position.front() < rounding) move_to_clamp(segments[0], segments[1]);
     if (end - position.back() < rounding) move_to_clamp(segments.back(), segments[segments.size() - 2]);
   }
-  /// The curvature goes straight on from the centres of the two segments.
+  /// Extrapolates the curvature linearly from the centres of the two segments.
   static void move_to_clamp(SegmentMotion& nearest, const SegmentMotion& next) {
     for (std::size_t t = 0; t < nearest.twist.size(); ++t) {
       nearest.curvature1[t] += (nearest.curvature1[t] - next.curvature1[t]) / 2;
@@ -225,7 +225,7 @@ std::string rating_words(const RatedLife& rated) {
   return std::isinf(rated.repeats) ? "" : fmt::format("{:.0f} % of that is twist.", 100 * rated.twist_share);
 }
 
-/// Share of the life after which abrasion is visible.
+/// Returns the share of the life after which abrasion is visible.
 double visible_from(const WornMaterial& material, const Abrasion& worn,
                     const pipeline::Inspection& inspection) {
   const WornLayer& layer = material.layer;
@@ -236,8 +236,8 @@ double visible_from(const WornMaterial& material, const Abrasion& worn,
 void put_inspection(UnvalidatedMode& mode, const std::vector<double>& own, double repeat, const pipeline::Job& job) {
   const Inspected result = inspected(own, repeat, mode.visible_from, job.inspection, job.fatigue);
   mode.found_share = result.found_share, mode.unseen_share = result.unseen_share;
-  constexpr double said = 0.01;  // rarer failures need no plan
-  constexpr double least = 0.1;  // [%]: below it digits say nothing
+  constexpr double said = 0.01;  // smallest reported share of failures
+  constexpr double least = 0.1;  // [%] smaller shares are reported as "less than"
   if (result.failed_share < said) return;
   const double found = 100 * result.found_share, unseen = 100 * result.unseen_share;
   mode.note = fmt::format(
@@ -252,7 +252,7 @@ bool is_hose(const pipeline::Dresspack& dresspack) {
   return dresspack.hose_corrugation || dresspack.inner_diameter || !dresspack.hose_material.empty();
 }
 
-/// Of which the law of kinks holds.
+/// Returns whether the law of kinks applies to the hose.
 bool is_smooth_hose(const pipeline::Dresspack& dresspack) {
   return dresspack.inner_diameter && !dresspack.hose_corrugation;
 }
@@ -278,8 +278,8 @@ void find_abrasion(Search& found) {
   }
 }
 
-/// Wear of the cables' jackets in each hose, of the cable that is worn through first. Jackets without thickness or wear rates
-/// are left out.
+/// Wear of the jackets in each hose: of the cable that is worn through first. Jackets without thickness or wear rates are left
+/// out.
 void find_jackets(Search& found) {
   const FileReader& strain = found.strain;
   const pipeline::Job& job = found.job;
@@ -309,8 +309,8 @@ void find_jackets(Search& found) {
   }
 }
 
-/// The ends of what makers promise of the cables without described wires (rated_cables.h), one mode for each. The damage exponent
-/// is sampled beside the validated modes.
+/// The life by the makers' ratings of cables without described wires (rated_cables.h), one mode for each cable. The damage
+/// exponent is sampled in addition to the samples of the validated modes.
 void find_ratings(Search& found) {
   for (std::size_t d = 0; d < found.job.dresspacks.size(); ++d) {
     std::optional<HoseMotion> hose;
@@ -330,7 +330,7 @@ void find_ratings(Search& found) {
   }
 }
 
-/// Corkscrew of each dresspack with loose cables (corkscrew.h), of the cable that is nearest to it. tension: see there.
+/// Corkscrew of each dresspack with loose cables: of the cable with the smallest margin. tension: see corkscrew.h.
 void find_corkscrews(Search& found, const std::vector<std::vector<double>>& tension) {
   for (std::size_t d = 0; d < found.job.dresspacks.size(); ++d) {
     const std::optional<Corkscrew> worst = corkscrew(found.strain, found.job, d, tension);
@@ -346,12 +346,12 @@ void find_corkscrews(Search& found, const std::vector<std::vector<double>>& tens
     if (worst->turn_left > 0)
       mode.note += fmt::format(" A repeat leaves {} degrees of twist.",
                                pipeline::readable(180 / std::numbers::pi * worst->turn_left, 2));
-    constexpr double spread = 0.3;  // stiffnesses of a cable are known within a factor of two; ESTIMATE
+    constexpr double spread = 0.3;  // deviation: stiffnesses of a cable are known to a factor of two; ESTIMATE
     found.put_lives(mode, found.own_lives(mode, worst->repeats, spread));
   }
 }
 
-/// A tube that may kink.
+/// A tube that can kink.
 struct SmoothTube {
   std::string name;
   double offset;  ///< of its axis from that of the dresspack [m]
@@ -386,16 +386,16 @@ TightestBend tightest_bend(const HoseMotion& hose) {
   return bend;
 }
 
-/// Kinks of the smooth tubes in each dresspack and of a smooth hose (pipeline/cable/kink.h): of the tube that the tightest bend of
-/// the dresspack's axis brings nearest to its kink. A tube that kinks does so in the first repeat. A loose tube's own waves and
-/// coils in the hose are left out.
+/// Kinks of smooth tubes in each dresspack and of a smooth hose (pipeline/cable/kink.h): of the tube with the smallest margin in
+/// the tightest bend of the dresspack's axis. A tube that kinks does so in the first repeat. Waves and coils of a loose tube in
+/// the hose are left out.
 void find_kinks(Search& found) {
   for (std::size_t d = 0; d < found.job.dresspacks.size(); ++d) {
     const std::vector<SmoothTube> tubes = tubes_of(found.job.dresspacks[d].dresspack);
     if (tubes.empty()) continue;
     const HoseMotion hose(found.strain, d);
     const TightestBend bend = tightest_bend(hose);
-    // On the inner side of the bend.
+    // the radius on the inner side of the bend
     const auto radius_of = [&](const SmoothTube& tube) { return std::max(0.0, bend.radius - tube.offset); };
     const auto margin_of = [&](const SmoothTube& tube) { return radius_of(tube) / tube.kinks.median; };
     const SmoothTube& worst = *std::ranges::min_element(tubes, {}, margin_of);

@@ -26,7 +26,7 @@ std::string without_number(const std::string& part) {
 }
 
 float range_of(std::span<const float> strains) {
-  constexpr std::size_t side_by_side = 8;  // extremes that the compiler keeps in wide registers
+  constexpr std::size_t side_by_side = 8;  // extremes in wide registers
   float low[side_by_side], high[side_by_side];
   for (std::size_t j = 0; j < side_by_side; ++j) low[j] = high[j] = strains.empty() ? 0 : strains[0];
   const auto take = [&](std::size_t lane, float strain) {
@@ -90,7 +90,7 @@ bool SiteCounters::settle() const {
 
 namespace {
 
-/// Of the sites [begin, end), as many of one material in a row as there are at a time.
+/// Computes the damage of the sites [begin, end), in one call for each sequence of sites with one material.
 void add_damage_of(const SiteSet& sites, const SiteSet::Block& block, std::size_t begin, std::size_t end,
                    const SiteCounters& counters, DamageCounter::Workspace& workspace, SiteDamage& all) {
   std::vector<StrainList> lists;
@@ -117,7 +117,7 @@ SiteDamage damage_of(const SiteSet& sites, const SiteCounters& counters, std::si
   for (std::size_t site = 0; site < sites.size(); ++site) all.wall.push_back(counters.is_wall(site));
   std::vector<DamageCounter::Workspace> workspaces(threads);
   sites.for_each_block([&](const SiteSet::Block& block, const std::function<void()>& read_ahead) {
-    constexpr std::size_t pieces = 16;  // a thread, so that all end at about the same time
+    constexpr std::size_t pieces = 16;  // per thread, so that all threads end at about the same time
     const std::vector<std::size_t> cuts = block.cuts(pieces * threads);
     std::atomic<std::size_t> next = 0;
     pipeline::in_parallel(threads, [&](std::size_t part) {
@@ -147,7 +147,7 @@ void settle(SiteDamage& all, const SiteCounters& counters, std::size_t groups,
             const std::function<std::vector<float>(std::size_t)>& strains_of, std::size_t threads) {
   if (!counters.settle()) return;
   const std::vector<std::size_t> worst = worst_by_group(all, groups, group_of);
-  std::vector<std::vector<float>> strains;  // read on one thread: the file is not to be shared
+  std::vector<std::vector<float>> strains;  // read on one thread, because the file must not be shared
   for (const std::size_t site : worst)
     strains.push_back(site == no_site ? std::vector<float>() : strains_of(site));
   std::vector<double> settled(groups, 0.0);

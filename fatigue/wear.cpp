@@ -11,7 +11,7 @@ namespace {
 
 using pipeline::Counterface;
 
-constexpr double on_links = 1, at_rings = 0.25, in_hose = 10;  // footprint over diameter
+constexpr double on_links = 1, at_rings = 0.25, in_hose = 10;  // length of the footprint over the diameter
 
 bool is_ring(const std::string& obstacle) { return obstacle.starts_with("ring "); }
 
@@ -23,12 +23,12 @@ Counterface counterface(const std::string& obstacle) {
   return Counterface::robot;
 }
 
-/// What one obstacle wears off a dresspack per repeat.
+/// Wear of a dresspack by one obstacle per repeat.
 struct Field {
   std::vector<double> area;     ///< (cell, sector) per length [m2]
-  std::vector<double> volume;   ///< (cell) where it was rubbed [m3]
-  std::vector<double> largest;  ///< (cell) of it by one patch [m3]
-  std::vector<double> time;     ///< (cell) of that patch [s]
+  std::vector<double> volume;   ///< (cell) at the place of the rubbing [m3]
+  std::vector<double> largest;  ///< (cell) largest volume of one patch [m3]
+  std::vector<double> time;     ///< (cell) time of this patch [s]
 };
 
 /// Cells of equal length along a dresspack, sectors of equal width around it.
@@ -36,7 +36,7 @@ struct Grid {
   double length = 0, width = 0;
   std::size_t cells = 0, sectors = 0;
 
-  /// least: it is at least so long [m].
+  /// least: minimum length of the grid [m].
   Grid(const std::vector<RubbedPatch>& patches, double least) {
     double end = least;
     length = std::numeric_limits<double>::infinity();
@@ -50,7 +50,7 @@ struct Grid {
   }
   std::size_t at(std::size_t cell, std::size_t sector) const { return cell * sectors + sector % sectors; }
 
-  /// Cells of different lengths share their work with those that they overlap.
+  /// Adds a patch. Its work is divided among the cells that it overlaps.
   void add(Field& field, const RubbedPatch& patch, double rate) const {
     field.area.resize(cells * sectors);
     for (std::vector<double>* of : {&field.volume, &field.largest, &field.time}) of->resize(cells);
@@ -69,11 +69,11 @@ struct Grid {
   std::size_t cells_of(double footprint) const {
     return std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(footprint / length)), 1, cells);
   }
-  /// The first of so many cells about one.
+  /// Returns the first of `wide` cells around a cell.
   std::size_t first_of(std::size_t wide, std::size_t cell) const {
     return std::min(cell - std::min(cell, wide / 2), cells - wide);
   }
-  /// Means along the hose.
+  /// Replaces the area by its means over `wide` cells along the hose.
   void spread(Field& field, std::size_t wide) const {
     std::vector<double> sum(cells + 1);
     for (std::size_t sector = 0; sector < sectors; ++sector) {
@@ -100,7 +100,7 @@ double WornLayer::area(double depth, double arc) const {
 
 double WornLayer::depth(double area, double arc) const {
   double low = 0, high = radius;
-  for (int k = 0; k < 60; ++k) {  // down to rounding
+  for (int k = 0; k < 60; ++k) {  // until rounding
     const double middle = (low + high) / 2;
     (this->area(middle, arc) < area ? low : high) = middle;
   }
@@ -161,7 +161,7 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
     grid.spread(field, footprint(obstacle));
     for (std::size_t k = 0; k < all.size(); ++k) all[k] += field.area[k];
   }
-  std::vector<double> arc, through;  // (sectors of an arc, less one)
+  std::vector<double> arc, through;  // (number of sectors of an arc, minus one)
   for (std::size_t count = 0; count < grid.sectors; ++count) {
     arc.push_back(static_cast<double>(count) * grid.width * layer.radius);
     through.push_back(layer.area(layer.thickness, arc.back()));
@@ -170,7 +170,7 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
   for (std::size_t cell = 0; cell < grid.cells; ++cell)
     for (std::size_t first = 0; first < grid.sectors; ++first) {
       double area = 0;
-      if (all[grid.at(cell, first)] == 0) continue;  // a narrower arc has as much
+      if (all[grid.at(cell, first)] == 0) continue;  // a narrower arc contains as much
       for (std::size_t count = 0; count < grid.sectors; ++count) {
         area += all[grid.at(cell, first + count)];
         if (through[count] < worst.repeats * area)
@@ -193,7 +193,7 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
     worst.time = field.time[static_cast<std::size_t>(std::max_element(begin, end) - field.volume.begin())];
   }
   worst.arc = arc[worst_arc];
-  // The area goes with a power of the thickness, which is nearly the same within its spread.
+  // The area is a power of the thickness, which is nearly constant within the spread.
   const double power = std::log2(layer.area(layer.thickness * 2, worst.arc) / through[worst_arc]);
   worst.log10_spread = std::hypot(
       std::hypot(std::log10(wear_rate(*worn.material, worst.obstacle).factor), power * thickness_spread),

@@ -5,7 +5,7 @@
 #define DRESSLIFE_LOCKSTEP avx512_lockstep
 #define DRESSLIFE_TARGET HWY_AVX3_DL
 
-// Everything from outside comes first: it must be compiled for any machine.
+// These are included first, before DRESSLIFE_BEGIN_MACHINE, because they must be compiled for any machine.
 #include "fatigue/kernels/lockstep.h"
 #include "pipeline/base/simd.h"
 

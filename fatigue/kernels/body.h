@@ -1,5 +1,5 @@
-// The loop of lockstep.h for one instruction set. Included once by portable.cpp, avx2.cpp, .. , which names
-// it (pipeline/base/simd.h).
+// The loop of lockstep.h for one instruction set. portable.cpp, avx2.cpp and avx512.cpp include this file, each for its own set
+// (pipeline/base/simd.h).
 #pragma once
 
 #include "fatigue/kernels/lockstep.h"
@@ -16,7 +16,7 @@ constexpr unsigned all_lanes = (1u << lanes) - 1;
 
 // ---- tables -----------------------------------------------------------------------------------------------
 
-/// As LogTable. Precondition: x within the table.
+/// Reads a LogTable for several values. Precondition: x within the table.
 inline Pack looked_up(const LogTable::View& table, const Pack& x) {
   constexpr int below = 52 - LogTable::cells_per_octave_log2;
   const LongPack cell = leading_bits<below>(x) - LongPack(static_cast<std::int64_t>(table.first));
@@ -31,7 +31,7 @@ inline bool beyond_table(const LockstepTables& tables, double range) {
   return tables.branch.cells != nullptr && range > tables.branch.high;
 }
 
-/// Stress range of a branch. Precondition: none of the ranges is beyond the table.
+/// Returns the stress range of a branch. Precondition: all ranges are within the table.
 inline Pack branch(const LockstepTables& tables, const Pack& range) {
   const Pack straight = tables.elastic * range;
   if (tables.branch.cells == nullptr) return straight;
@@ -53,7 +53,7 @@ struct LaneLoads {
   Pack amplitude, stress_max, stress_min;
 };
 
-/// Of the lanes in `closing`; of the others 0.
+/// Returns the damage of the lanes in `closing`; 0 for the others.
 inline Pack damage_of(const LockstepTables& tables, const DoubleMask& closing, const LaneLoads& loop) {
   const LogTable::View& table = tables.damage;
   const Pack low = Pack(table.low), high = Pack(table.high);
@@ -79,8 +79,7 @@ inline Pack damage_one_by_one(const LockstepTables& tables, const DoubleMask& cl
 
 // ---- the loops of all lanes -------------------------------------------------------------------------------
 
-/// The reversals of the loops still open, (row, lane): row d holds the one number d, row 1 being the largest
-/// strain L. Rows from -1 on.
+/// The reversals of open loops, (row, lane). Row d is the reversal at depth d; row 1 is the largest strain L. Rows start at -1.
 struct OpenRows {
   double *strain, *stress;
 
@@ -88,7 +87,7 @@ struct OpenRows {
     store(strains, strain + row * std::int64_t{lanes});
     store(stresses, stress + row * std::int64_t{lanes});
   }
-  /// Where lanes are at different rows. No branch: which are where is hard to foretell.
+  /// Writes a different row for each lane, without a branch, because the processor cannot predict which lanes differ.
   void put_apart(const LongPack& row, const Pack& strains, const Pack& stresses) const {
     const LongPack place = places(row);
     scattered(strains, strain, place);
@@ -96,7 +95,7 @@ struct OpenRows {
   }
 };
 
-/// The two topmost of them, and where they are.
+/// The two topmost open reversals.
 struct Top {
   Pack strain, below, stress, stress_below;
 
@@ -112,10 +111,10 @@ struct Top {
   }
 };
 
-/// Goes through one period of a history in each lane, which starts and ends with its largest strain L >= 0;
-/// where that was compression the lane is mirrored. Row 0 holds -L with the stress from which a branch leads
-/// to that at L: the path never goes beyond it, so nothing closes below L, and when a step back to L has
-/// closed everything, the branch from there leads to L again, whatever of its stress has relaxed.
+/// Processes one period of a history in each lane, which starts and ends with its largest strain L >= 0. A lane whose largest
+/// strain is compression is mirrored. Row 0 is -L, with the stress from which a branch leads to that at L. The path never goes
+/// beyond -L, so no loop closes below L. When a step back to L has closed every loop, the branch from row 0 leads to L again,
+/// for any relaxed stress.
 template <bool one_by_one>
 class Loops {
  public:
@@ -143,7 +142,7 @@ class Loops {
   }
 
   const Pack& sum() const { return sum_; }
-  unsigned amiss() const { return bits(amiss_); }  ///< lanes in which a step went the wrong way
+  unsigned amiss() const { return bits(amiss_); }  ///< lanes with a step in the wrong direction
 
  private:
   DRESSLIFE_INLINE Pack branch_of(const Pack& range) const {
@@ -189,7 +188,7 @@ class Loops {
   Top top_;
   Pack sum_{};
   LongPack depth_ = 1;
-  std::int64_t common_ = 1;  // depth of all lanes, where they agree
+  std::int64_t common_ = 1;  // depth of all lanes, if they agree
   bool agree_ = true;
   DoubleMask amiss_{};
 };
@@ -198,7 +197,7 @@ class Loops {
 
 constexpr std::size_t float_lanes = sizeof(FloatPack) / sizeof(float);
 
-/// Where the largest |strain| is, the first such.
+/// Returns the index of the largest |strain|, the first one.
 inline std::size_t largest_of(const StrainList& list) {
   const auto sizes_at = [&](std::size_t i) { return size_of(load_some(list.strain + i, list.size - i)); };
   FloatPack sizes = sizes_at(0);
@@ -209,15 +208,15 @@ inline std::size_t largest_of(const StrainList& list) {
   return 0;
 }
 
-/// One period of a history, as rotate_to_largest() makes it of one that alternates.
+/// One period of a history, equal to that of rotate_to_largest() for an alternating history.
 struct Period {
   float largest = 0;        ///< L
   float sign = 1;           ///< -1: mirrored
-  std::size_t steps = 0;    ///< from L to L
-  double first_stress = 0;  ///< at L, where LockstepTables has a function for it
+  std::size_t steps = 0;    ///< number of steps from L to L
+  double first_stress = 0;  ///< at L, if LockstepTables has a function for it
 };
 
-/// Largest minus smallest strain. Precondition: not empty.
+/// Returns the largest minus the smallest strain. Precondition: not empty.
 inline double range_of(const StrainList& list) {
   FloatPack low(list.strain[0]), high(list.strain[0]);
   const std::size_t whole = list.size - list.size % float_lanes;
@@ -233,9 +232,8 @@ inline double range_of(const StrainList& list) {
   return double{highest} - double{lowest};
 }
 
-/// Writes the strains after the first L, and up to float_lanes numbers more. Only the joint of the history's
-/// end ... a b and its begin c d ... needs care: a reversal there that the next one continues, or repeats, is
-/// none.
+/// Writes the strains after the first L, and up to float_lanes more numbers. At the joint of the history's end ... a b and its
+/// begin c d ... a reversal that the next one continues or repeats is dropped.
 inline Period rotated(const StrainList& list, float* to) {
   if (list.size < 2) return {};
   const float* const h = list.strain;
@@ -255,7 +253,7 @@ inline Period rotated(const StrainList& list, float* to) {
   return {sign * h[at], sign, steps};
 }
 
-/// What a call works on: the lanes' periods, and memory for their loops.
+/// Data of one call: the periods of the lanes, and memory for their loops.
 struct Periods {
   Period of[lanes];
   float* strains;  ///< (lane, step)
@@ -265,7 +263,7 @@ struct Periods {
 
 constexpr std::size_t steps_at_once = lanes > 2 ? lanes : 2;
 
-/// Damage of the lanes in `which`. Returns those that go the wrong way somewhere.
+/// Computes the damage of the lanes in `which`. Returns the lanes with a step in the wrong direction.
 template <bool one_by_one>
 unsigned sum_lanes(const LockstepTables& tables, const Periods& periods, unsigned which, double* damage) {
   double largest[lanes] = {}, sign[lanes] = {}, first_stress[lanes] = {};
@@ -277,7 +275,7 @@ unsigned sum_lanes(const LockstepTables& tables, const Periods& periods, unsigne
       steps = period.steps > steps ? period.steps : steps;
     }
   steps += steps % 2;
-  for (std::size_t j = 0; j < lanes; ++j)  // shorter ones stay at L
+  for (std::size_t j = 0; j < lanes; ++j)  // shorter periods stay at L
     for (std::size_t i = which >> j & 1 ? periods.of[j].steps : 0; i < steps; ++i)
       periods.strains[j * periods.stride + i] = static_cast<float>(largest[j]);
 
@@ -300,7 +298,7 @@ unsigned sum_lanes(const LockstepTables& tables, const Periods& periods, unsigne
   return loops.amiss() & which;
 }
 
-/// Lines of one stack of open reversals, and strains of one lane, for histories of up to this many.
+/// Return the number of lines of one stack of open reversals, and of strains of one lane, for up to `longest` reversals.
 constexpr std::size_t stack_lines(std::size_t longest) {
   return ((longest + 4) * lanes * sizeof(double) - 1) / sizeof(LockstepLine) + 1;
 }
@@ -333,7 +331,7 @@ unsigned sum(const LockstepTables& tables, const StrainList* histories, std::siz
   unsigned amiss = 0;
   if (by_table != 0) amiss |= sum_lanes<false>(tables, periods, by_table, damage);
   if (one_by_one == 0) return amiss;
-  for (std::size_t j = 0; by_table != 0 && j < count; ++j)  // once more
+  for (std::size_t j = 0; by_table != 0 && j < count; ++j)  // again, because the first pass has overwritten the strains
     rotated(histories[j], periods.strains + j * periods.stride);
   return amiss | sum_lanes<true>(tables, periods, one_by_one, damage);
 }

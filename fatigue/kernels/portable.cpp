@@ -1,9 +1,9 @@
-// The loop of lockstep.h for every machine that a build is for (simd.h).
+// The loop of lockstep.h for every machine for which a build is made (simd.h).
 #define DRESSLIFE_MACHINE portable
 #define DRESSLIFE_LOCKSTEP portable_lockstep
-#define DRESSLIFE_TARGET HWY_SCALAR  // two lanes gain less than their look-ups in tables cost
+#define DRESSLIFE_TARGET HWY_SCALAR  // with two lanes the table look-ups cost more than the lanes gain
 
-// Everything from outside comes first: it must be compiled for any machine.
+// These are included first, before DRESSLIFE_BEGIN_MACHINE, because they must be compiled for any machine.
 #include "fatigue/kernels/lockstep.h"
 #include "pipeline/base/simd.h"
 
