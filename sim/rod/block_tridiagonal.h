@@ -5,23 +5,23 @@
 //     |       U1^T  D2  ...  |
 //     |             ...      |
 //
-// Block i is factored once its diagonal is complete. Eliminating it changes only the diagonal and the
-// right-hand side of block i + 1. So the caller may assemble block i + 1 just before, and the matrix passes
+// Block i is factored once its diagonal is complete. Its elimination changes only the diagonal and the
+// right-hand side of block i + 1. The caller can therefore assemble block i + 1 just before, and the matrix passes
 // through the cache once.
 //
-// Of a diagonal block only the upper triangle is used. Plain loops on row-major arrays, which the compiler unrolls and
-// vectorises. It has to be asked: loops over a triangle have a fixed length only once the loop around them is unrolled.
+// Only the upper triangle of a diagonal block is used. Plain loops on row-major arrays; the pragmas let the compiler unroll and
+// vectorise them. A loop over a triangle has a fixed length only after the loop around it is unrolled.
 #pragma once
 
 namespace dresslife::sim {
 
 struct TridiagonalBlock {
-  double diagonal[36];  ///< D; once factored: L^T above the diagonal, 1/pivot on it
-  double upper[36];     ///< U, coupling to the next block; once eliminated: L^-1 U
-  double value[6];      ///< right-hand side; once eliminated: pivot^-1 L^-1 of it
+  double diagonal[36];  ///< D; after factoring: L^T above the diagonal, 1/pivot on it
+  double upper[36];     ///< U, coupling to the next block; after elimination: L^-1 U
+  double value[6];      ///< right-hand side; after elimination: pivot^-1 L^-1 times it
 };
 
-/// D = L diag(pivot) L^T in place. Returns how many pivots are not positive (negative eigenvalues, by
+/// Computes D = L diag(pivot) L^T in place. Returns the number of pivots that are not positive (negative eigenvalues, by
 /// Sylvester).
 inline int factor_diagonal(double* d) {
   int not_positive = 0;
@@ -65,7 +65,7 @@ inline void scale_by_pivots(const double* d, double* x) {
   for (int r = 0; r < 6; ++r) x[r] *= d[7 * r];
 }
 
-/// Takes L^-T-free value y of one block out of the next: next -= (L^-1 U)^T y.
+/// Eliminates the value y of one block from the next: next -= (L^-1 U)^T y.
 inline void carry_down(const double* upper, const double* y, double* next) {
 #pragma GCC unroll 6
   for (int k = 0; k < 6; ++k)
@@ -73,7 +73,7 @@ inline void carry_down(const double* upper, const double* y, double* next) {
     for (int r = 0; r < 6; ++r) next[r] -= upper[6 * k + r] * y[k];
 }
 
-/// Takes the solved next block out of this one: value -= pivot^-1 (L^-1 U) next.
+/// Eliminates the solved next block from this one: value -= pivot^-1 (L^-1 U) next.
 inline void carry_up(const double* d, const double* upper, const double* next, double* value) {
 #pragma GCC unroll 6
   for (int r = 0; r < 6; ++r) {
@@ -84,7 +84,7 @@ inline void carry_up(const double* d, const double* upper, const double* next, d
   }
 }
 
-/// Factors `block` and eliminates it from `next` (null for the last one). Returns as factor_diagonal().
+/// Factors `block` and eliminates it from `next` (null: last block). Returns the number of pivots that are not positive.
 inline int eliminate(TridiagonalBlock& block, TridiagonalBlock* next) {
   const int not_positive = factor_diagonal(block.diagonal);
   const double* d = block.diagonal;

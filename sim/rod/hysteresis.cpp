@@ -10,8 +10,8 @@ namespace dresslife::sim {
 PolymerLoss polymer_loss(double factor) {
   assert(factor >= 0 && factor <= most_loss_factor);
   if (factor == 0) return {};
-  // [Hz]. Hoses on robots swing at 1 to 5 Hz, their third wave at 20. Loss at lower frequencies would soften the hose at rest
-  // further below its stiffness at 1 Hz, and published cables are as stiff at rest as in their swings.
+  // [Hz]. Hoses on robots swing at 1 to 5 Hz, their third wave at 20 Hz. A lower limit would make the hose at rest softer
+  // compared to 1 Hz; published cables are as stiff at rest as in their swings.
   constexpr double lowest = 0.8, highest = 30;
   constexpr int frequencies = 61, unknowns = BendMemory::relaxations + 1;
   using Vector = Eigen::Matrix<double, unknowns, 1>;
@@ -19,7 +19,7 @@ PolymerLoss polymer_loss(double factor) {
   Vector right = Vector::Zero();
   for (int k = 0; k < frequencies; ++k) {
     const double frequency = lowest * std::pow(highest / lowest, k / (frequencies - 1.0));
-    Vector row;  // of E'' - factor E' = 0, the elastic spring's share on the right
+    Vector row;  // of E'' - factor E' = 0; the elastic spring's term is on the right
     for (int i = 0; i < BendMemory::relaxations; ++i) {
       const double x = frequency / PolymerLoss::corner[i];  // omega tau_i
       row[i] = (x - factor * x * x) / (1 + x * x);

@@ -8,8 +8,8 @@
 namespace dresslife::sim {
 
 /// phi = log(R_a^T R_b) and the map G with dphi/dt = G^T (w_b - w_a), G = R_mid S,
-/// S = s 1 + (1 - s) u u^T, s = (theta/2) / sin(theta/2), u = phi/theta. A moment conjugate to phi, m = K
-/// phi, acts in the world as G m.
+/// S = s 1 + (1 - s) u u^T, s = (theta/2) / sin(theta/2), u = phi/theta. A moment m = K phi, conjugate to phi, is G m in the
+/// world.
 struct LinkTurn {
   Vector3 phi;         ///< [rad]
   Matrix3 map;         ///< G
@@ -18,7 +18,7 @@ struct LinkTurn {
   double axis_excess;  ///< (1 - s^2) / sin^2(theta/2): G G^T = s^2 1 + axis_excess axis axis^T
 };
 
-/// The rotation from a to b: u sin(theta/2), the square of that, cos(theta/2) >= 0 and s.
+/// The rotation from a to b: u sin(theta/2), its square, the sign of the quaternion, cos(theta/2) >= 0 and s.
 struct HalfTurn {
   Vector3 half;
   double squared, sign, cosine, stretch;
@@ -30,7 +30,7 @@ inline HalfTurn half_turn(const Quaternion& a, const Quaternion& b) {
   const double sign = relative.w() < 0 ? -1 : 1, cosine = sign * relative.w();
   const Vector3 half = sign * relative.vec();
   const double x = half.squaredNorm();
-  // s = asin(y)/y with y^2 = x; below 0.0225 (theta < 0.3) its series to x^6 is exact to rounding.
+  // s = asin(y)/y with y^2 = x. Below 0.0225 (theta < 0.3) its series up to x^6 is exact to rounding.
   double s;
   if (x < 0.0225) {
     s = 1 + x * (1. / 6 + x * (3. / 40 + x * (15. / 336 + x * (105. / 3456 +
@@ -46,9 +46,9 @@ inline LinkTurn link_turn(const Quaternion& a, const Quaternion& b) {
   const HalfTurn half_way = half_turn(a, b);
   const Vector3& half = half_way.half;
   const double x = half_way.squared, sign = half_way.sign, cosine = half_way.cosine, s = half_way.stretch;
-  // (1 - s)/x -> -1/6 where x vanishes.
+  // (1 - s)/x tends to -1/6 for small x.
   const double axial = x < 1e-10 ? -1. / 6 : (1 - s) / x;
-  // Half way: the sum of the two quaternions, of squared norm 2 (1 + cosine).
+  // The rotation half way is the sum of the two quaternions, of squared norm 2 (1 + cosine).
   const Eigen::Vector4d mid = a.coeffs() + sign * b.coeffs();
   const double scale = 1 / (1 + cosine), px = mid[0], py = mid[1], pz = mid[2], pw = mid[3];
   Matrix3 r;
@@ -64,10 +64,9 @@ inline LinkTurn link_turn(const Quaternion& a, const Quaternion& b) {
   return turn;
 }
 
-/// The arms from the centres of the segments before (a) and after (b) to the link between them, which grow
-/// with its bend (S17): half a segment times 1 + (1 - t_a.t_b)/12. When the segments turn by w_a and w_b the
-/// gap changes by -w_a x a - w_b x b - lengthening (normal . (w_b - w_a)). At a clamp there is one arm, half
-/// a segment long.
+/// The arms from the centres of the segments before (a) and after (b) to the link between them. They grow with the link's bend
+/// (S17): half a segment times 1 + (1 - t_a.t_b)/12. When the segments turn by w_a and w_b, the gap changes by
+/// -w_a x a - w_b x b - lengthening (normal . (w_b - w_a)). At a clamp there is one arm, half a segment long.
 struct LinkArms {
   Vector3 a = Vector3::Zero(), b = Vector3::Zero();  ///< world [m]; the ends are x_a + a and x_b - b
   Vector3 lengthening = Vector3::Zero();             ///< a/12 (t_a + t_b) [m]
@@ -75,7 +74,7 @@ struct LinkArms {
   double excess = 0;                                 ///< e.e - 2 |a x e|/|normal| with e = lengthening [m2]
 };
 
-/// half_a, half_b: half a segment along each tangent; zero for a clamp. half: its length [m].
+/// half_a, half_b: half a segment along each tangent; zero at a clamp. half: its length [m].
 inline LinkArms link_arms(const Vector3& half_a, const Vector3& half_b, double half) {
   const double half2 = half * half;
   if (half_a.isZero(0) || half_b.isZero(0)) return {half_a, half_b};
@@ -84,24 +83,24 @@ inline LinkArms link_arms(const Vector3& half_a, const Vector3& half_b, double h
           half2 * ((1 + cosine) / 72 - growth / 6)};
 }
 
-/// Change of the gap for small ways x and turns w of what the link joins.
+/// Returns the change of the gap for small displacements x and rotations w of the two connected bodies.
 inline Vector3 gap_change(const LinkArms& arms, const Vector3& x_a, const Vector3& w_a, const Vector3& x_b,
                           const Vector3& w_b) {
   return (x_b - w_b.cross(arms.b)) - (x_a + w_a.cross(arms.a)) -
          arms.normal.dot(w_b - w_a) * arms.lengthening;
 }
 
-/// What a link joins: segment or clamp before (a) and after (b).
+/// The two bodies of a link: segment or clamp before (a) and after (b).
 struct LinkEnds {
   const Vector3 *position_a, *position_b;
   const Quaternion *orientation_a, *orientation_b;
   Vector3 tangent_a, tangent_b;
-  double half_a, half_b;  ///< of the segment on that side; 0 for a clamp [m]
+  double half_a, half_b;  ///< half a segment on this side; 0 at a clamp [m]
 
   LinkArms arms() const {
     return link_arms(half_a * tangent_a, half_b * tangent_b, std::max(half_a, half_b));
   }
-  /// (S1), with arms().
+  /// Returns the gap (S1) for these arms.
   Vector3 gap(const LinkArms& arms) const { return (*position_b - arms.b) - (*position_a + arms.a); }
 };
 

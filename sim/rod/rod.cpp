@@ -10,23 +10,22 @@
 namespace dresslife::sim {
 namespace {
 
-// Weights of (S3). For one oscillator of frequency w, beta >= 1/4 is stable for every h w; 0.3 damps its
-// ringing.
+// Weights of (S3). For one oscillator of frequency w, beta >= 1/4 is stable for every h w; 0.3 damps its oscillation.
 constexpr double turn_beta = 0.3, turn_theta = 0.5;
-// The gap's waves are far faster than the step and of no interest: C = gap_damping h K takes their energy,
-// and beta grows by half of that (the damping is explicit, so stability asks beta >= 1/4 + gap_damping/2).
+// The gap's waves are far faster than the step and have no influence on bending. C = gap_damping h K removes their energy, and
+// beta is increased by half of gap_damping (the damping is explicit, so stability needs beta >= 1/4 + gap_damping/2).
 constexpr double gap_beta = 0.55, gap_damping = 0.5;
-// Damping of bending below this many steps leaves the fastest bending waves ringing.
+// With less bending damping than this number of steps the fastest bending waves oscillate.
 constexpr double least_damping_steps = 0.25;
-// Geometric stiffness of a taut chain: its lateral waves run at sqrt(T/rho); leapfrog alone is stable while
-// T < rho l^2/h^2, and the stiffness is added from 0.3 of that on.
+// Geometric stiffness of a taut chain: its lateral waves have the speed sqrt(T/rho). Leapfrog alone is stable for
+// T < rho l^2/h^2; the stiffness is added from 0.3 of this limit on.
 constexpr double tension_beta = 0.3, free_tension = 0.3;
 // Radius of gyration squared over radius squared: between a solid (0.5) and a thin tube (1).
 constexpr double inertia_shape = 0.75;
 
 // (S5) End links: the sum over links of energy * length is a quadrature of the integral of m^2/EI from clamp
-// to clamp. Half lengths at the ends (trapezoid rule) err by l^2; Gregory's first correction -l/12 (m_1 -
-// m_0) turns the weights 1/2, 1 into 5/12, 13/12. Where the moment vanishes (free end) the plain weights do.
+// to clamp. Half lengths at the ends (trapezoid rule) have an error of order l^2. Gregory's first correction -l/12 (m_1 -
+// m_0) changes the weights 1/2, 1 to 5/12, 13/12. At a free end the moment vanishes, so the plain weights are used.
 double compliance_length(const RodProperties& p, int link, double l) {
   const int n = p.segments;
   if (link == 0 || link == n) return l * 5 / 12;
@@ -34,8 +33,8 @@ double compliance_length(const RodProperties& p, int link, double l) {
   return l;
 }
 
-// (S24) E I of a link is that of its piece of hose as springs in series: stiff where a stiff end covers it, bare elsewhere.
-// In a span shorter than both stiff ends the one at the base counts.
+// (S24) E I of a link is that of its piece of hose as springs in series: stiff within a stiff end, bare elsewhere. In a
+// span shorter than both stiff ends, the one at the base has priority.
 double stiffened(const RodProperties& p, int link, double l) {
   const double begin = std::max(0.0, (link - 0.5) * l), end = std::min(p.length, (link + 0.5) * l);
   double bare = 1, compliance = 0;  // share of the piece; mean of E I/(E I + that of the stiff end)
@@ -64,7 +63,7 @@ Vector3 end_mask(const RodProperties& p, int link) {
 
 }  // namespace
 
-// ---- what is built once -----------------------------------------------------------------------------------
+// ---- construction -----------------------------------------------------------------------------------------
 
 Rod::Rod(const RodProperties& properties) { add(properties, true); }
 
@@ -101,7 +100,7 @@ void Rod::add(const RodProperties& p, bool new_dresspack) {
     const double stiff = bending + stiffened(p, j, l);
     const Vector3 stiffness{stiff, stiff, p.torsional_stiffness};
     bending_length_.push_back(length);
-    // before a free end the last link stretches for the half segment beyond it too
+    // before a free end the last link also represents the half segment beyond it
     const bool before_free = j == n - 1 && p.tool_end == End::free;
     gap_stiffness_.push_back(tied ? p.axial_stiffness / (end ? l / 2 : before_free ? 1.5 * l : l) : 0);
     turn_stiffness_.push_back(end_mask(p, j).cwiseProduct(stiffness) / length);
@@ -124,7 +123,7 @@ double Rod::link_arc(int link) const {
   return span.first_arc + (link - span.first_link) * span.segment_length;
 }
 
-// ---- what the state says ----------------------------------------------------------------------------------
+// ---- quantities of a state --------------------------------------------------------------------------------
 
 RodState Rod::straight(const Frame& base) const {
   RodState state;
@@ -192,8 +191,8 @@ double Rod::potential_energy(const RodState& state) const {
   return energy;
 }
 
-// Stretch from the link force that acted, f^2/(2 k): the gaps themselves carry what a turn within one step
-// adds to them in second order, which the next step takes away and which is no stretch of the hose.
+// The stretch energy uses the link force of the last step, f^2/(2 k). The gaps themselves contain second-order terms from the
+// rotation within one step. The next step removes these terms; they are no stretch of the hose.
 Energy Rod::energy(const RodState& state) const {
   Energy energy;
   for (int i = 0; i < segments(); ++i) {
@@ -216,7 +215,7 @@ Energy Rod::energy(const RodState& state) const {
   return energy;
 }
 
-// The memory is of the step's begin: what has changed since counts as if it had come at once.
+// The memory belongs to the begin of the step. The change since then is treated as instantaneous.
 double Rod::stored_in_elements(const RodState& state) const {
   double energy = 0;
   for (const Span& span : spans_) {
@@ -233,7 +232,7 @@ double Rod::stored_in_elements(const RodState& state) const {
   return energy;
 }
 
-// What hangs at the tip and what slides at the base.
+// Adds the energies of a mass at the tip and of a clamp that slides at the base.
 void Rod::add_ends(const RodState& state, int k, Energy& energy) const {
   const Span& span = spans_[k];
   const RodProperties& p = span.properties;
@@ -293,7 +292,7 @@ Frame Rod::tip_frame(const RodState& state, const Span& span) const {
 }
 
 bool Rod::finite(const RodState& state) const {
-  // A sum is finite only if all of its terms are.
+  // A sum is finite only if all its terms are finite.
   double sum = 0;
   for (int i = 0; i < segments(); ++i)
     sum += state.position[i].sum() + state.velocity[i].sum() + state.angular_velocity[i].sum() +
@@ -324,14 +323,14 @@ double missing_length(const Rod& rod, const ClampFrames& clamps, int k) {
 
 namespace {
 
-/// The equation of a sliding base clamp's change of speed w (S14): pivot w = right + coupling e . dv_0, with
-/// dv_0 of the first segment and e = row: how far that moves the link's far end along the clamp's direction.
+/// The equation of the change of speed w of a sliding base clamp (S14): pivot w = right + coupling e . dv_0. dv_0: of the first
+/// segment. e = row: displacement of the link's far end along the clamp's direction by dv_0.
 struct SlideEquation {
   double coupling = 0, pivot = 1, right = 0;
   double row[6] = {};
   Vector3 direction = Vector3::Zero();
-  Travel travel;      ///< mode that is assumed
-  double locked = 0;  ///< w where the clamp does not slide
+  Travel travel;      ///< assumed mode
+  double locked = 0;  ///< w if the clamp does not slide
 
   bool slides() const { return travel.mode == Travel::Mode::sliding; }
 };
@@ -347,19 +346,19 @@ struct RodSystem {
   ClampFrames end;                                  ///< clamps at the end of the step
   std::vector<Vector3> velocity, angular_velocity;  ///< (end) of the clamps over the step
   std::vector<SlideEquation> slide;                 ///< (span)
-  std::vector<Hysteresis> hysteresis;               ///< (span) for steps of `hysteresis_step`; empty: none
+  std::vector<Hysteresis> hysteresis;               ///< (span) for steps of `hysteresis_step`; empty: not hysteretic
   std::vector<BendMemory> memory;                   ///< (link) at the begin of the step
   double step = 0, hysteresis_step = 0;
 };
 
 namespace {
 
-// A vector's three numbers added to a block's right-hand side.
+// Adds a vector to three numbers of a block's right-hand side.
 inline void add(double* value, const Vector3& x) {
   for (int k = 0; k < 3; ++k) value[k] += x[k];
 }
 
-// Adds skew(x) to the 3x3 part of a row-major 6x6 that begins at m.
+// Adds skew(x) to the 3x3 part of a row-major 6x6 matrix that begins at m.
 inline void add_skew(double* m, const Vector3& x) {
   m[1] -= x[2], m[2] += x[1];
   m[6] += x[2], m[8] -= x[0];
@@ -374,7 +373,7 @@ inline void add_outer(double* m, double c, const Vector3& x, const Vector3& y) {
 
 inline void add_diagonal(double* m, double c) { m[0] += c, m[7] += c, m[14] += c; }
 
-/// One step's assembly of one span. Written as a class so that each part sees the same names.
+/// Assembly of one step of one span. A class, so that all parts share the same names.
 class Assembly {
  public:
   Assembly(const Rod& rod, int span, const RodState& state, RodSystem& system, double h)
@@ -393,7 +392,7 @@ class Assembly {
     free_force_ = free_tension * p_.mass_per_length * l * l / (h * h);
   }
 
-  // Inertia, gravity, the gyroscopic torque -w x (I w), external load.
+  // Adds inertia, gravity, the gyroscopic torque -w x (I w) and external loads.
   void begin_segment(int i, std::span<const Load> loads) {
     TridiagonalBlock& b = system_.block[i];
     const Vector3 t = tangent(state_.orientation[i]);
@@ -453,7 +452,7 @@ class Assembly {
             &frame.orientation, Vector3::Zero()};
   }
 
-  // (S6), the pull on the segment before.
+  // Returns (S6), the force on the segment before the link.
   Vector3 gap_force(int j, const Side& a, const Side& b, const LinkArms& arms) {
     const Vector3 gap = (*b.position - arms.b) - (*a.position + arms.a);
     const Vector3 rate = gap_change(arms, *a.velocity, *a.angular_velocity, *b.velocity, *b.angular_velocity);
@@ -462,7 +461,7 @@ class Assembly {
     return force;
   }
 
-  // (S7), with (S19) where bending is hysteretic: the moment on the segment before.
+  // Returns (S7), with (S19) for hysteretic bending: the moment on the segment before the link.
   Vector3 turn_moment(int j, const LinkTurn& turn, const Vector3& rate) const {
     const Vector3 strain =
         turn.phi - rod_.rest_turn(j) + damping_.cwiseProduct(turn.map.transpose() * rate);
@@ -473,7 +472,7 @@ class Assembly {
 
   bool is_hysteretic(int j) const { return hysteresis_ && rod_.turn_stiffness(j)[0] > 0; }
 
-  // (S20), (S22) from the memory of the step before to the turn at the begin of this one.
+  // Applies (S20), (S22) from the memory of the previous step to the turn at the begin of this step.
   Eigen::Vector2d element_moment(int j, const LinkTurn& turn) const {
     const Eigen::Vector2d bend = turn.phi.head<2>() / rod_.bending_length(j);
     BendMemory& memory = system_.memory[j];
@@ -484,12 +483,12 @@ class Assembly {
     return hysteresis_->advance(memory, bend);
   }
 
-  // G diag(k) G^T (beta h^2 + theta h tau) with k1 = k2: G G^T = s^2 1 + (1 - s^2) u u^T, so
-  // k1 (s^2 1 + (1 - s^2) u u^T) + (k3 - k1) g3 g3^T; and what the gap's stiffness k adds as the arms
-  // lengthen.
+  // G diag(k) G^T (beta h^2 + theta h tau) with k1 = k2: G G^T = s^2 1 + (1 - s^2) u u^T, so the sum is
+  // k1 (s^2 1 + (1 - s^2) u u^T) + (k3 - k1) g3 g3^T, plus the contribution of the gap's stiffness k through the lengthening
+  // of the arms.
   struct TurnMatrix {
     double value[9];
-    double along[9];  ///< k e n^T: of turns on ways
+    double along[9];  ///< k e n^T: couples rotations to displacements
   };
   TurnMatrix turn_matrix(int j, const LinkTurn& turn, double k, const LinkArms& arms) const {
     const double spring = turn_beta * h_ * h_, damper = turn_theta * h_;
@@ -511,14 +510,14 @@ class Assembly {
     return m;
   }
 
-  // (S8) Tension-only geometric stiffness a T (1 - t t^T) on the turning of a segment; arm = a t.
+  // (S8) Returns the geometric stiffness a T (1 - t t^T) of tension for the rotation of a segment; arm = a t.
   double tautness(int j, const Vector3& arm) const {
     const double a = span_.segment_length / 2;
     const double excess = state_.link_force[j].dot(arm) - free_force_ * a;
     return excess > 0 ? tension_beta * h_ * h_ * excess : 0;
   }
 
-  // A link's part in its segment's own block. side +1: the link follows the segment, -1: precedes it. The end
+  // Adds a link's contribution to the block of its segment. side +1: the link follows the segment, -1: precedes it. The end
   // moves with v + side w x arm, hence rows (k 1, -side k S), (.., -k S S) with S = skew(arm); and with the
   // lengthening e n.w: -k e n^T.
   void add_own(int i, double k, const LinkArms& arms, double side, const Vector3& force,
@@ -540,7 +539,7 @@ class Assembly {
     add(b.value + 3, h_ * (arm.cross(force) + side * moment));
   }
 
-  // The coupling of segments i and i + 1: S_a S_b = b a^T - (a.b) 1.
+  // Adds the coupling of segments i and i + 1: S_a S_b = b a^T - (a.b) 1.
   void couple(int i, double k, const LinkArms& arms, const TurnMatrix& turning) {
     double* u = system_.block[i].upper;
     std::fill(u, u + 36, 0.0);
@@ -557,7 +556,7 @@ class Assembly {
       }
   }
 
-  // A point mass at the end of the arm moves with v + w x arm. (Kept out of the loop over the segments.)
+  // Adds a point mass at the end of the arm, which moves with v + w x arm. (Not inlined into the loop over the segments.)
   [[gnu::noinline]] void hang_tip(TridiagonalBlock& b, const Vector3& w, const Vector3& arm, Vector3& force,
                                   Vector3& torque) const {
     const double m = p_.tip_mass;
@@ -567,16 +566,16 @@ class Assembly {
     add_outer(b.diagonal + 21, -m, arm, arm);
     const Vector3 pull = m * (p_.gravity - w.cross(w.cross(arm)));
     force += pull, torque += arm.cross(pull);
-    const double excess = pull.dot(arm) - free_force_ * arm.norm();  // (S8), as from a link there
+    const double excess = pull.dot(arm) - free_force_ * arm.norm();  // (S8), as for a link at the tip
     if (excess <= 0) return;
     const double taut = tension_beta * h_ * h_ * excess;
     add_diagonal(b.diagonal + 21, taut);
     add_outer(b.diagonal + 21, -taut / arm.squaredNorm(), arm, arm);
   }
 
-  // (S14) The clamp of mass m slides by w more than system_.velocity says, along d:
-  //   m (d.c + w) = h (d.f - F - spring u - damping u' + m g.d - friction) + k (e.dv_0 - d.c - w) - (..) w,
-  // c its change of velocity without w, k e.dv_0 as in drive(). Eliminating w adds -k^2/pivot e e^T to the
+  // (S14) The clamp of mass m slides by w more than system_.velocity, along d:
+  //   m (d.c + w) = h (d.f - F - spring u - damping u' + m g.d - friction) + k (e.dv_0 - d.c - w) - (..) w.
+  // c: its change of velocity without w; k e.dv_0: as in drive(). Elimination of w adds -k^2/pivot e e^T to the
   // first segment's block.
   [[gnu::noinline]] void slide(int segment, double k, const Vector3& arm, const Vector3& pull) {
     const SlidingClamp& slider = *p_.slider;
@@ -600,7 +599,7 @@ class Assembly {
     for (int r = 0; r < 6; ++r) b.value[r] += k * share * s.row[r];
   }
 
-  // A clamp moves as prescribed: its velocity change goes to the right-hand side.
+  // Adds the velocity change of a prescribed clamp to the right-hand side.
   void drive(int end, int segment, double k, const Vector3& arm, double side, const TurnMatrix& turning) {
     TridiagonalBlock& b = system_.block[segment];
     const Vector3 change = k * (system_.velocity[end] - state_.clamp_velocity[end]);
@@ -624,7 +623,7 @@ class Assembly {
 }  // namespace
 
 RodSolver::RodSolver(const Rod& rod) : rod_(rod), system_(std::make_unique<RodSystem>()) {
-  system_->block.resize(rod.segments());  // zeros: couplings between spans stay so
+  system_->block.resize(rod.segments());  // zero, so spans are not coupled
   system_->change.resize(rod.segments());
   system_->half.resize(rod.segments());
   system_->arms.resize(rod.links());
@@ -674,7 +673,7 @@ bool RodSolver::solve(const RodState& state, const ClampFrames& end, double h, s
   return not_positive == 0;
 }
 
-// Whether the clamp slides, which way, or is held, is found by trying: first what it did in the step before.
+// Finds by trial whether the clamp slides, in which direction, or is held. The first trial is the mode of the previous step.
 int RodSolver::solve_sliding(const RodState& state, int k, std::span<const Load> loads) {
   constexpr int attempts = 8;
   SlideEquation& slide = system_->slide[k];
@@ -692,7 +691,7 @@ int RodSolver::solve_sliding(const RodState& state, int k, std::span<const Load>
   return not_positive;
 }
 
-// w after whatever has changed dv_0 since.
+// Returns w for the present dv_0.
 double RodSolver::travel_change(int k) const {
   const SlideEquation& s = system_->slide[k];
   if (!s.slides()) return s.locked;
@@ -702,8 +701,8 @@ double RodSolver::travel_change(int k) const {
   return (s.right + s.coupling * moved) / s.pivot;
 }
 
-// Whether the assumed mode contradicts its own answer; then the next one to try. A held clamp is held by
-// `support` along its direction: stops only push, friction up to its limit.
+// Returns whether the result contradicts the assumed mode, and selects the next mode. `support` is the force that holds the
+// clamp along its direction: stops only push, friction acts up to its limit.
 bool RodSolver::choose_mode(const RodState& state, int k) {
   using Mode = Travel::Mode;
   const SlidingClamp& slider = *rod_.spans()[k].properties.slider;
@@ -789,14 +788,14 @@ void RodSolver::apply_impulses(std::span<Twist6> impulses) {
   }
 }
 
-// (S9) The force that acted over the step. k g alone rings by O(h^2).
+// (S9) Computes the force during the step. k g alone oscillates by O(h^2).
 void RodSolver::finish(RodState& state) {
   RodSystem& s = *system_;
   for (int k = 0; k < static_cast<int>(rod_.spans().size()); ++k) {
     const Span& span = rod_.spans()[k];
     if (span.properties.tool_end == End::free) s.end.end(2 * k + 1) = rod_.tip_frame(state, span);
     if (!span.properties.slider) continue;
-    // system_->velocity holds the travel's speed as it was
+    // system_->velocity contains the old speed of the travel
     Travel next = s.slide[k].travel;
     const double before = next.way, wanted = before + s.step * (next.speed + travel_change(k));
     next.way = std::clamp(wanted, 0.0, span.properties.slider->stroke);
@@ -813,7 +812,7 @@ void RodSolver::finish(RodState& state) {
       const int i = span.first_segment + j, link = span.first_link + j;
       const LinkArms& arms = s.arms[link];
       const Vector3 clamp = s.velocity[2 * k + (j > 0)] - state.clamp_velocity[2 * k + (j > 0)];
-      const Vector3 none = Vector3::Zero();  // what turns at a clamp has no arm there
+      const Vector3 none = Vector3::Zero();  // a clamp has no arm, so its rotation does not count
       const Vector3 change =
           j == 0 ? gap_change(arms, clamp, none, s.change[i].linear(), s.change[i].angular())
           : j == span.segments()

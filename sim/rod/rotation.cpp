@@ -3,7 +3,7 @@
 namespace dresslife::sim {
 
 Quaternion turn_between(const Vector3& from, const Vector3& to) {
-  // Nearer to half a turn the cross product loses the axis to rounding: two quarter turns instead.
+  // Near half a turn the cross product loses the axis to rounding, so two quarter turns are used.
   constexpr double opposite = -1 + 1e-12;
   const Vector3 a = from.normalized(), b = to.normalized();
   const double cosine = b.dot(a);

@@ -29,14 +29,14 @@ inline Frame inverse(const Frame& frame) {
   return {back * Vector3(-frame.position), back};
 }
 
-/// The matrix of a x: skew(a) b = a x b.
+/// Returns the matrix of a x: skew(a) b = a x b.
 inline Matrix3 skew(const Vector3& a) {
   Matrix3 m;
   m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
   return m;
 }
 
-/// log: the shortest rotation vector [rad] of a unit quaternion.
+/// log: returns the shortest rotation vector [rad] of a unit quaternion.
 inline Vector3 rotation_vector(const Quaternion& q) {
   const double sign = q.w() < 0 ? -1 : 1;
   const Vector3 v = sign * q.vec();
@@ -45,7 +45,7 @@ inline Vector3 rotation_vector(const Quaternion& q) {
   return sine < 1e-8 ? Vector3(2 * v / cosine) : Vector3(v * (2 * std::atan2(sine, cosine) / sine));
 }
 
-/// exp: the unit quaternion of a rotation vector [rad].
+/// exp: returns the unit quaternion of a rotation vector [rad].
 inline Quaternion rotation(const Vector3& r) {
   const double squared = r.squaredNorm();
   if (squared < 1e-4) {  // the next terms, r^6, are below 1e-16
@@ -56,17 +56,18 @@ inline Quaternion rotation(const Vector3& r) {
   return {std::cos(0.5 * angle), s * r.x(), s * r.y(), s * r.z()};
 }
 
-/// The smallest turn that lets `from` point along `to` (lengths > 0; opposite: about any axis across). Eigen's FromTwoVectors
-/// gives the same, but its singular value decomposition takes each source that calls it 5 s.
+/// Returns the smallest rotation from the direction `from` to the direction `to` (lengths > 0; opposite: about any perpendicular
+/// axis). Eigen's FromTwoVectors gives the same, but costs 5 s of compile time in each source by its singular value
+/// decomposition.
 Quaternion turn_between(const Vector3& from, const Vector3& to);
 
-/// Body z axis in the world: the tangent of a segment or clamp.
+/// Returns the body z axis in the world: the tangent of a segment or clamp.
 inline Vector3 tangent(const Quaternion& q) {
   return {2 * (q.x() * q.z() + q.w() * q.y()), 2 * (q.y() * q.z() - q.w() * q.x()),
           1 - 2 * (q.x() * q.x() + q.y() * q.y())};
 }
 
-/// The frame turned about its own tangent by roll [rad].
+/// Returns the frame turned about its own tangent by roll [rad].
 inline Frame rolled(const Frame& frame, double roll) {
   return {frame.position, frame.orientation * Quaternion(Eigen::AngleAxisd(roll, Vector3::UnitZ()))};
 }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int points_per_segment = 16;
 
-/// Hermite cubic plus a sag 16 u^2 (1-u)^2 that leaves the ends and their directions alone.
+/// Hermite cubic plus a sag 16 u^2 (1-u)^2, which does not change the ends and their directions.
 struct Curve {
   Vector3 from, to, from_tangent, to_tangent, sag_direction;
   double speed = 0, sag = 0;  // [m]
@@ -30,8 +30,8 @@ double length_of(const std::vector<Vector3>& points) {
   return length;
 }
 
-// The largest value of a parameter in [0, most] with which the curve is not longer than `length` (bisection;
-// the length grows with the parameter but for a small dip, which does no harm).
+// Finds the largest value of a parameter in [0, most] with which the curve is not longer than `length`, by bisection.
+// The length grows with the parameter, except for a small dip, which has no effect.
 void stretch_to(Curve& curve, double Curve::*parameter, double most, double length, int count, int halvings) {
   double low = 0, high = most;
   for (int k = 0; k < halvings; ++k) {
@@ -63,7 +63,7 @@ Curve fitted_curve(const Rod& rod, const ClampFrames& clamps, double most_speed,
   return curve;
 }
 
-// Points at equal distances along a polyline, both ends included.
+// Returns points at equal distances along a polyline, including both ends.
 std::vector<Vector3> evenly(const std::vector<Vector3>& points, int parts) {
   const double spacing = length_of(points) / parts;
   std::vector<Vector3> result{points.front()};
@@ -80,7 +80,7 @@ std::vector<Vector3> evenly(const std::vector<Vector3>& points, int parts) {
   return result;
 }
 
-// The smallest turn of q that lets its tangent point along t.
+// Returns q after the smallest rotation that aligns its tangent with t.
 Quaternion transported(const Quaternion& q, const Vector3& t) {
   return (turn_between(tangent(q), t) * q).normalized();
 }
