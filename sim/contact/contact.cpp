@@ -7,14 +7,14 @@
 namespace dresslife::sim {
 namespace {
 
-// Overlap is pushed out by this share per step, and no faster than push_speed, so that a start inside an
-// obstacle does not fling the hose away.
+// Overlap is reduced by this share per step, at most with push_speed, so that a start inside an obstacle does not throw the hose
+// away.
 constexpr double overlap_share = 0.2, push_speed = 1.0;  // [1], [m/s]
-// Softness of the normal direction [m/(N s) s]: 1e-7 m/N lets two contacts at one point share their load.
+// Softness of the normal direction [m/(N s) s]: with 1e-7 m/N two contacts at one point share their load.
 constexpr double softness = 1e-7;
 constexpr int sweeps = 100;
 constexpr double smallest_change =
-    1e-9;  // of an impulse [N s]; a 2.5 kg/m hose of 0.1 m loads 5 ms with 1e-2 N s
+    1e-9;  // of an impulse [N s]; the weight of a 0.1 m hose of 2.5 kg/m gives 1e-2 N s in 5 ms
 
 double dot(const Twist6& a, const Twist6& b) {
   double sum = 0;
@@ -26,13 +26,13 @@ void add(Twist6& sum, double factor, const Twist6& x) {
   for (int k = 0; k < 6; ++k) sum.value[k] += factor * x.value[k];
 }
 
-// Row of J: velocity of a segment's matter at the contact along an axis, its linear part weighed.
+// Returns a row of J: velocity of a segment's matter at the contact along an axis. weight: of the linear part.
 Twist6 direction_at(const Vector3& arm, const Vector3& axis, double weight = 1) {
   const Vector3 turn = arm.cross(axis);
   return {{weight * axis.x(), weight * axis.y(), weight * axis.z(), turn.x(), turn.y(), turn.z()}};
 }
 
-// Unit tangents that make a right-handed triad with the normal.
+// Returns two unit tangents that form a right-handed triad with the normal.
 std::pair<Vector3, Vector3> tangents(const Vector3& normal) {
   const Vector3 first = normal.unitOrthogonal();
   return {first, normal.cross(first)};
@@ -83,7 +83,7 @@ void ContactSolver::set_up(const RodState& state, std::span<const Twist6> change
   }
 }
 
-// (J A^-1 J^T), row by row.
+// Computes (J A^-1 J^T), row by row.
 void ContactSolver::condense(const RodSolver& solver, const std::vector<Contact>& contacts) {
   const int rows = static_cast<int>(direction_.size());
   effective_.resize(static_cast<size_t>(rows) * rows);
@@ -105,8 +105,8 @@ void ContactSolver::condense(const RodSolver& solver, const std::vector<Contact>
   }
 }
 
-// velocity_ holds w for the present answer; a changed impulse changes it by a column of the (symmetric)
-// condensed matrix, and idle contacts cost nothing.
+// velocity_ contains w for the present answer. A change of an impulse changes w by a column of the (symmetric)
+// condensed matrix, so idle contacts cost nothing.
 void ContactSolver::change_answer(int row, double change) {
   const int rows = static_cast<int>(direction_.size());
   const double* column = &effective_[static_cast<size_t>(row) * rows];
@@ -123,9 +123,9 @@ double ContactSolver::press(int row, double h) {
   return std::abs(change);
 }
 
-// Both tangents at `row` and row + 1. What would stop the sliding, p - B^-1 w, if friction can give it; else
-// p - w/b, b the largest eigenvalue of the 2x2 matrix B, drawn back to the circle: that stands still only
-// where p and w point oppositely.
+// Updates both tangents, at `row` and row + 1. If friction suffices, the impulse is p - B^-1 w, which stops the sliding.
+// Otherwise it is p - w/b, b the largest eigenvalue of the 2x2 matrix B, scaled back to the circle of the limit. This iteration
+// is stationary only if p and w are opposite.
 double ContactSolver::rub(int row, double limit) {
   const size_t rows = direction_.size();
   double* p = &answer_[row];
@@ -162,8 +162,8 @@ void ContactSolver::iterate(const std::vector<Contact>& contacts, double h) {
   }
 }
 
-// The impulses of the step before, where the same segment touched the same obstacle, are a good first answer.
-// Both lists are in order of place_of().
+// Starts from the impulses of the previous step where the same segment touched the same obstacle. Both lists are in order of
+// place_of().
 void ContactSolver::start_from_last_step(const std::vector<Contact>& contacts, double h) {
   size_t k = 0;
   for (size_t c = 0; c < contacts.size(); ++c) {

@@ -13,9 +13,9 @@ namespace dresslife::sim {
 namespace {
 
 constexpr int leaf_size = 4;
-constexpr double rounding = 1e-9;        // of coordinates of metres [m]
-constexpr double same_direction = 0.99;  // cosine; contacts nearer in direction and place are one
-constexpr double same_place = 0.125;     // of the axis
+constexpr double rounding = 1e-9;        // of coordinates in metres [m]
+constexpr double same_direction = 0.99;  // cosine; contacts with nearer directions and places are merged
+constexpr double same_place = 0.125;     // share of the axis
 
 Vector3 normal_of(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
@@ -31,7 +31,7 @@ bool crosses(const Triangle& t, const Vector3& from, const Vector3& to, Vector3&
 
 }  // namespace
 
-// The foot on the plane if it lies inside, else the nearest of the three edges' nearest points.
+// Returns the projection on the plane if it is inside the triangle, else the nearest of the nearest points of the three edges.
 Vector3 nearest_point(const Triangle& t, const Vector3& point) {
   const Vector3 n = normal_of(t);
   bool inside = n.squaredNorm() > 0;
@@ -49,7 +49,7 @@ Vector3 nearest_point(const Triangle& t, const Vector3& point) {
   return inside ? Vector3(point - (n.dot(point - t[0]) / n.squaredNorm()) * n) : best;
 }
 
-// The nearest pair lies at an end of the axis, on an edge of the triangle, or they cross.
+// The nearest pair includes an end of the axis or a point on an edge of the triangle, or axis and triangle cross.
 NearestToTriangle nearest_points(const Triangle& t, const Vector3& from, const Vector3& to) {
   Vector3 where;
   if (crosses(t, from, to, where)) return {where, where, 0};
@@ -149,7 +149,7 @@ void Mesh::add_candidates(const Vector3& from, const Vector3& to, double reach, 
   }
 }
 
-// The whole piece, and its two ends: a piece that lies along a face rests on both.
+// Tests the whole piece and its two ends, because a piece along a face rests on both ends.
 std::vector<Mesh::MeshContact> Mesh::near(const Vector3& from, const Vector3& to, double reach) const {
   Box box(from);
   box.extend(to);

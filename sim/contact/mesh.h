@@ -1,10 +1,10 @@
-// Triangle meshes as obstacles: where a piece of hose is near them.
+// Triangle meshes as obstacles: contacts of a piece of hose.
 //
-// A piece of hose is the axis of a capsule. Contacts are the local minima of the distance between the axis
-// and the surface: per triangle the nearest pair of points q (axis) and m (mesh), kept if no triangle at m is
-// nearer to q. Edges inside a flat face and the far sides of corners therefore push nowhere. Distances are
-// unsigned, so neither the triangles' sense nor a closed surface matters, as long as the axis itself stays
-// outside: an overlap of a radius. An axis that crosses the surface is reported as deep as a diameter.
+// A piece of hose is the axis of a capsule. Contacts are the local minima of the distance between the axis and the surface: for
+// each triangle the nearest pair of points q (axis) and m (mesh), if no other triangle that contains m is nearer to q. So edges
+// inside a flat face and the far sides of corners give no contact. Distances have no sign; neither the orientation of the
+// triangles nor a closed surface is needed, as long as the axis is outside (overlap less than a radius). An axis that crosses the
+// surface counts as one diameter deep.
 #pragma once
 
 #include <filesystem>
@@ -21,18 +21,18 @@ using pipeline::Triangle;
 /// Nearest points of an axis and a triangle.
 struct NearestToTriangle {
   Vector3 on_axis, on_triangle;
-  double distance = 0;  ///< 0: they cross
+  double distance = 0;  ///< 0: axis and triangle cross
 };
 Vector3 nearest_point(const Triangle& triangle, const Vector3& point);
 NearestToTriangle nearest_points(const Triangle& triangle, const Vector3& from, const Vector3& to);
 
-/// The triangles of a file in metres; scale: metres per unit of the file. Errors: InputError of read_triangles(), and for a mesh that is longer
-/// than a cell: its unit is another one.
+/// Returns the triangles of a file in metres. scale: metres per unit of the file. Errors: InputError of read_triangles(), and for
+/// a mesh that is longer than a cell, which means that its unit is different.
 std::vector<Triangle> scaled_triangles(const std::filesystem::path& file, double scale);
 
 class Mesh {
  public:
-  /// Precondition: at least one triangle. Triangles without area are dropped where others remain.
+  /// Precondition: at least one triangle. Triangles without area are dropped, unless all are without area.
   explicit Mesh(std::vector<Triangle> triangles);
 
   struct MeshContact {
@@ -40,11 +40,11 @@ class Mesh {
     Vector3 normal;       ///< unit, from the mesh to the axis
     double distance = 0;  ///< 0: the axis crosses the surface
   };
-  /// Local minima of the distance between the piece from..to and the mesh, up to `reach`, nearest first, in
-  /// the mesh's own frame. O(log triangles) where few are near.
+  /// Returns the local minima of the distance between the piece from..to and the mesh, up to `reach`, nearest first, in the
+  /// mesh's own frame. Costs O(log triangles) if few are near.
   std::vector<MeshContact> near(const Vector3& from, const Vector3& to, double reach) const;
 
-  double radius() const { return radius_; }  ///< of the ball about the origin that holds it [m]
+  double radius() const { return radius_; }  ///< of the ball about the origin that contains the mesh [m]
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:
@@ -52,7 +52,7 @@ class Mesh {
   struct Node {
     Box box;
     int first = 0, last = 0;  ///< triangles of a leaf
-    int second_child = 0;     ///< 0: a leaf; the first child follows its parent
+    int second_child = 0;     ///< 0: a leaf; the first child directly follows its parent
   };
   void build(int first, int last);
   void gather(const Box& box, std::vector<int>& hits) const;

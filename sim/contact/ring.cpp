@@ -10,7 +10,7 @@ namespace {
 constexpr int newton_steps = 6;
 constexpr double last_step = 1e-10;  // [segments]
 constexpr int alternations = 8;       // between the nearest points of the axis and of the circle
-constexpr double same_side = 0.9;     // cosine: leaning points nearer than 25 deg are one
+constexpr double same_side = 0.9;     // cosine: contact points less than 25 deg apart are merged
 
 }  // namespace
 
@@ -57,7 +57,7 @@ double SpanAxis::passage(const Frame& frame) const {
   for (int k = 0; k < newton_steps; ++k) {
     const Point p = at(place);
     const double through = p.slope.dot(axis);
-    if (std::abs(through) < 0.1 * p.slope.norm()) break;  // along the plane: nearer than that is not needed
+    if (std::abs(through) < 0.1 * p.slope.norm()) break;  // along the plane: the present place is accurate enough
     place = std::clamp(place - std::clamp((p.position - frame.position).dot(axis) / through, -1.0, 1.0),
                        first(), last());
   }
@@ -83,7 +83,7 @@ void SpanAxis::attach(double place, const Vector3& offset, Contact& contact) con
 
 namespace {
 
-/// One edge of a ring: a circle about the frame's z.
+/// One edge of a ring: a circle about z of the frame.
 class Edge {
  public:
   Edge(const SpanAxis& axis, const Frame& frame, double radius, double hose_radius)
@@ -93,8 +93,8 @@ class Edge {
         hose_radius_(hose_radius),
         z_(tangent(frame.orientation)) {}
 
-  /// Both the side toward which the axis is off centre and, for an axis that stands askew, those that it
-  /// leans to.
+  /// Finds the contacts on both sides of the direction in which the axis is off centre and, for an inclined axis, on both sides
+  /// of its inclination.
   void find(double passage, const Contact& ring, double margin, std::vector<Contact>& contacts) const {
     const SpanAxis::Point p = axis_.at(passage);
     const Vector3 off = across(p.position - frame_.position), askew = across(p.slope) / p.slope.norm();
@@ -116,7 +116,7 @@ class Edge {
       place = axis_.nearest(edge, place);
       on_axis = axis_.at(place).position;
       const Vector3 next = across(on_axis - frame_.position);
-      if (next.dot(side) <= 0) break;  // the far side: its own direction is a minimum only when askew
+      if (next.dot(side) <= 0) break;  // the far side is a minimum only if the axis is inclined
       const double size = next.norm();
       if (size < 1e-6 * radius_) break;
       side = next / size;

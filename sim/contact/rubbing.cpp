@@ -9,8 +9,8 @@ namespace {
 
 constexpr double sector_width = 2 * std::numbers::pi / Rubbing::sectors;
 
-/// Of a point beside a segment where it was before the step of h [s], in segments of the rod: the base end is at
-/// its number.
+/// Returns the place of a point beside a segment, at the begin of the step of h [s], in segments of the rod: the segment's base
+/// end is at the segment's number.
 double place_beside(const Rod& rod, const RodState& state, int segment, const Vector3& point, double h) {
   const Vector3 centre = state.position[segment] - h * state.velocity[segment];
   const double along = (point - centre).dot(tangent(state.orientation[segment]));
@@ -35,7 +35,7 @@ Rubbing::Rubbing(const Rod& rod) : rod_(rod) {
 
 const Rubbing::Cells& Rubbing::cells_of(int segment) const { return cells_[rod_.span_of(segment).dresspack]; }
 
-// place: in segments of the rod. toward: from the axis to the obstacle.
+// place: in segments of the rod. toward: direction from the axis to the obstacle.
 void Rubbing::rub(Field& field, int segment, double place, bool spread, const Vector3& toward,
                   const RodState& state, double work) {
   const Cells& cells = cells_of(segment);

@@ -7,9 +7,9 @@
 namespace dresslife::sim {
 namespace {
 
-// Neighbouring centres are never further apart than this many lengths; a hose is stopped at 2 % elongation.
+// Neighbouring centres are at most this many lengths apart; a hose is stopped at 2 % elongation.
 constexpr double stretched = 1.1;
-// Axes closer than this share of the diameter have no direction of their own.
+// At a smaller share of the diameter the distance of two axes has no defined direction.
 constexpr double coincident = 1e-6;
 
 class Search {
@@ -39,7 +39,7 @@ class Search {
       for (; j < end;) {
         const double free_way = (state_.position[j] - state_.position[i]).norm() - half_lengths - near_;
         if (free_way < 0) touch(i, j);
-        // Those that are left out are at least a step away.
+        // Skipped segments are at least a step away.
         clear_ = std::min(clear_, reach_ + std::min(free_way, step));
         j += std::max(1, static_cast<int>(free_way / step));
       }
@@ -51,8 +51,8 @@ class Search {
     return (rod_.span_of(segment).segment_length / 2) * tangent(state_.orientation[segment]);
   }
 
-  // The nearest points, and, where the pieces lie side by side, each end against the other piece: one point
-  // would let them rock.
+  // Adds the nearest points, and for pieces side by side each end against the other piece, because a piece on one point would
+  // rock.
   void touch(int i, int j) {
     const Vector3 arm_i = arm(i), arm_j = arm(j);
     const Vector3 a0 = state_.position[i] - arm_i, a1 = state_.position[i] + arm_i;
@@ -91,7 +91,7 @@ class Search {
   const RodState& state_;
   const double reach_;
   std::vector<Contact>& contacts_;
-  double diameter_ = 0, near_ = 0;  // of the two spans being searched
+  double diameter_ = 0, near_ = 0;  // of the two present spans
   double clear_ = std::numeric_limits<double>::infinity();
 };
 

@@ -1,8 +1,7 @@
-// Where the hose touches itself: nearest points of its segments' axes.
+// Contact of the hose with itself: nearest points of the axes of its segments.
 //
-// Two segments touch when their axes are nearer than a diameter. Neighbours are left out: pieces less than
-// pi d/2 apart along the hose can meet only if it bends more sharply than its own radius d/2, which is what
-// its bending stiffness is there to prevent.
+// Two segments touch when their axes are nearer than a diameter. Neighbours are left out: pieces less than pi d/2 apart along the
+// hose could touch only in a bend sharper than the hose's radius d/2, which its bending stiffness prevents.
 #pragma once
 
 #include <vector>
@@ -11,17 +10,17 @@
 
 namespace dresslife::sim {
 
-/// Nearest points of the segments a0 a1 and b0 b1, as shares 0..1 of the way from a0 and b0. (Both squared
-/// distances minimised in turn from the unconstrained minimum, clamped: exact for two segments.)
+/// Nearest points of the segments a0 a1 and b0 b1, as shares 0..1 of the way from a0 and b0. (Starting from the unconstrained
+/// minimum, the squared distance is minimised over each share in turn, with limits: exact for two segments.)
 struct NearestPoints {
   double a = 0, b = 0;
 };
 NearestPoints nearest_points(const Vector3& a0, const Vector3& a1, const Vector3& b0, const Vector3& b1);
 
-/// Adds the contacts of the hose with itself, and of one hose with another, that are nearer than `reach` [m]
-/// to touching. Costs O(n) for a hose that is spread out: from a distance D of two segments the next (D -
-/// reach)/l along the span cannot be near. Returns a distance that no pair's surfaces are nearer to than [m]; infinite
-/// without a pair: until they have moved so far there is no contact within `reach`.
+/// Adds the contacts of the hose with itself, and of one hose with another, whose gap is below `reach` [m]. Costs O(n) for a
+/// spread-out hose: at a distance D of two segments, the next (D - reach)/l segments along the span cannot be near. Returns a
+/// lower bound of the distance between the surfaces of all pairs [m]; infinity without pairs. Until the segments have moved by
+/// this distance there is no contact within `reach`.
 double find_self_contacts(const Rod& rod, const RodState& state, double reach,
                           std::vector<Contact>& contacts);
 

@@ -33,7 +33,7 @@ size_t Touch::column(int obstacle) const {
   }
 }
 
-// Several contacts of one pair press together: their normal forces of one step add up.
+// The normal forces of several contacts of one pair in one step are added.
 void Touch::add_segment(int segment, const Contact& contact, double work) {
   const size_t obstacle = column(contact.obstacle), pair = segment * obstacles_.size() + obstacle;
   work_[pair] += work;

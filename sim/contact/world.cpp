@@ -17,14 +17,14 @@
 namespace dresslife::sim {
 namespace {
 
-// Contacts are sought this many steps of the fastest relative motion ahead, and at least least_margin.
+// Contacts are searched ahead by this many steps of the fastest relative motion, and at least by least_margin.
 constexpr double margin_steps = 1.5, least_margin = 1e-3;  // [1], [m]
-constexpr double bounds_slack = 1e-9;                      // roundings of bounds, which only sort out [m]
-constexpr int most_points = 4;                             // of one pair of shapes
+constexpr double bounds_slack = 1e-9;                      // [m] for rounding of bounds, which only exclude contacts
+constexpr int most_points = 4;                             // points of one pair of shapes
 constexpr double contact_work =
-    0.2;  // of a contact and a segment or another contact, over a segment's: ESTIMATE
+    0.2;  // cost of a contact with a segment or another contact, over that of a segment: ESTIMATE
 
-// ODE takes its memory without a look at what it gets.
+// ODE does not check whether an allocation fails.
 void* memory_or_throw(std::size_t bytes) {
   if (void* const memory = std::malloc(bytes)) return memory;
   throw std::bad_alloc();
@@ -34,7 +34,7 @@ void* more_memory_or_throw(void* memory, std::size_t, std::size_t bytes) {
   throw std::bad_alloc();
 }
 
-// ODE keeps data per process and per thread; both calls may be repeated.
+// ODE keeps data per process and per thread. Both calls can be repeated.
 void prepare_ode() {
   static std::once_flag once;
   std::call_once(once, [] {
@@ -56,7 +56,7 @@ Frame along(const Vector3& from, const Vector3& to) {
   return {(from + to) / 2, turn_between(Vector3::UnitZ(), to - from)};
 }
 
-// Beyond any hose; ODE ends the whole program when it meets numbers near overflow.
+// Faster than any hose. ODE aborts the whole program for numbers near overflow.
 constexpr double fastest = 1e6;  // [m/s], [rad/s]
 
 bool believable(std::span<const Twist6> change) {
@@ -68,7 +68,7 @@ bool believable(std::span<const Twist6> change) {
 void* tag(int number) { return reinterpret_cast<void*>(static_cast<std::intptr_t>(number)); }
 int tag_of(dGeomID geom) { return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(geom))); }
 
-/// All points within `radius` of a box about the shape's origin. Of a capsule the box is its axis.
+/// All points within `radius` of a box about the shape's origin. The box of a capsule is its axis.
 struct Bounds {
   Vector3 half = Vector3::Zero();  // [m]
   double radius = 0;               // [m]
@@ -78,16 +78,16 @@ struct Shape {
   dGeomID geom;
   int link;
   Frame local;   // in the link's frame
-  double reach;  // of the shape about its own origin [m]
+  double reach;  // radius of the shape about its own origin [m]
   Bounds bounds;
-  double clear = 0;  // it is no nearer to any segment's surface than this [m]; 0: not known
-  double moves = 0;  // at most over the step to come [m]
+  double clear = 0;  // lower bound of the distance to the surface of any segment [m]; 0: unknown
+  double moves = 0;  // upper bound of its movement in the next step [m]
 };
 
 struct GuideRing {
   RingShape shape;
   int link;
-  double place = std::numeric_limits<double>::quiet_NaN();  // where the axis passes it; not sought yet
+  double place = std::numeric_limits<double>::quiet_NaN();  // where the axis passes it; NaN: not searched yet
 };
 
 struct MeshShape {
@@ -107,23 +107,23 @@ struct World::Parts {
   RodSolver solver;
   ContactSolver contact_solver;
   RodState state;
-  std::vector<Frame> links;  // now
+  std::vector<Frame> links;  // present poses
   std::vector<Contact> contacts;
-  std::vector<std::pair<int, Contact>> found;  // with the shape's number
+  std::vector<std::pair<int, Contact>> found;  // with the number of the shape
 
   dWorldID world = nullptr;
   dThreadingImplementationID threading = nullptr;
   std::vector<dBodyID> bodies;
   dSpaceID hose = nullptr, obstacles = nullptr;
   std::vector<dGeomID> capsules;  // of the segments, `margin` larger than the hose
-  // (segment) for collide_with(): coordinates of the middles, half a length and the radius, and how far the surface is [m]
+  // (segment) for collide_with(): coordinates of the centres; half a length plus the radius; distance of the surface [m]
   std::array<std::vector<double>, 3> middles;
   std::vector<double> reaches, beyonds;
   dGeomID end_sphere = nullptr;
   std::vector<Shape> shapes;
   std::vector<MeshShape> meshes;
   std::vector<GuideRing> rings;
-  double self_clear = 0;  // as Shape::clear, of pairs of segments
+  double self_clear = 0;  // see Shape::clear, for pairs of segments
   double margin = least_margin;
   double work = 0;
 
@@ -168,7 +168,7 @@ World::~World() {
   dThreadingFreeImplementation(p.threading);
 }
 
-// Worlds share one threading implementation that is not safe between threads unless each is given its own.
+// Worlds share one threading implementation by default, which is not safe between threads, so each world gets its own.
 void World::Parts::build() {
   world = dWorldCreate();
   threading = dThreadingAllocateSelfThreadedImplementation();
@@ -184,7 +184,7 @@ void World::Parts::build() {
     const dBodyID body = dBodyCreate(world);
     dBodySetMass(body, &mass);
     dBodySetFiniteRotationMode(body, 1);
-    dBodySetGyroscopicMode(body, 0);  // ours, in (S3)
+    dBodySetGyroscopicMode(body, 0);  // contained in (S3)
     bodies.push_back(body);
   }
   push_state();
@@ -242,12 +242,12 @@ void World::add(int link, const RingShape& ring) {
 
 // ---- collision --------------------------------------------------------------------------------------------
 
-// What moves v relative to an obstacle can reach it from v h away.
+// Sets the margin: a contact with the relative speed v can close within the step from a distance of v h.
 void World::Parts::choose_margin(const ClampFrames& clamps, std::span<const Frame> next) {
   double speed2 = 0;
   for (const Vector3& v : state.velocity) speed2 = std::max(speed2, v.squaredNorm());
   const double h = settings.time_step;
-  const double came = std::sqrt(speed2) * h;  // no segment moved further over the last step
+  const double came = std::sqrt(speed2) * h;  // upper bound of each segment's movement in the last step
   self_clear -= 2 * came;
   for (int e = 0; e < clamps.ends(); ++e) {
     const RodProperties& p = rod.spans()[e / 2].properties;
@@ -303,14 +303,14 @@ void World::Parts::add_contact(int segment, int shape, const dContactGeom& geome
   contact.obstacle = shapes[shape].link;
   contact.normal = Vector3(geometry.normal[0], geometry.normal[1], geometry.normal[2]);
   contact.depth = depth;
-  // On the hose's own surface, whatever the margin: from the nearest point of its axis against the normal.
+  // The point on the hose's own surface, independent of the margin: from the nearest point of its axis against the normal.
   const double s = std::clamp((where - centre).dot(t), -l / 2, l / 2);
   contact.point = centre + s * t - radius(segment) * contact.normal;
   keep(shape, contact);
 }
 
 void World::Parts::keep(int shape, const Contact& contact) {
-  for (const auto& [other, known] : found)  // the same place through another shape of the segment
+  for (const auto& [other, known] : found)  // same place, found through another shape of the segment
     if (other == shape && known.segment == contact.segment && known.normal.dot(contact.normal) > 0.99 &&
         (known.point - contact.point).norm() < rod.span_of(contact.segment).segment_length / 8)
       return;
@@ -321,7 +321,7 @@ Frame World::Parts::placed(int link, const Frame& local, std::span<const Frame> 
   return link < 0 ? local : frames[link] * local;
 }
 
-// A segment whose axis crosses the surface lies in it with all its thickness.
+// A segment whose axis crosses the surface counts as overlapping by its whole diameter.
 void World::Parts::collide(int segment, size_t mesh, const Frame& frame) {
   const MeshShape& shape = meshes[mesh];
   if (held_by_clamp(segment, shape.link)) return;
@@ -341,10 +341,9 @@ void World::Parts::collide(int segment, size_t mesh, const Frame& frame) {
   }
 }
 
-// A segment can touch a shape only if its middle is nearer to the shape's bounds than half its length and its radius. A
-// shape that was further from all segments than both have moved since needs no look. Plain loops over the segments,
-// which the compiler vectorises: ODE's own search over two spaces takes three times as long for as few shapes as a robot
-// has.
+// A segment can touch a shape only if its centre is nearer to the shape's bounds than half its length plus its radius. A shape is
+// skipped if its last distance from all segments exceeds the movements since then. Plain loops over the segments, which
+// the compiler vectorises: ODE's search over two spaces takes three times as long for the small number of shapes of a robot.
 void World::Parts::collide_with(Shape& shape) {
   if (shape.clear > margin) return;
   const size_t n = capsules.size();
@@ -383,7 +382,7 @@ void World::Parts::collide(dGeomID a, dGeomID b) {
   if (count == 0) return;
   for (int k = 0; k < count; ++k) add_contact(segment, shape, points[k]);
   if (dGeomGetClass(b) != dBoxClass) return;
-  // A capsule on a box gets one point and rocks about it: its two end spheres give it a base.
+  // A capsule on a box gets one point and would rock about it. Its two end spheres give further points.
   const Vector3 arm = (rod.span_of(segment).segment_length / 2) * tangent(state.orientation[segment]);
   dGeomSphereSetRadius(end_sphere, radius(segment) + margin);
   for (const double side : {-1.0, 1.0}) {
@@ -424,14 +423,14 @@ void World::Parts::find_contacts(std::span<const Frame> next) {
   drop_distant_contacts();
 }
 
-// Coefficients are those against a robot's paint; two hoses slide where it is easier.
+// The coefficients are those against a robot's paint. Between two hoses the smaller one is used.
 double World::Parts::friction(const Contact& contact) const {
   if (settings.frictions.empty()) return settings.friction;
   const auto of = [&](int segment) { return settings.frictions[rod.span_of(segment).dresspack]; };
   return contact.other < 0 ? of(contact.segment) : std::min(of(contact.segment), of(contact.other));
 }
 
-// Those that cannot close within the step would only add idle rows to the contact problem.
+// Drops contacts that cannot close within the step, which would only add idle rows to the contact problem.
 void World::Parts::drop_distant_contacts() {
   const std::span<const Twist6> change = solver.velocity_change();
   std::erase_if(contacts, [&](const Contact& contact) {
@@ -465,7 +464,7 @@ void World::Parts::pull_state() {
   }
 }
 
-// The velocity changes as the force m dv/h and torque I dv/h that make ODE's own step bring them about.
+// Passes the velocity changes as the force m dv/h and torque I dv/h with which ODE's own step produces them.
 void World::Parts::push_bodies() {
   const double h = settings.time_step;
   const std::span<const Twist6> change = solver.velocity_change();
@@ -525,7 +524,7 @@ const RodState& World::state() const { return parts_->state; }
 void World::set_state(const RodState& state) {
   parts_->state = state;
   parts_->push_state();
-  parts_->self_clear = 0;  // nothing is known of these places
+  parts_->self_clear = 0;  // distances of the new state are unknown
   for (Shape& shape : parts_->shapes) shape.clear = 0;
 }
 const std::vector<Contact>& World::contacts() const { return parts_->contacts; }

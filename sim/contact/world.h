@@ -1,9 +1,8 @@
-// The world of one simulation: ODE's bodies, collision geometry and integrator around the chain.
+// The world of one simulation: ODE's bodies, collision geometry and integrator for the chain.
 //
-// Every segment is an ODE body with a capsule; the elastic links (rod.h) and contacts (contact.h) enter as
-// the force m dv/h and torque I dv/h with which ODE's own step advances the bodies. Robot links are groups of
-// geometry whose poses the caller gives for the end of every step. One World per simulation; worlds may live
-// in different threads.
+// Every segment is an ODE body with a capsule. Elastic links (rod.h) and contacts (contact.h) give the force m dv/h and the
+// torque I dv/h with which ODE's own step advances the bodies. Robot links are groups of geometry; the caller gives their poses
+// for the end of every step. One World per simulation; different worlds can be used in different threads.
 #pragma once
 
 #include <memory>
@@ -19,14 +18,14 @@ namespace dresslife::sim {
 
 struct WorldSettings {
   double time_step = 0.005;         ///< [s]
-  double friction = 0.3;            ///< Coulomb, hose against obstacles and itself
-  std::vector<double> frictions{};  ///< (dresspack) instead, between two the smaller; empty: all alike
+  double friction = 0.3;            ///< Coulomb coefficient of the hose against obstacles and itself
+  std::vector<double> frictions{};  ///< (dresspack) replaces `friction`, between two the smaller one; empty: unused
   bool floor = false;               ///< plane z = 0
-  bool self_contact = false;        ///< whether dresspacks feel themselves and each other
-  /// Link to which each end is clamped: contacts of a span's first or last piece, one diameter long beyond
-  /// the clamp, with that link do not push (the clamp holds it there). no_link: none.
+  bool self_contact = false;        ///< contacts of dresspacks with themselves and with each other
+  /// Links that carry the end clamps; no_link: none. Contacts of these links with the first or last piece of a span, one diameter
+  /// long beyond the clamp, are ignored, because the clamp holds this piece.
   int base_link = no_link, tool_link = no_link;
-  std::vector<int> between_links{};  ///< of the other ends, as ClampFrames::between; empty: none
+  std::vector<int> between_links{};  ///< links of the other ends, in the order of ClampFrames::between; empty: none
 
   int end_link(int e) const {
     if (e == 0) return base_link;
@@ -48,15 +47,14 @@ struct BoxShape {
 };
 
 struct StepReport {
-  bool finite = true;    ///< false: the state is useless, stop
-  double max_depth = 0;  ///< deepest overlap at the start of the step, 0 when nothing touches [m]
-  int touching = 0;      ///< contacts that overlap or carry force
+  bool finite = true;    ///< false: the state is invalid, stop
+  double max_depth = 0;  ///< deepest overlap at the start of the step [m]; 0: no contact
+  int touching = 0;      ///< number of contacts that overlap or have a force
 };
 
 class World {
  public:
-  /// Starts from `start`, with robot links at `links` (one frame per link that shapes may name; may be
-  /// empty).
+  /// Starts from `start`, with the robot links at `links`: one frame per link that shapes can name; may be empty.
   World(const Rod& rod, const WorldSettings& settings, const RodState& start,
         std::span<const Frame> links = {});
   ~World();
@@ -65,25 +63,25 @@ class World {
 
   void add(int link, const CapsuleShape& shape);
   void add(int link, const BoxShape& shape);
-  /// A mesh, in the frame `local` of the link. link: of the robot, or cell_obstacle for what stands still in
-  /// the world.
+  /// Adds a mesh in the frame `local` of the link. link: of the robot, or cell_obstacle for a mesh at rest in the world.
   void add(int link, std::shared_ptr<const Mesh> mesh, const Frame& local = {});
-  /// A guide ring, its frame that of the link; link: of the robot, or cell_obstacle.
+  /// Adds a guide ring; its frame is relative to the link. link: of the robot, or cell_obstacle.
   void add(int link, const RingShape& ring);
 
-  /// One time step, at whose end the clamps and links are as given.
+  /// Does one time step, at whose end the clamps and links have these poses.
   StepReport advance(const ClampFrames& clamps, std::span<const Frame> links = {});
-  /// The same with further loads on the segments (none, or one per segment).
+  /// Does one time step with further loads on the segments (none, or one per segment).
   StepReport advance(const ClampFrames& clamps, std::span<const Frame> links, std::span<const Load> loads);
 
   const RodState& state() const;
-  /// Replaces the state (a restart, or velocities taken away while settling).
+  /// Replaces the state (for a restart, or for velocities set to zero while settling).
   void set_state(const RodState& state);
-  /// Contacts of the last step, in order of segment.
+  /// Returns the contacts of the last step, in order of segment.
   const std::vector<Contact>& contacts() const;
   const Rod& rod() const;
   double time_step() const;
-  /// Of all steps so far, in steps of one segment without contact. A contact's impulse moves all segments and all contacts.
+  /// Returns the computational work of all steps so far. Unit: a step of one segment without contact. A contact costs in
+  /// proportion to the number of segments and contacts, because its impulse moves all of them.
   double work() const;
 
  private:
