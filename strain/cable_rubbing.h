@@ -6,6 +6,7 @@
 // after the sample counts, so that a cable that jumps from wall to wall does no work on its way.
 // The cable does not turn about itself against the hose. It touches the hose's wall with its outer side, or the parts around
 // the axis with its inner side, whichever is nearer. A held cable touches on the inside of the bend.
+//
 // Not contained: rolling, which would spare the jacket; the step from the last sample to the first one across the hose;
 // parts that do not rub (strain.slip).
 #pragma once

@@ -50,7 +50,7 @@ struct FibreHistory {
 struct Sink {
   std::function<void(const SiteRows&)> sites, bound_stick, bound_free;
   std::function<void(const Probe&)> probe;
-  std::function<void(const FibreHistory&)> fibre;  ///< the wires with the largest strains; for critical_plane only
+  std::function<void(const FibreHistory&)> fibre;  ///< the worst wires by each measure; for critical_plane only
 };
 
 /// Position of the evaluated segments in the dresspack: one span between two clamps. Both clamps hold the parts that slide.

@@ -1,13 +1,14 @@
 // Waves of the strain of a layer of wires that slides over its pitch, in closed form without nodes ((W27) in
 // strain/theory.md). Each wire has fibres at the height rho outward of its axis.
-// What depends on the angle theta is bending alone: by W6, W11 and W12 the strain of the fibre is
+//
 // Only bending depends on the angle theta. By W6, W11 and W12 the strain of the fibre is
+//     G (strain + rho (f (1 + strain) - f0)),   G = 1 / (1 + rho f0),
 //     f = (R sigma^2 + y X) / (R^2 sigma^2 + y^2) = (1 - s Re 1/(z + R X)) / R,   z = s + i R sigma,
-// s and sigma the parent's stretch and the layer's turning, index 0 the parent at
-// s is the stretch and sigma the turning rate of the parent; index 0: the parent at rest. X is a first harmonic of amplitude B.
-// b = theta - psi, and X0 is largest at the angle psi. With
+// s is the parent's stretch, sigma the layer's turning rate; index 0: the parent at rest. X is a first harmonic of amplitude B.
+// With b = theta - psi, psi the angle at which X0 is largest,
 //     X = P sin b + Q cos b,   D = |z|^2 = s^2 + R^2 sigma^2,   tau = R^2 sigma^2 / D,   k = R^2 B^2 / D,
 // the harmonics of 1/(z + R X) are series in k, truncated where the next term is small, with Chebyshev's C2 = 1 - 2
+// tau, C(n+2) = 2 C2 Cn - C(n-2), E1 = (C2 + C4)/2, E2 = (C4 + C6)/2, E3 = (C6 + C8)/2:
 //     mean    f_0 = (tau - k/2 (E1 + 3/4 k E2 + 5/8 k^2 E3)) / R
 //     first   f_1 = s/D (C2 + 3/4 k C4 + 5/8 k^2 C6 + 35/64 k^3 C8)          times P sin b + Q cos b
 //     second  f_2 = -R/(2 D) (E1 + k E2 + 15/16 k^2 E3)          times 2 P Q sin 2b + (Q^2 - P^2) cos 2b

@@ -133,7 +133,7 @@ void SlidingLine::attempt(std::span<const double> unslid, std::span<const double
 
 void SlidingLine::keep() {
   const std::size_t n = lengths_.size();
-  double gained = 0;  // length of part that left the space between the clamps
+  double gained = 0;  // increase of the length of part between the clamps
   for (std::size_t i = 0; i < n; ++i) {
     slid_[i] += strain(i) - tried_[i];
     gained += lengths_[i] * (tried_[i] - strain(i));

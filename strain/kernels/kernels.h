@@ -208,7 +208,7 @@ struct MixedLanes {
   std::vector<std::array<float, lanes>> rest;         ///< of shear and of the fibres' bending, (1 + fibres)
   std::vector<std::array<float, lanes>> fibre_scale;  ///< FibreShape::scale, (fibres)
   float cap = 0, cap_per_mean = 0;                    ///< cap infinite: glued, 0: free
-  float elastic = 0;               ///< share of the deviation that is held elastically (W30)
+  float elastic = 0;               ///< share of the deviation that is held independently of the cap (W30)
   float inverse_radial_share = 1;  ///< (W31)
   bool scales = true;              ///< curvature and torsion per path length are constant (W11)
   bool with_shear = false, on_axis = false;

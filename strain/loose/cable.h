@@ -33,7 +33,7 @@ struct LooseCable {
 
   // Limits of its movement; fit_in_hose() computes all except the first.
   double play = without_limit;      ///< c: greatest distance from its place, independent of other limits [m]
-  double farthest = without_limit;  ///< greatest distance from the hose's axis: the wall, or cables between [m]
+  double farthest = without_limit;  ///< greatest distance from the hose's axis: the wall, or parts between [m]
   double nearest = 0;               ///< least distance from the hose's axis: the core [m]
   int ring = no_ring;               ///< number of its ring: cables around the hose's axis that turn together
   double gap = without_limit;       ///< along its ring in both directions, up to its neighbours [m]

@@ -37,7 +37,7 @@ class LooseCables {
  public:
   /// cables: of one hose, after fit_in_hose() (strain/loose/rings.h).
   LooseCables(const std::vector<LooseCable>& cables, const LooseSettings& settings);
-  LooseCables(const LooseCables&) = delete;  // lines_ and rings_ point to each other's frames
+  LooseCables(const LooseCables&) = delete;  // frames_ and in_ring_ point into this object
 
   std::size_t nodes() const { return hose_.nodes(); }
   std::size_t cables() const { return lines_.count(); }
