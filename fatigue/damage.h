@@ -3,7 +3,8 @@
 // The model is evaluated in two ways. evaluate_cycles() lists every cycle with its exact stress and damage. DamageCounter sums
 // the damage of a history from tables, for the millions of histories of a dresspack.
 // Assumptions: damage adds up linearly, in any order. The repeated history starts on the cyclic curve at its largest |strain|
-// ((F4) in theory.md). From there its offset stress may relax (relaxation.h), so each repeat is nearly equal to the one before.
+// ((F4) in fatigue/stress_path.h). From there its offset stress may relax (relaxation.h), so each repeat is nearly equal to the
+// previous one.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Distribution of the life of several wires: k of n broken, with a part of the scatter that is common to all. Equations (F14),
-// (F15), (F25) of theory.md and scatter.h. Time is ln of a number of repeats in this file.
+// (F15), (F25) of fatigue/scatter.h. Time is ln of a number of repeats in this file.
 #pragma once
 
 #include <array>

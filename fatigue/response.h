@@ -1,5 +1,5 @@
 // Dependence of the worst wire's life on uncertain parameters (F27): the material's constants, and strains that dresslife-strain
-// computed with other friction, slack, play and grips (/variation of strain.h5).
+// computed with other friction, slack and grips (/variation of strain.h5).
 #pragma once
 
 #include <span>

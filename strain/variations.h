@@ -1,4 +1,4 @@
-// Strains of the likely worst wires with other friction, slack, play and grips, from which dresslife-fatigue computes the
+// Strains of the likely worst wires with other friction, slack and grips, from which dresslife-fatigue computes the
 // influence of uncertain inputs on the life (pipeline/job/uncertainty.h).
 //
 // Friction inside is crossed with slack. Friction along the hose and grips are varied one by one. Friction inside is also set
