@@ -126,18 +126,19 @@ class Evaluation {
   /// Returns the path of a layer without numbers: "signal cable/conductor/layer 1/wire".
   std::string name_of_layer(int layer) const;
   std::size_t dresspack() const { return place_.dresspack; }
-  /// Paths and forces of the cables. Precondition: end_first_pass() or evaluate(), which calls it.
-  /// For calls before the first sample see CablePaths.
+  /// See CablePaths. Call share_loose(), record_rubbing() and wind() before the first sample.
   void share_loose(const Evaluation& other) { cables_.share_loose(other.cables_); }
   void record_rubbing() { cables_.record_rubbing(); }
+  /// Returns paths and forces of the cables. Precondition: end_first_pass() or evaluate(), which calls it.
   const CablePaths& cables() const { return cables_; }
   void wind(std::uint64_t seed) { cables_.wind(seed); }
   void find_bent() { cables_.find_bent(); }  ///< see CablePaths
   void go_on_from(const Evaluation& other) { cables_.go_on_from(other.cables_); }
   void end_first_pass();
   /// bend_wave: length over which the span's curvature changes, 2 pi rms/rms of its slope, of the part that varies in time [m];
-  /// infinite: no variation. layer: of all layers with friction, the one whose strain evens out over the greatest length;
-  /// -1: none. longest: this length (LayerSlip::evening) [m]. straight: this layer has no lay.
+  /// infinite: no variation. layer: of the layers on which friction has an effect, the one whose strain evens out over the
+  /// greatest length; -1: none. longest: this length (LayerSlip::evening) [m]. straight: this layer evens out from clamp to clamp,
+  /// because it has no lay or fewer than four turns.
   struct BendScale {
     double bend_wave = 0, longest = 0;
     int layer = -1;
@@ -154,12 +155,12 @@ class Evaluation {
   /// Returns the sites of which one can have the largest damage of the segment, whatever the material and the other inputs.
   /// Precondition: evaluate() was called for this segment last.
   const std::vector<Site>& likely_worst() const { return likely_; }
-  /// Returns such sites at a rest that is not the job's own. Scans only the cables that bend most. Precondition: find_bent().
+  /// Returns the likely worst sites at a rest that is not the job's own. Scans only the cables that bend most. Precondition: find_bent().
   /// Segments as in varied().
   const std::vector<Site>& likely_of_bent(std::size_t segment, const DeformationHistory& history,
                                           std::size_t row);
-  /// Returns the largest sum over turning points of (range times tensile peak)^3 of these wires, which compares the rests of one
-  /// job. Call in the order of the segments; likely_of_bent() then returns the wires of this scan.
+  /// Returns the largest sum over turning points of (range times tensile peak)^3 of the cables that bend most, which compares the
+  /// rests of one job. Call in the order of the segments; likely_of_bent() then returns the wires of this scan.
   float damage_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row);
   /// Returns site rows and turning points of `sites`, in their order, with friction times each of `factors`: (factor). Segments
   /// as in evaluate(). An evaluation with other slack, play or grips does not need evaluate() before.
