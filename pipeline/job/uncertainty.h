@@ -3,7 +3,6 @@
 // Each parameter has a standardised variable z. Without measurements, z is standard normal and independent of the others. It
 // changes one key of the job, whose default has no effect:
 //     logarithmic   key = step^z, a factor;   else   key = step z, an addend.
-//     logarithmic   key = step^z, a factor;   else   key = step z, an addend.
 // For example, `--set strain.friction_factor=2.5` is friction at z = 1. The spread in a job (section `uncertainty`) changes the
 // width of the prior of z, but not the meaning of z. So z of a calibration is valid for every job.
 #pragma once
