@@ -1,8 +1,8 @@
 // Converts a cable's data sheet ("7 x 0.5 mm2, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket 1.1 mm") into layers
 // of cores and wires.
 //
-// Equal parts of diameter D are arranged as in a stranding machine: a first ring of s parts that touch, and further rings
-// around it at distances D,
+// Equal parts of diameter D are arranged like in a stranding machine: a first ring of s parts that touch, and rings
+// around it, each further out by D,
 //     R_1 = D / (2 sin(pi/s)), 0 for s = 1;  R_(j+1) = R_j + D,
 // with space for floor(pi / asin(D / 2 R)) parts in a ring. One more part is in the middle of six to nine. Cores may also lie
 // around a filler. The chosen s gives the narrowest bundle; among equal ones, that with the fullest outer ring. The parts of a
