@@ -3,7 +3,7 @@
 // `file:line:column: error: what (why); what to do`. Any other exception is a bug of this project (exit status 3).
 #pragma once
 
-#include <fmt/format.h>  // for those who write messages
+#include <fmt/format.h>  // for the code that writes messages
 
 #include <stdexcept>
 #include <string>

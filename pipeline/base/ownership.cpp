@@ -131,8 +131,7 @@ bool is_old_job(const fs::path& file, std::string_view begin) {
 
 struct Policy {
   std::mutex mutex;
-  std::multimap<std::pair<dev_t, ino_t>, fs::path> inputs;  ///< the key is the inode, the value is the name under which the file
-                                                            ///< was read
+  std::multimap<std::pair<dev_t, ino_t>, fs::path> inputs;  ///< key: inode; value: the name of the file when it was read
   bool replaces_files_of_others = false;
 };
 /// Returns the one policy of the program, which applies to all files that it writes.

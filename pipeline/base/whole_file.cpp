@@ -57,8 +57,7 @@ std::pair<int, fs::path> make_part(const fs::path& folder) {
     struct stat status {};
     const bool known = ::fstat(made, &status) == 0;
     const int error = errno;
-    if (locked && known && status.st_nlink == 1) return {made, std::move(part)};  // nothing may throw before the file is
-                                                                                  // registered
+    if (locked && known && status.st_nlink == 1) return {made, std::move(part)};  // nothing throws before its registration
     ::close(made);
     if (!locked || known) continue;
     ::unlink(part.c_str());

@@ -41,8 +41,7 @@ double largest_lay_angle(const Component& of) {
 
 /// Returns the least radius of the circle on which the parts fit at this lay angle [m].
 double least_helix_radius(const Component& of) {
-  double low = of.helix_radius, high = of.count * of.radius / std::cos(of.lay_angle);  // on a circle of 2 pi R > K 2 r / cos,
-                                                                                       // they fit
+  double low = of.helix_radius, high = of.count * of.radius / std::cos(of.lay_angle);  // they fit if 2 pi R > K 2 r / cos
   for (int halving = 0; halving < 40; ++halving) {
     const double middle = (low + high) / 2;
     (neighbour_distance(middle, of.lay_angle, of.count) < 2 * of.radius ? low : high) = middle;

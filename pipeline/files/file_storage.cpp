@@ -9,8 +9,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_chunk_bytes = 64 << 20;  // a reader keeps one chunk unpacked; other programs write chunks of up to 1
-                                                    // MB
+constexpr std::size_t most_chunk_bytes = 64 << 20;  // one chunk is kept unpacked; other programs write chunks of 1 MB or less
 
 using Filters = std::vector<H5Z_filter_t>;
 

@@ -59,8 +59,8 @@ struct Component {
   double lay_angle = 0;     ///< alpha >= 0 [rad]
   Hand hand = Hand::right;
   double phase = 0;                ///< theta_layer: angle of part 1 at the base clamp [rad]
-  std::optional<double> friction;          ///< Coulomb coefficient against the neighbouring parts; absent: no friction
-  std::optional<double> radial_line_load;  ///< line load that presses the part on its neighbours [N/m]; absent: 0
+  std::optional<double> friction;          ///< Coulomb coefficient against the surfaces that the part touches; absent: none
+  std::optional<double> radial_line_load;  ///< line load between the part and its support [N/m]; absent: 0
   double tension = 0;                      ///< tension in the part while the dresspack is at rest [N]
   double jacket_stiffness = 0;             ///< of a jacket that holds the part along its path [N/m2]
   std::optional<double> radial_stiffness;  ///< of the support under the helix [N/m2]; absent: rigid
@@ -128,8 +128,7 @@ struct Dresspack {
   std::optional<double> inner_diameter;  ///< of the space in which parts can move [m]; absent: see inner_radius()
   double core_diameter = 0;              ///< of the core, which fills the middle and is no component [m]
   std::string core_parts;                ///< content of the core in words; empty: unknown
-  std::vector<Component> core_components;  ///< parts of the core that have a life; their stiffness and mass are included in the
-                                           ///< keys core_..
+  std::vector<Component> core_components;  ///< parts of the core with a life; the keys core_.. contain their stiffness and mass
   double stiffness_factor = 1;           ///< of the polymer of wall or jacket at the cell's temperature
   std::optional<Sleeve> sleeve;          ///< absent: abrasion acts on the wall of hose_corrugation
   std::vector<Component> components;

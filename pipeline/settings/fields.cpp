@@ -263,8 +263,7 @@ class FieldReader final : public Fields {
     const std::size_t end = meaning.find(". ");
     std::string first(meaning.substr(0, end));
     if (first.ends_with('.')) first.pop_back();
-    if (first.size() > 1 && std::islower(static_cast<unsigned char>(first[1])))  // otherwise the first word is a symbol, such as
-                                                                                 // E
+    if (first.size() > 1 && std::islower(static_cast<unsigned char>(first[1])))  // not for a symbol, such as E
       first[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(first[0])));
     return first;
   }

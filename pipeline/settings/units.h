@@ -11,7 +11,7 @@ struct Unit {
   std::string_view name;    ///< for people
   double to_si;             ///< factor from this unit to SI; percent stays percent
   double most;              ///< upper limit in this unit: no robot cell has more, so a larger value is a mistake
-  /// Returns the lower limit of positive values in this unit. Smaller values have no effect.
+  /// Returns the lower limit of positive values in this unit; a smaller value is a mistake.
   double least() const { return most / 1e15; }
 };
 

@@ -25,8 +25,7 @@ struct OptionRules {
   bool required = false;
   std::optional<std::array<double, 2>> range = {};  ///< smallest and largest value of a number
   std::vector<std::string> choices = {};            ///< the values that are allowed; empty: any
-  bool other_values = false;                        ///< other values than the choices are allowed; completions offer the choices
-                                                    ///< only
+  bool other_values = false;                        ///< other values are allowed too; completions offer the choices
   std::string needs = {};                           ///< another option that is required with this one
   std::optional<std::string> shown_default = {};    ///< absent: the value of the variable before the command line is read
 };
