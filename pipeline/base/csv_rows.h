@@ -20,7 +20,7 @@ struct CsvCell {
 };
 using CsvRow = std::vector<CsvCell>;
 
-/// Returns the number that is the whole text, with or without a sign. Returns std::nullopt for any other text.
+/// Returns the number that is the whole text, with or without a sign, also "inf" and "nan"; std::nullopt for any other text.
 std::optional<double> number_in(std::string_view text);
 
 class CsvReader {

@@ -38,8 +38,8 @@ std::vector<Warning> slack_warnings(const Dresspack& dresspack);
 
 /// Returns the slack with which a cable of a ring winds once around the hose's axis between two clamps. On a radius r and a
 /// length L [m], one turn adds (2 pi r / L)^2 / 2. Then the cable is equally on the outer and the inner side of a uniform bend of
-/// the hose, which does not pull it. 0: its lay makes this turn already, it is in no ring, or the dresspack has more than two
-/// clamps. component: of the dresspack.
+/// the hose, which does not pull it. 0: its lay makes this turn already, it is in no ring, or the dresspack does not have
+/// exactly two clamps. component: of the dresspack.
 double winding_slack(const MountedDresspack& mounted, const Component& component);
 /// Returns the slack to propose if a cable has less than it needs to wind: at least usual_slack. With short bends it needs
 /// several turns; usual_slack gives two to three in the shipped dresspacks.

@@ -27,7 +27,7 @@ void leave_out(Calibration& calibration, const std::set<std::string>& names);
 
 /// Removes the parameters that are not valid for the job from its calibration. Parameters of a construction (SharedBy) are
 /// removed if the job has a cable (for friction_hose and play: a hose) that was not tested. Parameters of a material are removed
-/// if no test had one of the job's materials. The other parameters keep their joint normal distribution, which is exact. Writes
+/// if one of the job's materials was not tested. The other parameters keep their joint normal distribution, which is exact. Writes
 /// within.left_out in words.
 void leave_out_foreign_parameters(Job& job);
 
