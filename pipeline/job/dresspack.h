@@ -97,7 +97,7 @@ struct Dresspack {
   std::string name, source;
   std::string estimates;  ///< keys that the user omitted, with their estimated values (estimates.h); empty: none
   bool cable_alone =
-      false;            ///< the dresspack is a single cable (cable.h); its stiffness and mass may be unknown (0)
+      false;            ///< the dresspack is a single cable (cable_alone.h); its stiffness and mass may be unknown (0)
   double diameter = 0;  ///< outer, of the hose [m]
   double mass_per_length = 0;      ///< of the filled hose [kg/m]
   double bending_stiffness = 0;    ///< EI [N m2]
@@ -175,7 +175,7 @@ inline constexpr std::size_t most_bending_frictions = 4;
 /// Returns whether any of its stiffnesses or its mass is computed from its construction.
 bool is_from_construction(const Dresspack& dresspack);
 
-/// Removes data that no stage uses: ratings, core components, damage exponents and least bend radii.
+/// Removes keys that only dresslife-fatigue uses: ratings, core components, damage exponents and least bend radii.
 void drop_ratings(Dresspack& dresspack);
 
 /// Returns the number of levels of parts. slip: setting of the job. Errors: InputErrors at each part that does not fit into its

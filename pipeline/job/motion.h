@@ -50,9 +50,9 @@ struct MotionStep {
   std::optional<double> acceleration_percent;  ///< share of each axis' largest acceleration, multiplied with that of Motion [%]
   std::optional<double> acceleration;          ///< largest of the fastest axis [rad/s2]
   std::optional<double> tool_acceleration;     ///< largest acceleration of the tool's origin along its path [m/s2]
-  std::optional<double> jerk_percent;          ///< of the rate at which acceleration increases [%]
-  std::optional<double> zone;  ///< distance from the target at which blending begins, largest axis [rad]; 0: stop
-  std::optional<double> tool_zone;  ///< distance from the target at which blending begins, tool [m]; 0: stop
+  std::optional<double> jerk_percent;          ///< share of the usual rate at which acceleration increases [%]
+  std::optional<double> zone;  ///< blending begins at this distance of the farthest axis from its target [rad]; 0: stop
+  std::optional<double> tool_zone;  ///< blending begins at this distance of the tool from its target [m]; 0: stop
   std::optional<double>
       stop_zone;     ///< blending begins at this share of the stopping distance [%]
   double dwell = 0;  ///< [s]

@@ -139,7 +139,7 @@ bool is_program_file(const fs::path& file) {
 
 void resolve(Node& entry, const std::string& folder, const Where& job, int depth = 0);
 
-/// Reads `cable: ...` of a dresspack (cable.h). The other keys of the entry replace those of the result.
+/// Reads `cable: ...` of a dresspack (cable_alone.h). The other keys of the entry replace those of the result.
 void read_cable(Node& entry, const Where& job, int depth) {
   const Node cable = *entry.find("cable");
   const Node* from = cable.is_scalar() ? &cable : cable.find("from");
