@@ -14,7 +14,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 
-/// From the frame of the link before to that of the link that a joint moves.
+/// Returns the transform from the frame of the preceding link to that of the joint's link.
 Isometry3d step_of(const Joint& joint, double angle) {
   Isometry3d step = Isometry3d::Identity();
   step.translate(joint.origin);
@@ -23,20 +23,19 @@ Isometry3d step_of(const Joint& joint, double angle) {
   return step;
 }
 
-/// Frame in which axis 4 turns, before its turn. arm: axes 1 to 3.
+/// Returns the frame in which axis 4 turns, at angle 0 of axis 4. arm: axes 1 to 3.
 Isometry3d forearm(const Robot& robot, const Vector3d& arm) {
   Isometry3d frame = Isometry3d::Identity();
   for (int k = 0; k < 3; ++k) frame = frame * step_of(robot.joints[static_cast<std::size_t>(k)], arm[k]);
   return frame * step_of(robot.joints[3], 0);
 }
 
-/// The wrist's centre lies on axis 4, so that no turn of that moves it.
+/// Returns the wrist's centre. It is on axis 4, so the angle of axis 4 has no effect.
 Vector3d centre(const Robot& robot, const Vector3d& arm) {
   return forearm(robot, arm) * robot.joints[4].origin;
 }
 
-/// dc/dq by central differences: of smooth functions of angles, so that a millionth of a turn errs by
-/// rounding alone.
+/// Returns dc/dq by central differences. The functions are smooth, so with this step the error is that of rounding.
 Matrix3d jacobian(const Robot& robot, const Vector3d& arm) {
   constexpr double h = 1e-5;
   Matrix3d columns;
@@ -51,7 +50,7 @@ bool within_limits(const Robot& robot, std::size_t axis, double angle) {
   return angle >= robot.joints[axis].lower && angle <= robot.joints[axis].upper;
 }
 
-/// From a start; absent: it is not reached, or beyond an axis' limit.
+/// Solves for the arm from one start. std::nullopt: the target is not reached, or a limit of an axis is exceeded.
 std::optional<Vector3d> arm_at(const Robot& robot, const Vector3d& target, Vector3d arm) {
   constexpr int most_steps = 30;
   constexpr double longest_step = 0.5, reached = 1e-9;  // [rad, m]
@@ -69,7 +68,7 @@ std::optional<Vector3d> arm_at(const Robot& robot, const Vector3d& target, Vecto
   return std::nullopt;
 }
 
-/// Places from which each side of the arm is nearest to some.
+/// Returns starts such that each configuration of the arm is near to some of them.
 std::vector<Vector3d> starts(const Robot& robot, double first) {
   constexpr int places = 6;
   const auto at = [&](std::size_t axis, int k) {
@@ -83,13 +82,13 @@ std::vector<Vector3d> starts(const Robot& robot, double first) {
   return all;
 }
 
-/// (q4, q5, q6) next to `before` within the limits, of both turns and with whole turns. rotation: of the
-/// flange in forearm().
+/// Returns (q4, q5, q6) nearest to `before` within the limits, among both solutions and whole turns. rotation: of the flange in
+/// forearm().
 std::optional<Vector3d> wrist_at(const Robot& robot, const Matrix3d& rotation, const Vector3d& before) {
   const Vector3d a = robot.joints[3].axis.normalized(), b = robot.joints[4].axis.normalized(), e = b.cross(a);
   const double sign = robot.joints[5].axis.dot(a) > 0 ? 1 : -1;
   const Vector3d tip = rotation * a;
-  constexpr double aligned = 1e-9;  // axes 4 and 6 turn about one line, and axis 4 stays
+  constexpr double aligned = 1e-9;  // axes 4 and 6 turn about one line, and axis 4 does not move
   const double lean = std::hypot(tip.dot(e), tip.dot(a.cross(e)));
   std::optional<Vector3d> nearest;
   for (const double side : {1.0, -1.0}) {
@@ -124,7 +123,7 @@ bool has_wrist(const Robot& robot) {
 }
 
 std::vector<OtherArm> other_arms(const Robot& robot, const std::vector<double>& joints) {
-  constexpr double apart = 0.02;  // [rad]: nearer ones are one
+  constexpr double apart = 0.02;  // [rad]: nearer ones count as equal
   const Vector3d arm(joints[0], joints[1], joints[2]), wrist(joints[3], joints[4], joints[5]);
   Matrix3d rotation = forearm(robot, arm).linear();
   for (std::size_t k = 3; k < 6; ++k)

@@ -1,12 +1,11 @@
-// Joint angles that lead the tool to the same pose.
+// Different joint angles that move the tool to the same pose.
 //
-// A wrist whose axes 4 and 6 lie along each other at axis 5 = 0, and whose axis 5 crosses them at a right
-// angle in a point, reaches every pose twice, because R_x(pi) R_y(-b) R_x(pi) = R_y(b), and more often by
-// whole turns of axes 4 and 6:
+// Precondition: axes 4 and 6 coincide at axis 5 = 0, and axis 5 crosses them at a right angle in one point. Such a wrist reaches
+// every pose twice, because R_x(pi) R_y(-b) R_x(pi) = R_y(b), and more often with whole turns of axes 4 and 6:
 //     (q4, q5, q6) -> (q4 +- 180 deg, -q5, q6 +- 180 deg)
 //     (q4, q5, q6) -> (q4 +- 360 deg, q5, q6)
 //     (q4, q5, q6) -> (q4, q5, q6 +- 360 deg)
-// Another configuration of axes 1 to 3 (other_arms.h) reaches it, too.
+// Another configuration of axes 1 to 3 (other_arms.h) reaches the pose too.
 #pragma once
 
 #include <functional>
@@ -18,16 +17,17 @@
 
 namespace dresslife::pipeline {
 
-/// Other joint angles for those of a target [rad]; absent: there are none within the axes' limits.
+/// Replaces a target's joint angles by others [rad]; std::nullopt: there are none within the axes' limits.
 struct NamedTurn {
   std::string name;  ///< "axis 6 +360 deg"
   std::function<std::optional<std::vector<double>>(const std::vector<double>&)> turn;
 };
 
-/// The turns of wrist and arm above, of a robot that must outlive them; empty: its wrist is another.
+/// Returns the turns of wrist and arm described above; empty for another kind of wrist. Precondition: `robot` outlives the
+/// result.
 std::vector<NamedTurn> other_turns(const Robot& robot);
 
-/// Whether joint angles [rad] lie within the limits of the robot's axes.
+/// Returns whether joint angles [rad] are within the limits of the robot's axes.
 bool within_limits(const Robot& robot, const std::vector<double>& joints);
 
 }  // namespace dresslife::pipeline

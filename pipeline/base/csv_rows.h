@@ -1,5 +1,5 @@
-// Files of comma separated values, as rows of cells that know their place, and cells to write. Quotes after RFC 4180. Blank lines,
-// rows of empty cells and lines that begin with # do not count.
+// Reads CSV files as rows of cells. Each cell has its line and column. Also writes cells. Quotes follow RFC 4180. Blank lines,
+// rows of empty cells and lines that begin with # are skipped.
 #pragma once
 
 #include <cstdint>
@@ -15,27 +15,27 @@
 namespace dresslife::pipeline {
 
 struct CsvCell {
-  std::string text;          ///< without blanks around it and quotes
-  int line = 0, column = 0;  ///< of its first character, from 1
+  std::string text;          ///< without quotes and without blanks at both ends
+  int line = 0, column = 0;  ///< of the first character, from 1
 };
 using CsvRow = std::vector<CsvCell>;
 
-/// A whole decimal number, with a sign or not; nothing else is one.
+/// Returns the number that is the whole text, with or without a sign, also "inf" and "nan"; std::nullopt for any other text.
 std::optional<double> number_in(std::string_view text);
 
 class CsvReader {
  public:
-  /// file: for messages. separators: of them the first that occurs in the first line that counts.
+  /// file: for messages. separators: the first of these characters that occurs in the first row is the separator.
   CsvReader(std::string text, std::string file, std::string_view separators = ",\t;");
-  /// A file of any size, of which a few megabytes are in memory at a time. Errors: InputError for a line longer than one of them.
+  /// Reads a file of any size and keeps a few megabytes of it in memory. Errors: InputError for a line longer than one megabyte.
   CsvReader(PlainFile file, std::string_view separators);
 
-  /// The next row that counts; empty: there is none. Errors: InputError for a quote that is not closed in its
-  /// line, or with text behind it.
+  /// Returns the next row; empty at the end of the file. Errors: InputError for a quote that is not closed in its line, or that
+  /// has text behind it.
   CsvRow next();
   char separator() const { return separator_; }  ///< 0 before the first row
-  double share_read() const;                     ///< of a file, 0 .. 1
-  int line() const { return line_; }  ///< of the row that next() gave; at the end the last line
+  double share_read() const;                     ///< share of the file that was read, 0 .. 1
+  int line() const { return line_; }  ///< of the row that next() returned; at the end of the file the last line
   Where where(const CsvCell& cell) const { return {file_, cell.line, cell.column}; }
 
  private:
@@ -48,22 +48,22 @@ class CsvReader {
   void read_quoted(CsvCell& cell);
 
   std::string text_, file_;
-  std::optional<PlainFile> source_;  // of what follows text_
-  std::uint64_t read_ = 0;           // bytes of it that were read
+  std::optional<PlainFile> source_;  // of the text behind text_
+  std::uint64_t read_ = 0;           // bytes of source_ that were read
   std::string_view separators_;
-  char separator_ = '\0';  // not known yet
+  char separator_ = '\0';  // 0: not known yet
   std::size_t at_ = 0, line_begin_ = 0;
   int line_ = 0;
 };
 
-/// Errors: InputError for a title that is empty or occurs twice, and where one of `needed` is missing.
+/// Checks the row of titles. Errors: InputError for an empty title, a title that occurs twice, and a missing one of `needed`.
 void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer_list<std::string_view> needed);
 
-/// Text for a spreadsheet or a terminal: what would be a formula there begins with an apostrophe, and no letter acts
-/// or hides (shown()).
+/// Returns the text so that a spreadsheet or a terminal only displays it: a text that a spreadsheet would take for a formula
+/// begins with an apostrophe, and control characters are escaped (shown()).
 std::string harmless(const std::string& text);
 
-/// The same as a cell, in quotes where it needs them.
+/// Returns harmless(text) as a CSV cell, in quotes if it needs them.
 std::string csv_cell(const std::string& text);
 
 }  // namespace dresslife::pipeline

@@ -11,7 +11,7 @@ namespace dresslife::pipeline {
 using Day = std::chrono::sys_days;
 inline constexpr const char* date_remedy = "write YYYY-MM-DD, as in 2027-07-12";
 
-/// "2027-07-12"; absent: it is no date.
+/// Reads "2027-07-12". Returns std::nullopt for a text that is no date.
 std::optional<Day> day_from(std::string_view text);
 std::string day_text(Day day);
 Day today();

@@ -1,6 +1,6 @@
 #include "pipeline/base/digest.h"
 
-// The envelope around it (EVP) makes tables of every cipher first: a third of a millisecond at each start of
+// The newer interface of OpenSSL (EVP) builds tables of every cipher first, which takes a third of a millisecond at each start of
 // a stage.
 #define OPENSSL_API_COMPAT 10101
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ std::string sha256(std::string_view bytes) {
 namespace {
 
 
-/// Gives a file's bytes to `digest`, block by block.
+/// Adds the bytes of a file to `digest`, block by block.
 template <class Digest>
 std::string digest_of(const PlainFile& bytes, Digest&& digest) {
   std::vector<char> block(read_block_bytes);

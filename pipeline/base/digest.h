@@ -1,6 +1,5 @@
-// Fingerprints of bytes: SHA-256, by which files name their inputs, and XXH3 of 128 bits, by which damage and
-// change are noticed. XXH3 takes a tenth of a second for a gigabyte; it guards against accidents, not against
-// forgers.
+// Digests of bytes. SHA-256 identifies the inputs of a file. XXH3 of 128 bits detects damage and changes. XXH3 takes 0.1 s for a
+// gigabyte. It detects accidents, but not forgeries.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +15,14 @@ class PlainFile;
 std::string sha256(std::string_view bytes);                     ///< 64 hexadecimal digits
 std::string sha256_of_file(const std::filesystem::path& file);  ///< Errors: those of PlainFile
 
-/// What one reading of a file finds.
+/// Results of one reading of a file.
 struct DigestedFile {
-  std::string sha256;        ///< of all its bytes
-  std::string head;          ///< its first bytes
-  std::string xxh3_of_rest;  ///< of the bytes behind those
+  std::string sha256;        ///< of all bytes
+  std::string head;          ///< the first bytes
+  std::string xxh3_of_rest;  ///< of the bytes behind `head`
   std::uint64_t size = 0;
 };
-/// Errors: those of PlainFile.
+/// Reads a file once; `head_bytes` is the length of `head`. Errors: those of PlainFile.
 DigestedFile digested_file(const std::filesystem::path& file, std::size_t head_bytes);
 
 /// XXH3, 128 bits, as 32 hexadecimal digits.
@@ -42,7 +41,7 @@ class Xxh3 {
 std::string xxh3(std::string_view bytes);
 std::string xxh3_of_file(const std::filesystem::path& file);  ///< Errors: those of PlainFile
 std::string xxh3_of(const PlainFile& file);                   ///< Errors: DiskError
-/// XXH3 of 64 bits, in one call: of pieces of a file whose whole has a digest of 128.
+/// Returns XXH3 of 64 bits, computed in one call. It is used for pieces of a file that also has a digest of 128 bits.
 std::uint64_t xxh3_64(const void* bytes, std::size_t count);
 
 }  // namespace dresslife::pipeline

@@ -12,7 +12,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// "1,200": a comma before three digits that end the number.
+/// Returns whether the text is like "1,200": its first comma stands before exactly three digits at the end.
 bool may_be_thousands(const std::string& text) {
   const std::size_t comma = text.find(',');
   return comma != std::string::npos && text.size() == comma + 4 &&
@@ -20,7 +20,7 @@ bool may_be_thousands(const std::string& text) {
                      [](unsigned char letter) { return std::isdigit(letter); });
 }
 
-/// Place of the first byte that is no UTF-8; the size of the text: there is none.
+/// Returns the position of the first byte that is not UTF-8; the size of the text if all bytes are.
 std::size_t first_no_utf8(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
     const auto byte = static_cast<unsigned char>(text[at]);
@@ -43,7 +43,7 @@ std::optional<Day> exported_day(std::string_view text) {
   const std::string date(text.substr(0, text.find_first_of(" T")));
   if (const std::optional<Day> day = day_from(date)) return day;
   int day = 0, month = 0, year = 0, used = 0;
-  constexpr int first_year = 1000;  // with two digits the century is not known
+  constexpr int first_year = 1000;  // a year of two digits has an unknown century
   if (std::sscanf(date.c_str(), "%2d.%2d.%4d%n", &day, &month, &year, &used) != 3 ||
       used != static_cast<int>(date.size()) || year < first_year)
     return std::nullopt;
@@ -92,7 +92,7 @@ std::string number_remedy(const std::string& text) {
     return fmt::format("write {} or {}", whole, decimal);
   }
   std::string plain;
-  // Of "1.200,50" and "1,200.50" the last mark is the decimal one.
+  // In "1,200.50" and "1.200,50" the last mark is the decimal mark.
   const std::size_t last = text.find_last_of(".,");
   const bool has_both = text.find('.') != text.npos && text.find(',') != text.npos;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -106,7 +106,7 @@ std::string number_remedy(const std::string& text) {
 }
 
 void check_utf8(const std::string& text, const std::string& file) {
-  const std::size_t at = std::min(first_no_utf8(text), text.find('\0'));  // each letter of UTF-16 has a 0
+  const std::size_t at = std::min(first_no_utf8(text), text.find('\0'));  // in UTF-16, each ASCII character has a byte 0
   if (at >= text.size()) return;
   const bool table = file.ends_with(".csv");
   throw InputError({file, 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n')), 0},

@@ -1,4 +1,5 @@
-// Dates and numbers as spreadsheets and maintenance systems export them, and what to write instead of a text that is none.
+// Reads dates and numbers as spreadsheets and maintenance systems export them. Suggests a correction for texts that cannot be
+// read.
 #pragma once
 
 #include <optional>
@@ -9,17 +10,20 @@
 
 namespace dresslife::pipeline {
 
-/// "2027-07-12" or "12.7.2027". A time of day behind it does not count. Absent: no date, or one whose order is not known (7/12/2027).
+/// Reads "2027-07-12" or "12.7.2027". A time of day behind the date is ignored. Returns std::nullopt for a text that is no date,
+/// and for a date whose order of day and month is ambiguous (7/12/2027).
 std::optional<Day> exported_day(std::string_view text);
-/// "write 2027-07-12", for a text that is no exported_day().
+/// Returns a remedy such as "write 2027-07-12" for a text that exported_day() cannot read.
 std::string day_remedy(const std::string& text);
 
-/// With a decimal point or a decimal comma. Absent: no number, or one whose comma may separate thousands (1,200).
+/// Reads a number with a decimal point or a decimal comma. Returns std::nullopt for any other text, and for a number whose comma
+/// may separate thousands (1,200).
 std::optional<double> exported_number(std::string text);
-/// "write 1200 or 1.2", for a text that is no exported_number().
+/// Returns a remedy such as "write 1200 or 1.2" for a text that exported_number() cannot read.
 std::string number_remedy(const std::string& text);
 
-/// Spreadsheets save letters beyond ASCII as Windows-1252, which no page and calendar shows. Errors: InputError at the line of the first such letter.
+/// Checks that a text is UTF-8. Spreadsheets save characters beyond ASCII as Windows-1252, which pages and calendars cannot show.
+/// Errors: InputError with the line of the first byte that is not UTF-8.
 void check_utf8(const std::string& text, const std::string& file);
 
 }  // namespace dresslife::pipeline

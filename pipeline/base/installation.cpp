@@ -31,7 +31,7 @@ std::string instruction_set_names() {
   return names;
 }
 
-/// Where a shell finds a program of this name; empty: nowhere.
+/// Returns the file that a shell starts for this name; empty: it finds none.
 fs::path on_search_path(const std::string& name) {
   const char* const all = std::getenv("PATH");
   std::istringstream folders(all ? all : "");
@@ -60,8 +60,8 @@ fs::path program_file() {
   std::error_code failure;
   const fs::path target = fs::read_symlink("/proc/self/exe", failure);
   if (!failure) return target;
-  // The path that the kernel started, from the auxiliary vector. A relative one is valid as long as the current
-  // folder is unchanged, and our programs do not change it.
+  // Reads the path that the kernel started from the auxiliary vector. A relative path is valid because no program of this project
+  // changes its current folder.
   const char* const name = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
   return program_called(name ? name : "");
 }
@@ -87,7 +87,7 @@ std::string version_text(const std::string& program) {
   try {
     if (const std::string commit = first_line(shared_folder() / "commit"); !commit.empty())
       text += "commit " + commit + "\n";
-  } catch (const InputError&) {  // the catalogue, below, has the same to say
+  } catch (const InputError&) {  // shipped_catalogue() below reports the same problem
   }
   text += "built as " DRESSLIFE_BUILD "\n";
   text += fmt::format("this machine runs the hot loops with:{}\n", instruction_set_names());

@@ -1,12 +1,12 @@
-// Where the running program lies, what came with it and what it was built from. No path of the machine that
-// built it is compiled in, so programs and catalogue can be moved together:
+// Finds the folder of the running program, its catalogue and its version. No path of the build machine is compiled in, so
+// programs and catalogue can be moved together:
 //
 //     bin/dresslife, bin/dresslife-sim, ...   the programs, beside each other
 //     share/dresslife/config                  the catalogue
-//     share/dresslife/commit                  the sources' commit, where it was known
+//     share/dresslife/commit                  the commit of the sources, if it was known
 //
-// A build folder is laid out in the same way. The commit is a file and no part of a program, because a study
-// computes again what another program would make: a commit that leaves the programs alone must not touch them.
+// A build folder has the same layout. The commit is a file and not a part of a program: a study computes a job again when a
+// program has changed, and a commit that does not change the programs must not cause that.
 #pragma once
 
 #include <filesystem>
@@ -14,23 +14,22 @@
 
 namespace dresslife::pipeline {
 
-/// The running program itself, whatever link or search path led to it. Errors: InputError where there is no
-/// /proc and the name it was started by leads nowhere.
+/// Returns the file of the running program, with links resolved. Errors: InputError if /proc is missing and the name by which the
+/// program was started leads to no file.
 std::filesystem::path program_file();
 std::filesystem::path program_folder();
 
-/// The file that a program was started from as `name`: a path, or a name on the search path. Errors:
-/// InputError.
+/// Returns the file of a program that was started as `name`: a path, or a name on the search path. Errors: InputError.
 std::filesystem::path program_called(const std::string& name);
 
-/// The folder that the environment variable DRESSLIFE_CONFIG names (who sets it means it), else the catalogue
-/// that came with the program. Errors: InputError when it is no folder.
+/// Returns the folder in the environment variable DRESSLIFE_CONFIG if it is set, else the catalogue installed with the program.
+/// Errors: InputError if it is no folder.
 std::filesystem::path shipped_catalogue();
 
 const char* version();  ///< "0.1.0"
 
-/// For --version: the program's name and version, then lines with commit, build, instruction sets, libraries
-/// and catalogue.
+/// Returns the text of --version: name and version of the program, then lines for commit, build, instruction sets, libraries and
+/// catalogue.
 std::string version_text(const std::string& program);
 
 }  // namespace dresslife::pipeline

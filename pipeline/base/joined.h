@@ -1,4 +1,4 @@
-// Words as one text. fmt::join compiles a fifth of a second more in each source.
+// Joins words into one text. fmt::join takes 0.2 s more compile time in each source.
 #pragma once
 
 #include <string>
@@ -6,14 +6,14 @@
 
 namespace dresslife::pipeline {
 
-/// The words, with `between` between each two of them.
+/// Returns the words with `between` between each two neighbours.
 template <class Words>
 std::string joined(const Words& words, std::string_view between) {
   std::string text;
   bool first = true;
   for (const auto& word : words) {
     if (!first) text += between;
-    text += std::string_view(word);  // refuses numbers
+    text += std::string_view(word);  // does not compile for numbers
     first = false;
   }
   return text;

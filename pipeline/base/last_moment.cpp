@@ -14,17 +14,17 @@
 namespace dresslife::pipeline {
 namespace {
 
-// A handler takes no arguments, allocates nothing and waits for no lock. A program writes a file or two at a time and
-// starts one program at a time. dresslife-strain has up to 12 files beside these for each span between two clamps.
+// The table is static because a signal handler takes no arguments, allocates nothing and waits for no lock. A program writes one
+// or two files and starts one program at a time. dresslife-strain has up to 12 more files for each span between two clamps.
 constexpr std::size_t most_places = 256, longest_name = 4096;
 struct Place {
   std::atomic<bool> taken{false}, filled{false};
-  char path[longest_name] = "";  ///< empty: of a process
+  char path[longest_name] = "";  ///< empty: the place is of a process
   pid_t process = 0;
 };
 Place places[most_places];
 std::atomic<bool> tidied{false};
-pid_t owner = 0;  ///< a child that has not become another program yet tidies nothing
+pid_t owner = 0;  ///< id of the program; a child that has not become another program yet has another id and cleans up nothing
 
 constexpr std::initializer_list<int> ending_signals{SIGINT, SIGTERM, SIGHUP};
 
@@ -42,7 +42,7 @@ void give_back(std::size_t place) {
 
 extern "C" void end_tidily(int signal) {
   tidy_at_the_end();
-  ::raise(signal);  // now with its own effect
+  ::raise(signal);  // now with its default effect
 }
 
 sigset_t signals_that_end() {
@@ -99,14 +99,14 @@ void end_tidily_at_signals() {
     struct sigaction action {};
     if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
     action.sa_handler = end_tidily;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);  // the same signal again acts at once
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);  // a second signal of this kind acts at once
     ::sigaction(signal, &action, nullptr);
   }
 }
 
 void end_without_memory() noexcept {
   static std::atomic<bool> said{false};
-  while (said.exchange(true)) ::pause();  // another thread is at it
+  while (said.exchange(true)) ::pause();  // another thread is already ending the program
   constexpr std::size_t words = sizeof out_of_memory_words - 1;
   char line[256];
   std::size_t length = ::strnlen(program_invocation_short_name, sizeof line - words - 2);

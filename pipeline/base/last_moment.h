@@ -1,5 +1,5 @@
-// What a program does in its last moment, when a signal, its time or its memory ends it: it ends the programs that
-// it has started, waits for them, and removes files that are not whole. Only what a signal's handler may do is done.
+// Cleanup when a signal, a time limit or a memory limit ends a program: it ends the programs that it has started, waits for them,
+// and removes incomplete files. The cleanup uses only functions that are allowed in a signal handler.
 #pragma once
 
 #include <sys/types.h>
@@ -9,7 +9,7 @@
 
 namespace dresslife::pipeline {
 
-/// While it lives, this file (or folder, when it is empty then) is removed in the program's last moment.
+/// While this object lives, the cleanup removes this file (or this folder, if it is empty then).
 class RemovedAtTheEnd {
  public:
   explicit RemovedAtTheEnd(const std::filesystem::path& path);
@@ -21,7 +21,7 @@ class RemovedAtTheEnd {
   std::size_t place_;
 };
 
-/// While it lives, this child process is ended (SIGTERM) and waited for in the program's last moment.
+/// While this object lives, the cleanup ends this child process (SIGTERM) and waits for it.
 class EndedAtTheEnd {
  public:
   explicit EndedAtTheEnd(pid_t process);
@@ -33,7 +33,7 @@ class EndedAtTheEnd {
   std::size_t place_;
 };
 
-/// While it lives, signals that would end the program wait: what is made is noted before one of them acts.
+/// While this object lives, signals that would end the program wait. So a new file or process is registered before a signal acts.
 class SignalsHeld {
  public:
   SignalsHeld();
@@ -42,20 +42,20 @@ class SignalsHeld {
   SignalsHeld& operator=(const SignalsHeld&) = delete;
 };
 
-/// In a child that becomes another program: signals no longer wait.
+/// Unblocks the signals in a child process before it becomes another program.
 void release_signals();
 
-/// Does all of it, once.
+/// Runs the whole cleanup. Only the first call has an effect.
 void tidy_at_the_end() noexcept;
 
-/// From now on the signals of Ctrl-C, of `kill` and of a closed terminal end the program in this way, if it did not
-/// ignore them before.
+/// Installs the cleanup for the signals of Ctrl-C, of `kill` and of a closed terminal. A signal that was ignored before stays
+/// ignored.
 void end_tidily_at_signals();
 
-/// They end as those of every error of the machine (errors.h).
+/// The words end like those of every error of the machine (errors.h).
 inline constexpr char out_of_memory_words[] =
     "error: out of memory; run fewer jobs at a time, ask for fewer segments or samples, or allow more, then run again\n";
-/// Says that memory has run out and ends the program with exit status 1. Allocates nothing.
+/// Prints that memory has run out and ends the program with exit status 1. Allocates nothing.
 [[noreturn]] void end_without_memory() noexcept;
 
 }  // namespace dresslife::pipeline

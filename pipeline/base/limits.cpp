@@ -20,7 +20,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// What the handler of the alarm says: all it may touch. A signal handler has no arguments of its own.
+/// Text that the handler of the alarm prints. It is static because a signal handler takes no arguments.
 struct LastWords {
   char text[256];
   std::size_t length;
@@ -48,8 +48,8 @@ void settle_streams() {
 void end_with_parent() {
   const char* const parent = std::getenv("DRESSLIFE_PARENT");
   if (!parent) return;
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // which lets it remove what is not whole
-  if (::getppid() != std::strtol(parent, nullptr, 10)) ::_exit(1);  // it died before that was said
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // with SIGTERM the program can remove incomplete files
+  if (::getppid() != std::strtol(parent, nullptr, 10)) ::_exit(1);  // the parent ended before prctl()
 }
 
 void limit_time(const std::string& program, std::uint64_t seconds) {
@@ -65,8 +65,8 @@ void limit_time(const std::string& program, std::uint64_t seconds) {
 
 namespace {
 
-/// The kernel ends a program whose stack may not grow: it grows before memory is limited. The lowest byte is
-/// enough, all between belongs to the stack with it; pages that are never used are never cleared.
+/// The kernel ends a program whose stack cannot grow, so the stack grows before memory is limited. Writing the lowest byte is
+/// enough: all pages above belong to the stack then, and unused pages take no memory.
 [[gnu::noinline]] void grow_stack() {
   constexpr std::size_t bytes = 1 << 20;
   volatile char stack[bytes];
@@ -100,8 +100,8 @@ std::uint64_t installed_memory_mb() {
 
 namespace {
 
-/// Invisible characters that reverse or hide the text around them: the bytes of UTF-8 at this place, and the code
-/// point; 0 bytes: there is none.
+/// A character that hides the text around it or changes its direction: its bytes in UTF-8 and its code point. 0 bytes: the text
+/// has no such character at this position.
 struct InvisibleCharacter {
   std::size_t bytes;
   unsigned code;
@@ -110,8 +110,8 @@ InvisibleCharacter unseen_at(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t k) { return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0u; };
   const unsigned two = (byte(0) & 0x1f) << 6 | (byte(1) & 0x3f);
   const unsigned three = (byte(0) & 0x0f) << 12 | (byte(1) & 0x3f) << 6 | (byte(2) & 0x3f);
-  // U+0080 .. U+009F act on some terminals; U+061C, U+200E .. U+200F, U+202A .. U+202E, U+2066 .. U+2069 turn the
-  // direction of writing (UAX #9).
+  // U+0080 .. U+009F act on some terminals. U+061C, U+200E .. U+200F, U+202A .. U+202E and U+2066 .. U+2069 change the writing
+  // direction (UAX #9).
   if (byte(0) == 0xc2 && byte(1) < 0xa0 && byte(1) >= 0x80) return {2, two};
   if (byte(0) == 0xd8 && byte(1) == 0x9c) return {2, two};
   const bool turns = three == 0x200e || three == 0x200f || (three >= 0x202a && three <= 0x202e) ||

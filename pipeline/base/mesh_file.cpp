@@ -25,7 +25,7 @@ static_assert(std::endian::native == std::endian::little, "binary STL is little-
 std::vector<Triangle> binary_stl(const std::string& bytes) {
   std::vector<Triangle> triangles((bytes.size() - stl_header) / stl_triangle);
   for (size_t k = 0; k < triangles.size(); ++k) {
-    float numbers[9];  // after the normal
+    float numbers[9];  // the nine coordinates behind the normal
     std::memcpy(numbers, bytes.data() + stl_header + k * stl_triangle + 12, sizeof(numbers));
     for (int corner = 0; corner < 3; ++corner)
       triangles[k][corner] = {numbers[3 * corner], numbers[3 * corner + 1], numbers[3 * corner + 2]};
@@ -64,7 +64,7 @@ std::vector<Triangle> ascii_stl(const std::string& text, const std::filesystem::
   return triangles;
 }
 
-// "7", "7/1", "7//3", "-1": the first number; negative ones count from the last vertex.
+// Reads the first number of "7", "7/1", "7//3" or "-1". Negative numbers count from the last vertex.
 Vector3 corner_of(const std::string& word, const std::vector<Vector3>& vertices,
                   const std::filesystem::path& file, int line) {
   const int index = std::atoi(word.c_str()), count = static_cast<int>(vertices.size());

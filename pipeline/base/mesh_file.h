@@ -1,5 +1,5 @@
-// Triangle meshes from files. The two formats are read here: STL (binary, ASCII) and OBJ (v, f) are a list of
-// triangles each. Assimp would read both, and forty more, for a dependency larger than the whole project.
+// Reads triangle meshes: STL (binary, ASCII) and OBJ (v, f). Both formats are lists of triangles. The library Assimp would read
+// both and forty more, but it is larger than this project.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@ namespace dresslife::pipeline {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-/// Triangles of an .stl or .obj file, in its units. Faces of more corners are cut into fans. Errors:
-/// InputError that names the file, for OBJ and ASCII STL also the line.
+/// Returns the triangles of an .stl or .obj file, in its units. Faces of more than three corners are divided into triangle fans.
+/// Errors: InputError with the file, for OBJ and ASCII STL also with the line.
 std::vector<Triangle> read_triangles(const std::filesystem::path& file);
 
 }  // namespace dresslife::pipeline

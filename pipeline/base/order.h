@@ -1,4 +1,4 @@
-// The order of a list as indices, where the list itself stays as it is.
+// Sorts the indices of a list; the list itself does not change.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 
 namespace dresslife::pipeline {
 
-/// 0 .. size - 1.
+/// Returns 0 .. size - 1.
 inline std::vector<std::size_t> indices_of(std::size_t size) {
   std::vector<std::size_t> all(size);
   std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
 }
 
-/// 0 .. size - 1 with rising key(index). Indices with equal keys keep their order.
+/// Returns 0 .. size - 1, sorted by increasing key(index). Indices with equal keys keep their order.
 template <class Key>
 std::vector<std::size_t> smallest_first(std::size_t size, const Key& key) {
   std::vector<std::size_t> order = indices_of(size);
@@ -23,7 +23,7 @@ std::vector<std::size_t> smallest_first(std::size_t size, const Key& key) {
   return order;
 }
 
-/// 0 .. size - 1 with falling key(index). Indices with equal keys keep their order.
+/// Returns 0 .. size - 1, sorted by decreasing key(index). Indices with equal keys keep their order.
 template <class Key>
 std::vector<std::size_t> largest_first(std::size_t size, const Key& key) {
   std::vector<std::size_t> order = indices_of(size);

@@ -21,19 +21,19 @@ constexpr std::string_view words = "Written by dresslife; ", yours = "yours once
                            ours = "made again once it is changed ";
 constexpr std::size_t digest_digits = 32;
 
-/// What our programs put into a folder of notes.
+/// Names of files that our programs write into a notes folder.
 constexpr std::array<std::string_view, 8> notes{notes_mark,    "study",      "failure",     "memory",
                                                 ".ninja_log",  ".ninja_deps", "build.ninja", ".lock"};
 constexpr std::array<std::string_view, 5> ends_of_notes{".receipt", ".log", ".launcher", ".likes", ".part"};
 
-/// How files of ours begin that have no line of comment, and those of older versions, which had none.
+/// Beginnings of our files that contain no comment line, and of older versions, which had no mark.
 struct Beginning {
   std::string_view begins, contains = "";
 };
 constexpr std::array beginnings{
     Beginning{"dresslife file\n"},                                     // HDF5 (pipeline/files/checksum.h)
     Beginning{"recipe "},                                              // receipts
-    Beginning{"dresslife study "},                                     // what a run notes of its study
+    Beginning{"dresslife study "},                                     // notes of a run about its study
     Beginning{"== dresslife-"},                                        // logs
     Beginning{"ninja_required_version = 1.8\nbuilddir = .stage"},      // build.ninja
     Beginning{"job,life_repeats,life_hours,worst_segment_from_tool,"},  // ranking.csv
@@ -57,12 +57,12 @@ constexpr std::array beginnings{
     Beginning{"<svg ", ">\n<style>\nsvg { font: 12px sans-serif; background: #fff }"},
     Beginning{"<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"job\""}};
 
-/// The digest in a mark and the text behind it.
+/// The digest in a mark, and the text behind the mark.
 struct OwnershipMark {
   bool is_yours_once_changed = false;
   std::string_view digest, rest;
 };
-/// Nothing to be found: an empty digest.
+/// Splits a text into its mark and the rest. Without a mark, the digest is empty.
 OwnershipMark marked(std::string_view text) {
   const std::size_t at = text.substr(0, ownership_bytes).find(words);
   if (at == std::string_view::npos) return {};
@@ -78,7 +78,7 @@ OwnershipMark marked(std::string_view text) {
   return {};
 }
 
-/// PNG's own (CRC-32 of ISO 3309).
+/// Returns the checksum of PNG (CRC-32 of ISO 3309).
 std::uint32_t crc_of(std::string_view bytes) {
   std::uint32_t crc = ~0u;
   for (const char byte : bytes) {
@@ -94,24 +94,25 @@ std::string big_endian(std::uint32_t number) {
   return bytes;
 }
 
-/// A PNG begins with a signature of 8 bytes and a head of 25.
+/// A PNG file begins with a signature of 8 bytes and a header of 25 bytes.
 constexpr std::size_t png_head = 33;
 constexpr std::string_view png_words{"tEXtSoftware\0dresslife", 22};
 
-/// Lines of comment go behind the first line of some kinds.
+/// Returns the position of the mark in a text. In some kinds of files it is behind the first line.
 std::size_t place_of_mark(std::string_view text, Mark mark) {
   const bool behind_first_line = mark == Mark::script || mark == Mark::page || text.starts_with("<?xml");
   return behind_first_line ? text.find('\n') + 1 : 0;
 }
 
-/// What a job's last attempt failed of begins with three digests (pipeline/study/build_graph.cpp).
+/// Returns whether the file notes why the last attempt of a job failed. It begins with three digests
+/// (pipeline/study/build_graph.cpp).
 bool is_note_of_failure(const fs::path& file) {
   const std::string begin = beginning_of(file, 3 * (digest_digits + 1));
   return file.filename() == "failure" && begin.size() == 3 * (digest_digits + 1) && begin.back() == '\n' &&
          begin.find_first_not_of("0123456789abcdef \n") == std::string::npos;
 }
 
-/// Marked, or of a version that made no marks: with a note of ours, or without anything.
+/// Returns whether a folder is a notes folder: it has a mark, or (older versions) it contains one of our notes or nothing.
 bool is_notes(const fs::path& folder) {
   if (kind_of_name(folder) != FileKind::folder) return false;
   if (begins_as_ours(beginning_of(folder / notes_mark, ownership_bytes))) return true;
@@ -121,7 +122,8 @@ bool is_notes(const fs::path& folder) {
          });
 }
 
-/// Of a job's folder: what 80628f4 and before wrote had no mark, but the notes of its run beside it.
+/// Returns whether this is the job.yaml of an older version (commit 80628f4 or before). It has no mark, but a notes folder beside
+/// it.
 bool is_old_job(const fs::path& file, std::string_view begin) {
   return file.filename() == "job.yaml" && begin.starts_with("robot:\n") && is_notes(file.parent_path() / notes_name) &&
          !fs::is_empty(file.parent_path() / notes_name);
@@ -129,16 +131,17 @@ bool is_old_job(const fs::path& file, std::string_view begin) {
 
 struct Policy {
   std::mutex mutex;
-  std::multimap<std::pair<dev_t, ino_t>, fs::path> inputs;  ///< with the names under which they were read
+  std::multimap<std::pair<dev_t, ino_t>, fs::path> inputs;  ///< key: inode; value: the name of the file when it was read
   bool replaces_files_of_others = false;
 };
-/// One for the program: what its user allows it holds wherever it writes.
+/// Returns the one policy of the program, which applies to all files that it writes.
 Policy& policy() {
   static Policy one;
   return one;
 }
 
-/// An input's inode may belong to another file once the input is gone: only an input that still has it counts.
+/// Returns whether a file is an input. A removed input's inode may belong to another file, so only inputs that still have it
+/// count.
 bool is_input(const fs::path& file) {
   const auto inode = inode_of(file);
   if (!inode) return false;

@@ -1,9 +1,9 @@
-// Which files are ours. A program of ours replaces and removes only what one of them has written, and sees that by a
-// mark in the file: each kind of file that they write begins in a way of its own. Anything else is the user's and is
-// neither replaced nor removed. WholeFile, by which every file is written, holds to it.
+// Determines which files programs of this project may replace or remove: only those that one of them has written. They know such
+// a file by a mark: each kind of file begins with its own mark. Any other file is the user's and is neither replaced nor removed.
+// WholeFile, which writes every file, checks this.
 //
-// Marks of new files are lines of comment (with_mark()). Where people edit such files, the mark has a digest of all
-// that follows it: a file that was edited is the user's from then on.
+// Marks of new files are comment lines (with_mark()). For files that users edit, the mark contains a digest of the text behind
+// it. An edited file belongs to the user.
 #pragma once
 
 #include <filesystem>
@@ -13,55 +13,54 @@
 namespace dresslife::pipeline {
 
 enum class Mark {
-  yaml,    ///< "# ...": the user's once it is edited
-  script,  ///< after "#!...": the user's once it is edited
-  xml,     ///< "<!-- ... -->", after "<?xml ...>": the user's once it is edited; SVG, XDMF, Markdown
-  page,    ///< after "<!DOCTYPE html>": always ours; is_as_marked() finds damage
-  png,     ///< a chunk of text: always ours
+  yaml,    ///< "# ...": the user's after an edit
+  script,  ///< after "#!...": the user's after an edit
+  xml,     ///< "<!-- ... -->", after "<?xml ...>": the user's after an edit; SVG, XDMF, Markdown
+  page,    ///< after "<!DOCTYPE html>": never the user's; is_as_marked() detects damage
+  png,     ///< a text chunk: never the user's
 };
 std::string with_mark(const std::string& text, Mark mark);
-/// Text behind its mark; a text without one as it is.
+/// Returns the text behind the mark; the whole text if it has no mark.
 std::string_view without_mark(std::string_view text);
-/// Whether a text has a mark, and all behind it is as it was marked.
+/// Returns whether a text has a mark and is unchanged behind it.
 bool is_as_marked(std::string_view text);
 
-/// By its first bytes (ownership_bytes of them suffice): of one of our kinds. Of a text that is the user's once it
-/// is edited all of it is needed.
+/// Returns whether a text begins like one of our files. The first ownership_bytes bytes are enough, except for a file that is the
+/// user's after an edit: for this kind, pass the whole text.
 bool begins_as_ours(std::string_view text);
 inline constexpr std::size_t ownership_bytes = 512;
 
-/// Whether it is a plain file that one of our programs wrote, or an empty one. Errors: DiskError.
+/// Returns whether this is a plain file that is empty or was written by one of our programs. Errors: DiskError.
 bool is_ours(const std::filesystem::path& file);
 
-/// Whether it lies in such notes of our programs as make_notes() makes. Errors: DiskError.
+/// Returns whether the file is in a notes folder (make_notes()). Errors: DiskError.
 bool lies_in_notes(const std::filesystem::path& file);
 
-/// Errors: InputError where a file stands that is not ours, a folder, a device, a pipe, a link, or a file that this
-/// program reads.
+/// Checks that a file may be written under this name. Errors: InputError if the name is a file that is not ours, an input of this
+/// program, a folder, a device, a pipe or a link.
 void check_replaceable(const std::filesystem::path& file);
-/// Lets this program replace files of others, too, where a user says so (--force). Inputs stay.
+/// Lets this program also replace files that are not ours (--force). Inputs are never replaced.
 void let_replace_files_of_others();
 bool replaces_files_of_others();
-/// What this program reads for the user it never replaces.
+/// Registers an input of this program, which it never replaces.
 void note_input(const std::filesystem::path& file);
 
-/// Removes a file that is ours, and leaves any other. Returns whether it is gone. Errors: InputError when it is ours
-/// and cannot be removed.
+/// Removes a file if it is ours. Returns whether it is gone. Errors: InputError if it is ours and cannot be removed.
 bool remove_ours(const std::filesystem::path& file);
 
-/// Removes a folder when nothing is in it.
+/// Removes a folder if it is empty.
 void remove_empty(const std::filesystem::path& folder);
 
-/// Makes a folder, of the name .stage, for what our programs note beside results; all in it is ours. Errors:
-/// InputError when it is there already and not ours, or cannot be made.
+/// Makes a notes folder, named .stage, for files that our programs keep beside results. Everything in it is ours. Errors:
+/// InputError if it exists and is not ours, or cannot be made.
 void make_notes(const std::filesystem::path& folder);
-/// Shells and Ninja also write into such a folder, and they would wait for a pipe and write through a link. Errors:
-/// InputError when one is in it; DiskError.
+/// Checks that a notes folder contains no pipe and no link, because shells and Ninja also write into it: they would wait for a
+/// pipe and write through a link. Errors: InputError if it contains one; DiskError.
 void check_notes(const std::filesystem::path& folder);
-/// Removes what our programs have put into such a folder, and the folder when nothing else is in it; leaves any other.
+/// Removes our files from a notes folder, and the folder if it is empty then. Leaves any other folder unchanged.
 void remove_notes(const std::filesystem::path& folder);
 
-/// Removes a temporary folder of our own with all that it holds. What fails to go stays.
+/// Removes a temporary folder of this program with its content. Parts that cannot be removed stay.
 void remove_temporary(const std::filesystem::path& folder);
 
 }  // namespace dresslife::pipeline

@@ -17,13 +17,13 @@ FileState state_from(const struct stat& status) {
   return {status.st_size, nanoseconds(status.st_mtim), nanoseconds(status.st_ctim), status.st_ino};
 }
 
-/// Of a name that leads nowhere, or that cannot be one.
+/// Returns whether the error means that the path leads to no file, or cannot be a path.
 bool is_absence(int error) {
   return error == ENOENT || error == ENOTDIR || error == ENAMETOOLONG || error == ELOOP;
 }
 
 [[noreturn]] void refuse_to_open(const std::filesystem::path& file, int error) {
-  // ENXIO: the error of a device without anything behind it.
+  // ENXIO: a device is not connected.
   if (error == ENXIO)
     throw InputError({file.string()}, "is a device or a pipe, not a file", "save it as a file first");
   if (is_absence(error) || error == EACCES || error == EPERM)
@@ -50,7 +50,7 @@ FileState state_of(int descriptor, const std::filesystem::path& name) {
 
 namespace {
 
-/// By stat or lstat; nothing where it is absent.
+/// Calls stat or lstat. Returns std::nullopt if the path is absent or not permitted.
 std::optional<struct stat> status_of(const std::filesystem::path& path, int (*look)(const char*, struct stat*)) {
   struct stat status {};
   if (look(path.c_str(), &status) == 0) return status;
@@ -122,7 +122,7 @@ bool read_at(int descriptor, void* bytes, std::size_t count, std::uint64_t offse
 }
 
 PlainFile::PlainFile(const std::filesystem::path& file) : name_(file) {
-  // Some devices act when they are opened.
+  // Opening some devices already has an effect, so they are not opened.
   const bool may_be_opened = kind_of(file) != FileKind::other;
   if (may_be_opened) descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0) refuse_to_open(file, may_be_opened ? errno : ENXIO);
@@ -179,7 +179,7 @@ std::string PlainFile::text() const {
 }
 
 std::filesystem::path as_seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
-  // ".." leads out of a folder that is no link.
+  // ".." is resolved in the folder behind all links.
   const std::filesystem::path here = std::filesystem::weakly_canonical(folder.empty() ? "." : folder);
   return std::filesystem::absolute(file).lexically_normal().lexically_relative(here);
 }

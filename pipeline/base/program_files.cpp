@@ -24,9 +24,9 @@ bool ends_like_a_program(const fs::path& file) {
   return ends.contains(lower_extension(file)) || lower_case(file.filename().string()) == "backinfo.txt";  // ABB's contents
 }
 
-constexpr std::size_t most_files = 20'000;  // of a folder: many times a controller's backup
+constexpr std::size_t most_files = 20'000;  // limit for one folder, many times the size of a controller's backup
 
-/// The folder R1 of the KUKA backup that a file lies in; empty: none.
+/// Returns the folder R1 of the KUKA backup that contains the file; empty: the file is in no backup.
 fs::path krl_robot_of(const fs::path& file) {
   for (fs::path at = file.parent_path(); !at.empty() && at != at.parent_path(); at = at.parent_path())
     if (at.filename() == "R1" || at.filename() == "r1") return at;
@@ -37,7 +37,7 @@ fs::path folder_of_program(const fs::path& program) {
   return program.has_parent_path() ? program.parent_path() : fs::path(".");
 }
 
-/// What the controller sees beside a program: in a backup all of the robot, else its folder.
+/// Returns the files that the controller can use beside a program: in a backup all files of the robot, else those in its folder.
 std::vector<fs::path> krl_files_beside(const fs::path& program) {
   std::vector<fs::path> files;
   const fs::path robot = krl_robot_of(program);
@@ -73,7 +73,7 @@ std::vector<fs::path> program_files(const fs::path& program) {
   } else if (is_krl(program)) {
     files = krl_files_beside(program);
   }
-  if (lower_extension(program) == ".jbi")  // the controller's other jobs, its frames and variables
+  if (lower_extension(program) == ".jbi")  // the controller's other jobs, frames and variables
     for (const fs::path& beside : entries_of(folder_of_program(program))) {
       const fs::path file = program.has_parent_path() ? beside : beside.filename();
       const std::string end = lower_extension(file);
@@ -81,7 +81,7 @@ std::vector<fs::path> program_files(const fs::path& program) {
           files.size() < most_files)
         files.push_back(file);
     }
-  if (lower_extension(program) == ".ls" && !is_folder)  // what it calls, and its registers
+  if (lower_extension(program) == ".ls" && !is_folder)  // programs that it may call, and its registers
     for (const fs::path& place : {folder, folder / ".."})
       for (const fs::path& beside : entries_of(place)) {
         const std::string end = lower_extension(beside);

@@ -6,12 +6,12 @@
 
 namespace dresslife::pipeline {
 
-/// Files that a robot program may be read from besides those that the motion names: of a folder (or of the
-/// folder of a list of modules), those that end like robot programs, within it and the folders in it; of a
-/// KRL program, those of the robot's folder R1 in a backup, else those beside it. Sorted.
+/// Returns the files that a robot program may use besides those that the motion names, sorted. For a folder, or the folder of a
+/// list of modules: files with the ending of a robot program, in it and its subfolders. For a KRL program: the files of the
+/// robot's folder R1 in a backup, else the files in its folder.
 std::vector<std::filesystem::path> program_files(const std::filesystem::path& program);
 
-/// Whether the file is a module of KUKA's language: .src, .dat or .sub in any case.
+/// Returns whether the file is a KRL module: .src, .dat or .sub in upper or lower case.
 bool is_krl(const std::filesystem::path& file);
 
 }  // namespace dresslife::pipeline

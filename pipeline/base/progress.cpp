@@ -23,7 +23,7 @@ Progress::Progress(std::string label, bool quiet)
     : label_(std::move(label)),
       quiet_(quiet),
       terminal_(::isatty(STDERR_FILENO)) {
-  log();  // the first minute begins with the first piece of work
+  log();  // the first minute begins with the first Progress object
 }
 
 Progress::Log& Progress::log() {

@@ -1,5 +1,5 @@
-// How far a piece of work is: a line on a terminal that is drawn again, elsewhere a line per minute, so that a log shows
-// that the work goes on and how long it still takes. Quiet: nothing.
+// Shows the progress of a piece of work. On a terminal, one line is rewritten. Elsewhere a line is printed every minute, so that
+// a log shows that the work continues and how long it takes. `quiet`: prints nothing.
 #pragma once
 
 #include <chrono>
@@ -17,13 +17,14 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// share: of the work done, 0..1; the remaining time follows from what was done since the first call. A smaller share begins
-  /// another piece of work.
+  /// Shows the share of the work that is done, 0 .. 1. The remaining time is estimated from the progress since the first call. A
+  /// smaller share than before starts another piece of work.
   void show(double share, const std::string& words = "");
-  void show(const std::string& words);  ///< of work whose share is not known
-  void note(const std::string& line);   ///< a lasting line; also where there is no terminal, unless quiet
+  void show(const std::string& words);  ///< for work whose share is unknown
+  void note(const std::string& line);   ///< prints a line that stays; also without a terminal, unless quiet
   void clear();
-  /// Between two lines of a log, of all Progress of a program together: short pieces of work follow each other for long.
+  /// Sets the time between two lines of a log. It is common to all Progress objects, because many short pieces of work may follow
+  /// each other.
   static void set_log_interval(std::chrono::milliseconds interval);
 
  private:
@@ -47,8 +48,8 @@ class Progress {
   std::optional<Mark> first_;
 };
 
-/// "3 min left", "2.5 h left"; empty while too little is done to tell (less than two seconds or a hundredth).
-/// seconds: since `begun` of the work was done; share: that is done now.
+/// Returns "3 min left" or "2.5 h left"; empty if less than two seconds or one percent are done. seconds: time since the share
+/// `begun` was done. share: the share that is done now.
 std::string remaining_words(double seconds, double begun, double share);
 
 }  // namespace dresslife::pipeline

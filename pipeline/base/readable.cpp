@@ -34,10 +34,10 @@ std::string readable(double value, int figures) {
   if (std::isnan(value)) return "-";
   if (std::isinf(value)) return value > 0 ? "unlimited" : "-unlimited";
   if (value == 0) return "0";
-  // Rounded first, so that 999.6 becomes 1,000 and not 1e+03.
+  // The value is rounded first, so that 999.6 becomes 1,000 and not 1e+03.
   const std::string text = fmt::format("{:.{}e}", value, figures - 1);
   const double rounded =
-      std::strtod(text.c_str(), nullptr);  // takes what is too small or too large for a double
+      std::strtod(text.c_str(), nullptr);  // accepts values beyond the range of a double
   const double size = std::abs(rounded);
   if (size >= longest_written_out || size < shortest_written_out) return text;
   const int decimals = std::max(0, figures - 1 - static_cast<int>(std::floor(std::log10(size) + 1e-12)));

@@ -28,7 +28,7 @@ std::string without_comments(const std::string& text) {
   return kept;
 }
 
-/// Nothing of a file that cannot be read, or is written in letters of two bytes.
+/// Returns the text of a file; std::nullopt if it cannot be read or is UTF-16.
 std::optional<std::string> text_of(const fs::path& file) {
   try {
     std::string text = lower_case(read_text(file));
@@ -55,7 +55,7 @@ std::vector<std::string> words_of(std::string_view line) {
   return words;
 }
 
-/// A line of declarations without what stands in brackets and behind '=': arguments and contents are no names for others.
+/// Removes brackets with their content and the text behind '=' from a line: arguments and values are no names for other files.
 std::string without_contents(std::string_view line) {
   std::string names;
   int depth = 0;
@@ -70,7 +70,7 @@ std::string without_contents(std::string_view line) {
   return names;
 }
 
-/// The words of each line, in brackets and behind '=' excepted.
+/// Returns the words of each line, without words in brackets and behind '='.
 std::vector<std::vector<std::string>> declarations(const std::string& text) {
   std::vector<std::vector<std::string>> lines;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -88,7 +88,7 @@ bool begins_a_routine(const std::vector<std::string>& words) {
   return has(words, "def") || has(words, "deffct");
 }
 
-/// The routines that a KRL file defines.
+/// Returns the names of the routines that a KRL file defines.
 std::set<std::string> routines_of(const std::string& text) {
   std::set<std::string> names;
   for (const std::vector<std::string>& words : declarations(text))
@@ -96,7 +96,8 @@ std::set<std::string> routines_of(const std::string& text) {
   return names;
 }
 
-/// What others can call or read of a file, as used_in() finds it: its first routine, and what it declares as global.
+/// Returns the names that other files can use, in the form of used_in(): the first routine of the file, and its global
+/// declarations.
 std::vector<std::string> names_declared(const fs::path& file, const std::string& text) {
   if (!is_krl(file)) return {stem_of(file)};
   std::vector<std::string> names, data;
@@ -115,8 +116,8 @@ std::vector<std::string> names_declared(const fs::path& file, const std::string&
   return names;
 }
 
-/// The words of a text; also with the marks that stand behind them: "grip(" of a call, "weld:" and "weld.." of a file's names. A call
-/// may lack its brackets, alone in its line or behind DO, CONTINUE and RUN.
+/// Returns the words of a text, also with the mark behind them: "grip(" for a call, "weld:" and "weld.." for a name with its
+/// file. A call may be without brackets if it is alone in its line or follows DO, CONTINUE or RUN.
 std::set<std::string> used_in(const std::string& text) {
   std::set<std::string> used;
   std::string before;
@@ -142,7 +143,7 @@ std::set<std::string> used_in(const std::string& text) {
   return used;
 }
 
-/// Whether it belongs to all programs in its folder: registers (.va) and KUKA's own data lists ($config.dat).
+/// Returns whether a file belongs to all programs in its folder: registers (.va) and KUKA's data lists ($config.dat).
 bool is_of_the_controller(const fs::path& file, const std::string& text) {
   return lower_case(file.extension().string()) == ".va" || file.filename().string().starts_with('$') ||
          text.find("defdat $") != std::string::npos;
@@ -154,10 +155,10 @@ struct Candidate {
   std::vector<std::string> names;
 };
 
-/// A text that may name others.
+/// A text that may name other files.
 struct Open {
   std::string stem, text;
-  std::set<std::string> own{};  ///< names in it that mean its own routines
+  std::set<std::string> own{};  ///< names in the text that are its own routines
 };
 
 }  // namespace
@@ -173,7 +174,8 @@ std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::
     all |= !text || lower_case(program.extension().string()) == ".pgf";
     open.push_back({stem_of(program), std::move(text).value_or("")});
   }
-  // Other files may define routines of the same names: those of the first program count (first_file_counts in sim/program/interpreter/program.h).
+  // Several files may define a routine of one name. The routines of the first program have priority (first_file_counts in
+  // sim/program/interpreter/program.h).
   if (!programs.empty() && is_krl(programs.front())) open[1].own = routines_of(open[1].text);
   for (fs::path& file : beside) {
     std::optional<std::string> text = all ? std::nullopt : text_of(file);
@@ -191,12 +193,12 @@ std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::
     const std::set<std::string> used = used_in(of.text);
     const auto stands_in_text = [&](const std::string& name) {
       const std::string bare = name.substr(0, name.find_first_of("(:."));
-      // A name with other letters than those of words may stand in several: it is looked for as it is.
+      // A name with other characters than is_name_letter() may be several words, so the text is searched for the whole name.
       if (!std::ranges::all_of(bare, is_name_letter)) return of.text.find(bare) != std::string::npos;
       return used.contains(name) && !of.own.contains(bare);
     };
     std::erase_if(candidates, [&](Candidate& candidate) {
-      // What is called like a file belongs to it: weld.dat to weld.src.
+      // A data file belongs to the program of the same name: weld.dat to weld.src.
       if (stem_of(candidate.file) != of.stem && std::ranges::none_of(candidate.names, stands_in_text))
         return false;
       open.push_back({stem_of(candidate.file), std::move(candidate.text)});

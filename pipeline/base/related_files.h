@@ -1,4 +1,4 @@
-// Which of the files beside a robot program the program can reach.
+// Finds the files beside a robot program that the program may use.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,11 @@
 
 namespace dresslife::pipeline {
 
-/// Of `beside`, those that the programs may use: whose name, or a name that they declare for others, stands in one of
-/// the programs or in a file that those use, or is the routine to run. A copy of a KRL program is not used: the first program's own
-/// routines count. More than are used may be among them, none that is used is missing: a
-/// file that cannot be looked into counts as used, as do the registers and the system files of a controller. A program
-/// that is a folder uses all of it. Errors: DiskError.
+/// Returns the files of `beside` that the programs may use. A file is used if its name, or a name that it declares for other
+/// files, occurs in a program or in a used file, or is the routine to run. The registers and the system files of a controller,
+/// and files that cannot be read, always count as used. If a program is a folder, all files count as used. A copy of a KRL
+/// program is not used, because the routines of the first program have priority. The result may contain unused files, but no used
+/// file is missing. Errors: DiskError.
 std::vector<std::filesystem::path> related_files(const std::vector<std::filesystem::path>& programs,
                                                  std::vector<std::filesystem::path> beside,
                                                  const std::string& routine = "");

@@ -1,13 +1,12 @@
-// Numbers side by side, as many as a register of the machine holds: arithmetic on a Pack is arithmetic on
-// that many doubles, on a FloatPack on twice as many floats. The only home of Google Highway, whose
-// operations these are.
+// Vectors of numbers, as long as a register of the machine: Pack has lanes of double, FloatPack has twice as many lanes of float.
+// Only this file includes Google Highway, which implements the operations.
 //
-// Included by files of hot loops that are compiled once per instruction set. Such a file defines
-// DRESSLIFE_MACHINE (a name) and DRESSLIFE_TARGET (Highway's target; by default the portable one: SSE4 on
-// x86-64, and there number by number where clang or a sanitizer compiles it; else the build's own), includes
-// this one, and puts its loops between DRESSLIFE_BEGIN_MACHINE and DRESSLIFE_END_MACHINE. What comes from
-// outside must be compiled for any machine, so it is included before: standard headers of all loops here.
-// pipeline/base/instruction_set.h selects those that run on the machine at hand.
+// Files with hot loops, which are compiled once per instruction set, include this header. Such a file defines DRESSLIFE_MACHINE
+// (a name) and DRESSLIFE_TARGET (a target of Highway; default: the portable one, which is SSE4 on x86-64, number by number on
+// x86-64 with clang or a sanitizer, and the target of the build elsewhere). The file puts its loops between
+// DRESSLIFE_BEGIN_MACHINE and DRESSLIFE_END_MACHINE. Code from other headers must be compiled for any machine, so these headers
+// are included before: the standard headers of all loops are included here. pipeline/base/instruction_set.h selects the loops for
+// the machine.
 #pragma once
 
 #ifndef DRESSLIFE_MACHINE
@@ -37,7 +36,7 @@
 #endif
 #include <hwy/highway.h>
 
-#if HWY_TARGET == HWY_AVX3_DL  // machines with its byte permutations have bit matrices too
+#if HWY_TARGET == HWY_AVX3_DL  // machines with the byte permutations of this target also have bit matrices
 #define DRESSLIFE_BEGIN_MACHINE \
   HWY_BEFORE_NAMESPACE();       \
   _Pragma("GCC target(\"gfni\")")
@@ -92,21 +91,21 @@ struct Vector {
 using Pack = Vector<DoubleTag>;
 using FloatPack = Vector<FloatTag>;
 using IntPack = Vector<IntTag>;
-using LongPack = Vector<LongTag>;  ///< beside a Pack
+using LongPack = Vector<LongTag>;  ///< as many lanes as a Pack
 using HalfPack = Vector<HalfTag>;  ///< a Pack in single precision
 
 template <class Pack_>
 HWY_INLINE Pack_ load(const typename Pack_::Value* from) {
   return hn::LoadU(typename Pack_::Tag(), from);
 }
-/// Words may be read as numbers with or without a sign.
+/// Value may be a signed or unsigned type of the size of a lane.
 template <class Tag, class Value>
 HWY_INLINE void store(const Vector<Tag>& pack, Value* to) {
   static_assert(sizeof(Value) == sizeof(hn::TFromD<Tag>));
   hn::StoreU(hn::BitCast(hn::Rebind<Value, Tag>(), pack.raw), hn::Rebind<Value, Tag>(), to);
 }
 
-/// The first `count` of them, then zeros.
+/// Loads the first `count` numbers; the other lanes are 0.
 HWY_INLINE FloatPack load_some(const float* from, std::size_t count) {
   if (count >= float_pack_size) return load<FloatPack>(from);
 #if HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_AVX2
@@ -126,7 +125,7 @@ HWY_INLINE FloatPack joined(const HalfPack& first, const HalfPack& second) {
 }
 #endif
 
-// ---- what comparisons give -------------------------------------------------------------------------------
+// ---- masks from comparisons -------------------------------------------------------------------------------
 
 template <class Tag>
 struct MaskOf {
@@ -166,7 +165,7 @@ HWY_INLINE IntPack select(const Mask& mask, const IntPack& yes, const IntPack& n
 HWY_INLINE LongPack select(const DoubleMask& mask, const LongPack& yes, const LongPack& no) {
   return hn::IfThenElse(hn::RebindMask(LongTag(), mask.raw), yes.raw, no.raw);
 }
-/// Bit j: of lane j.
+/// Returns a word whose bit j belongs to lane j.
 template <class Tag>
 HWY_INLINE unsigned bits(const MaskOf<Tag>& mask) {
   std::uint8_t bytes[8] = {};
@@ -177,7 +176,7 @@ HWY_INLINE unsigned bits(const MaskOf<Tag>& mask) {
   return word & ((1u << hn::MaxLanes(Tag())) - 1);
 }
 
-// Where a is no number, b:
+// larger() and smaller() return b if a is not a number.
 template <class Tag>
 HWY_INLINE Vector<Tag> larger(const Vector<Tag>& a, const Vector<Tag>& b) {
   return HWY_ARCH_X86 ? hn::Max(a.raw, b.raw) : select(greater(a, b), a, b).raw;
@@ -192,9 +191,9 @@ HWY_INLINE double sum_of_lanes(const Pack& a) { return hn::GetLane(hn::SumOfLane
 HWY_INLINE std::int64_t first_lane(const LongPack& a) { return hn::GetLane(a.raw); }
 HWY_INLINE FloatPack size_of(const FloatPack& a) { return hn::Abs(a.raw); }
 
-// ---- rows of memory turned into lanes --------------------------------------------------------------------
+// ---- rows of memory to lanes ------------------------------------------------------------------------------
 
-/// to[step * pack_size + lane] = from[lane * stride + step] of pack_size steps.
+/// to[step * pack_size + lane] = from[lane * stride + step] for pack_size steps and pack_size lanes.
 HWY_INLINE void transpose(const float* from, std::size_t stride, float* to) {
 #if HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_AVX2
   const hn::CappedTag<float, 4> four;
@@ -218,14 +217,14 @@ HWY_INLINE void transpose(const float* from, std::size_t stride, float* to) {
 #endif
 }
 
-/// Of each lane its own column of a row: rows[row * pack_size + lane].
+/// Returns the index of each lane's column in the given row: rows[row * pack_size + lane].
 HWY_INLINE LongPack places(const LongPack& row) {
   constexpr int width = pack_size == 8 ? 3 : pack_size == 4 ? 2 : pack_size == 2 ? 1 : 0;
   static_assert(1 << width == pack_size);
   return LongPack(hn::ShiftLeft<width>(row.raw)) + LongPack(hn::Iota(LongTag(), 0));
 }
 HWY_INLINE Pack gathered(const double* rows, const LongPack& place) {
-#if HWY_TARGET == HWY_AVX3_DL  // twice as fast as the machine's own
+#if HWY_TARGET == HWY_AVX3_DL  // twice as fast as the gather instruction of the machine
   std::int64_t at[pack_size];
   store(place, at);
   return Pack::Raw{_mm512_setr_pd(rows[at[0]], rows[at[1]], rows[at[2]], rows[at[3]], rows[at[4]],
@@ -246,7 +245,7 @@ struct Four {
   Pack c0, c1, c2, c3;
 };
 
-/// Of each lane the four numbers that begin at cells[offset], offset a multiple of four.
+/// Returns four numbers for each lane: those from cells[offset] on. Precondition: offset is a multiple of four.
 HWY_INLINE Four gathered_fours(const double* cells, const LongPack& offset) {
 #if HWY_TARGET == HWY_SCALAR
   const double* const cell = cells + first_lane(offset);
@@ -254,7 +253,7 @@ HWY_INLINE Four gathered_fours(const double* cells, const LongPack& offset) {
 #else
   alignas(64) std::int64_t at[pack_size];
   store(offset, at);
-  asm("" : "+m"(at));  // through memory: taking them out of the register costs twice as much
+  asm("" : "+m"(at));  // via memory, because extracting them from the register takes twice as long
 #if HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_AVX2
   const hn::CappedTag<double, 4> four;
   const DoubleTag all;
@@ -283,8 +282,8 @@ HWY_INLINE Four gathered_fours(const double* cells, const LongPack& offset) {
 #endif
 }
 
-/// The bits of x from `by` on as a number, and those below as a fraction of 1: what a table in octaves goes
-/// by.
+/// leading_bits returns the bits of x from bit `by` on as an integer, fraction_below the lower bits as a fraction of 1. A table
+/// in octaves is indexed by these two.
 template <int by>
 HWY_INLINE LongPack leading_bits(const Pack& x) {
   const hn::ScalableTag<std::uint64_t> words;
@@ -300,7 +299,7 @@ HWY_INLINE Pack fraction_below(const Pack& x) {
   return hn::Sub(hn::BitCast(DoubleTag(), number), hn::Set(DoubleTag(), 1.0));
 }
 
-// ---- words of bits, one a lane ---------------------------------------------------------------------------
+// ---- words of bits, one per lane --------------------------------------------------------------------------
 
 template <int by>
 HWY_INLINE IntPack shifted_right(const IntPack& word) {
@@ -312,13 +311,13 @@ HWY_INLINE LongPack shifted_left(const LongPack& number) {
   return hn::ShiftLeft<by>(number.raw);
 }
 
-/// The number of the one bit that is set; of a word without any, any number.
+/// Returns the position of the only bit that is set; any number for a word without a set bit.
 HWY_INLINE IntPack place_of(const IntPack& bit) {  // the exponent of the word as a float
   const FloatPack number = hn::ConvertTo(FloatTag(), bit.raw);
   return (shifted_right<23>(hn::BitCast(IntTag(), number.raw)) & 255) - 127;
 }
 
-/// -1 where a is larger than b, as words without a sign; else 0.
+/// Returns -1 if a is larger than b (as unsigned words), else 0.
 HWY_INLINE IntPack above(const IntPack& a, const IntPack& b) {
   return hn::BitCast(IntTag(), hn::VecFromMask(WordTag(), hn::Gt(hn::BitCast(WordTag(), a.raw),
                                                                  hn::BitCast(WordTag(), b.raw))));
@@ -327,14 +326,14 @@ HWY_INLINE IntPack above(const IntPack& a, const IntPack& b) {
 constexpr int word = 32;                                   ///< bits
 constexpr std::uint32_t first_of_word = 1u << (word - 1);  ///< a word's first sample is its highest bit
 
-/// Which lanes passed a test, sample by sample, and then as a word a lane.
+/// Records which lanes passed a test at each sample, and returns one word of bits per lane.
 class WordRecord {
  public:
 #if HWY_TARGET == HWY_AVX3_DL
-  /// t: sample of the word, bit: its own.
+  /// t: number of the sample in the word. bit: a word with only the bit of this sample.
   HWY_INLINE void put(int t, const IntPack&, const Mask& mask) { rows_[t] = mask.raw.raw; }
 
-  /// Bits as 32 samples x 16 lanes, a byte an octet of lanes, turned octet by octet.
+  /// Transposes the bits of 32 samples x 16 lanes. One byte has the bits of eight lanes.
   HWY_INLINE IntPack words() const {
     alignas(64) static constexpr struct Orders {
       std::uint8_t by_octets[64]{}, by_lanes[64]{};
@@ -368,13 +367,13 @@ class WordRecord {
 #endif
 };
 
-// ---- roots and quotients, to a few units of the last place -----------------------------------------------
+// ---- square roots and reciprocals, to a few units in the last place ---------------------------------------
 
 HWY_INLINE Pack square_root(const Pack& x) { return hn::Sqrt(x.raw); }
 HWY_INLINE FloatPack square_root(const FloatPack& x) { return hn::Sqrt(x.raw); }
 
 #if HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
-// The machine's own are good to 12 digits or more in binary; one step of Newton's doubles them.
+// The machine's approximations are accurate to 12 bits or more; one Newton step doubles the number of bits.
 HWY_INLINE FloatPack inverse_root(const FloatPack& x) {
   const FloatPack rough = hn::ApproximateReciprocalSqrt(x.raw);
   return rough * (1.5f - (0.5f * x) * (rough * rough));

@@ -5,8 +5,8 @@
 
 namespace dresslife::pipeline {
 
-/// It has printed its error, so that the program that started it prints nothing more. what(): for a caller that goes on
-/// without it.
+/// The program has printed its error already, so the program that started it prints nothing more. what() is for a caller that
+/// continues without the program.
 class StageFailed : public InputError {
  public:
   using InputError::InputError;

@@ -10,7 +10,7 @@ double normal_density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * st
 
 double normal_share(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; }
 
-// Below -6 by the continued fraction of Mills' ratio, whose fourth term leaves 1e-5 of ln there.
+// Below -6, uses the continued fraction of Mills' ratio, truncated at the fourth term. The error of ln Phi is 1e-5 at z = -6.
 double log_normal_share(double z) {
   if (z > -6) return std::log(normal_share(z));
   const double mills = -z + 1 / (-z + 2 / (-z + 3 / (-z + 4 / -z)));

@@ -1,4 +1,4 @@
-// Letters, blanks and numbers of a text.
+// Letters, spaces and numbers of a text.
 #pragma once
 
 #include <charconv>
@@ -8,16 +8,16 @@
 
 namespace dresslife::pipeline {
 
-/// Capital letters as small ones: those of ASCII, and those of ISO 8859-1 in UTF-8.
+/// Converts capital letters of ASCII, and those of ISO 8859-1 in UTF-8, to small letters.
 std::string lower_case(std::string_view text);
-/// Small letters of ASCII as capital ones.
+/// Converts small letters of ASCII to capital letters.
 std::string upper_case(std::string_view text);
-/// Whether two texts are the same but for case.
+/// Returns whether two texts differ only in case.
 bool same_word(std::string_view a, std::string_view b);
-/// Without spaces and control characters at both ends.
+/// Returns the text without spaces and control characters at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// The number that is all of a text; absent: it is none, is out of range, or something else stands beside it.
+/// Returns the number that is the whole text; std::nullopt if the text is no number, is out of range or contains anything else.
 template <class Number>
 std::optional<Number> whole_number_in(std::string_view text) {
   Number value{};

@@ -44,7 +44,7 @@ void in_parallel(std::size_t parts, const std::function<void(std::size_t)>& work
   try {
     others.reserve(parts);
     for (; started < parts; ++started) others.emplace_back(guarded, started);
-  } catch (const std::system_error&) {  // no more threads here: this one does what is left
+  } catch (const std::system_error&) {  // the system refuses a thread: this thread does the remaining parts
   } catch (const std::bad_alloc&) {
   }
   if (parts > 0) guarded(0);
@@ -56,7 +56,7 @@ void in_parallel(std::size_t parts, const std::function<void(std::size_t)>& work
 
 namespace {
 
-/// What the threads of in_order() share.
+/// State shared by the threads of in_order().
 class Conveyor {
  public:
   using Work = std::function<void(std::size_t, std::size_t)>;
@@ -64,7 +64,7 @@ class Conveyor {
   Conveyor(std::size_t count, std::size_t ahead, const Work& work)
       : count_(count), ahead_(ahead), work_(work), done_(ahead, false), failed_(ahead) {}
 
-  /// Of the threads that do not use.
+  /// Works as one of the threads that do not call use().
   void run(std::size_t part) {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -74,7 +74,7 @@ class Conveyor {
     }
   }
 
-  /// Of the caller's thread, part 0.
+  /// Works and calls use() as the caller's thread, part 0.
   void run_and_use(const std::function<void(std::size_t)>& use) {
     std::unique_lock lock(mutex_);
     while (used_ < count_) {

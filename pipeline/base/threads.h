@@ -1,5 +1,5 @@
-// Threads inside one program. Work is cut into parts by its own nature, never by the number of threads'
-// timing: results are the same bytes for any number.
+// Threads of one program. The division of the work into parts does not depend on the number of threads or on timing, so the
+// results have the same bytes for any number of threads.
 #pragma once
 
 #include <cstddef>
@@ -9,31 +9,30 @@
 
 namespace dresslife::pipeline {
 
-/// How many threads a stage may use: the environment variable DRESSLIFE_THREADS, which the study runner sets
-/// to its cores shared among its jobs; without it all of the machine. Errors: InputError when it is no
-/// number.
+/// Returns the number of threads that a stage may use: the environment variable DRESSLIFE_THREADS, which the study runner sets to
+/// its cores divided among its jobs; without it, all processors of the machine. Errors: InputError if the variable is no number.
 std::size_t thread_count();
 
-/// Calls work(part) for every part below `parts` at the same time, the first on the caller's own thread, and
-/// returns when all are done. Parts for which the system has no thread are done on the caller's own, one
-/// after the other. An exception of a part is thrown here, of the lowest part that threw.
+/// Calls work(part) for every part below `parts` in parallel, the first on the caller's thread, and returns when all are done. If
+/// the system refuses a thread, the caller's thread does the remaining parts one after the other. If parts throw, rethrows the
+/// exception of the lowest part.
 void in_parallel(std::size_t parts, const std::function<void(std::size_t)>& work);
 
-/// Calls work(part, k) once for every k below `count`, on `threads` threads (part: which), and use(k) on the
-/// caller's own for one k after the other, while the others work on. At most `ahead` of them are worked on or
-/// wait to be used: their places are k % ahead. The caller's thread works, too, when there is nothing to use.
-/// An exception is thrown here when its k comes up; nothing after it is used.
+/// Calls work(part, k) once for every k below `count` on `threads` threads; `part` is the number of the thread. Calls use(k) on
+/// the caller's thread in the order of k, in parallel with later work. At most `ahead` items are in work or wait for use(): item
+/// k is in slot k % ahead. The caller's thread also works if no item is ready to be used. An exception of work() is rethrown when
+/// its k would be used; no later item is used.
 void in_order(std::size_t threads, std::size_t count, std::size_t ahead,
               const std::function<void(std::size_t part, std::size_t k)>& work,
               const std::function<void(std::size_t k)>& use);
 
-/// Starts work beside the caller's, where a stage may use several threads; with one it is done when its
-/// result is asked for.
+/// Starts work in another thread if a stage may use several threads. With one thread, the work is done when its result is
+/// requested.
 template <class T>
 std::future<T> beside(const std::function<T()>& work) {
   try {
     if (thread_count() > 1) return std::async(std::launch::async, work);
-  } catch (const std::system_error&) {  // no more threads here
+  } catch (const std::system_error&) {  // the system refuses a thread
   }
   return std::async(std::launch::deferred, work);
 }

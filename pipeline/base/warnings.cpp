@@ -11,7 +11,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_bytes = 60'000;  // HDF5 holds 64 kB in an attribute
+constexpr std::size_t most_bytes = 60'000;  // HDF5 allows 64 kB in an attribute
 
 std::optional<WarningKind> kind_named(std::string_view name) {
   for (int k = 0; k < warning_kinds_count; ++k)
@@ -19,7 +19,7 @@ std::optional<WarningKind> kind_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// Tabs and line feeds separate.
+/// Replaces control characters, because tabs and line feeds are separators.
 std::string plain(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
@@ -72,10 +72,10 @@ bool spoils_plan(WarningKind kind) {
     case WarningKind::strain:
     case WarningKind::motion:
       return true;
-    case WarningKind::overlap:      // of cross-sections as drawn: cables give way
-    case WarningKind::mesh:         // an error of the numerics, whose size it names
-    case WarningKind::material:     // a constant that may be right
-    case WarningKind::calibration:  // the uncertainty is that of the prior there
+    case WarningKind::overlap:      // overlap of nominal cross-sections; real cables deform
+    case WarningKind::mesh:         // a numerical error, whose size the message states
+    case WarningKind::material:     // the constants may be right
+    case WarningKind::calibration:  // the uncertainty of the prior applies
       return false;
   }
   return false;

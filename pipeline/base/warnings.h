@@ -1,6 +1,5 @@
-// Warnings: results stand, but a person should look before believing them. Each stage writes its own, after
-// those of the file that it read, into the root attribute `warnings` of its output, so that the last file has
-// all of a job.
+// Warnings: the results are valid, but a person should check them. Each stage writes its own warnings, after those of its input
+// file, into the root attribute `warnings` of its output. So the last file has all warnings of a job.
 #pragma once
 
 #include <string>
@@ -8,51 +7,51 @@
 
 namespace dresslife::pipeline {
 
-/// What is not as it should be; a column KIND_ok of ranking.csv each.
+/// Kind of a warning. Each kind is a column KIND_ok of ranking.csv.
 enum class WarningKind {
-  program,      ///< instructions of a robot program that may move it were left out
+  program,      ///< instructions that may move the robot were skipped
   bend_radius,  ///< the dresspack bends tighter than allowed
-  twist,        ///< it is twisted more than allowed
-  tension,      ///< it is pulled harder than allowed
-  slack,        ///< it is too short or too long, or its retraction unit too short
+  twist,        ///< the dresspack is twisted more than allowed
+  tension,      ///< the dresspack is pulled harder than allowed
+  slack,        ///< the dresspack or the travel of its retraction unit is too short or too long
   periodic,     ///< the motion did not become periodic
-  overlap,      ///< parts of the dresspack lie in each other
-  mesh,         ///< segments are too long for what is evaluated
-  force,        ///< strains need forces that no real cable has
+  overlap,      ///< parts of the dresspack overlap
+  mesh,         ///< segments are too long for an evaluated quantity
+  force,        ///< strains need larger forces than a real cable has
   material,     ///< constants of a material contradict each other
-  strain,       ///< strains that no wire is meant for
-  calibration,  ///< the job goes beyond the tests from which its calibration was learned
-  motion        ///< a speed, a wait or an angle that may be in another unit
+  strain,       ///< strains are beyond the use of any wire
+  calibration,  ///< the job is outside of the tests of its calibration
+  motion        ///< a speed, a wait or an angle may be in another unit
 };
 inline constexpr int warning_kinds_count = static_cast<int>(WarningKind::motion) + 1;
 
-/// Whether hours beside such a warning are no basis of a plan: the dresspack passes a limit beyond which it fails in ways
-/// that no stage evaluates, or the motion or the strains are not those of the plant.
+/// Returns whether a plan must not use the hours of a job with such a warning. Then the dresspack exceeds a limit beyond which it
+/// fails in ways that no stage evaluates, or motion or strains differ from those of the plant.
 bool spoils_plan(WarningKind kind);
 
-/// "bend_radius": in files and names of columns.
+/// Returns "bend_radius": the word in files and in names of columns.
 const char* word(WarningKind kind);
-/// "bend radius", "skipped instructions": for people.
+/// Returns "bend radius" or "skipped instructions": the words for people.
 const char* title(WarningKind kind);
 
 struct Warning {
   WarningKind kind{};
-  std::string where;  ///< "side_panel.mod:45"; empty: of the whole job
-  std::string words;  ///< what, and what to do; one line
-  /// "side_panel.mod:45: warning: skipped: ..."
+  std::string where;  ///< "side_panel.mod:45"; empty: the whole job
+  std::string words;  ///< problem and remedy; one line
+  /// Returns "side_panel.mod:45: warning: skipped: ..."
   std::string line() const;
-  /// The same for a table that holds nothing but warnings.
+  /// Returns the line without the word "warning", for a table of warnings.
   std::string text() const;
   bool operator==(const Warning&) const = default;
 };
 
-/// For the attribute: a line each, kind, place and words between tabs; of more than 100 the first, and how
-/// many there are.
+/// Returns the text of the attribute: a line for each warning with kind, place and words between tabs. If it would be longer than
+/// 60 kB, it has the first warnings and the number of the others.
 std::string warnings_text(const std::vector<Warning>& warnings);
-/// And back. Lines that are none, of a newer program perhaps, are left out.
+/// Reads a text of warnings_text(). Skips lines of unknown form, which a newer program may have written.
 std::vector<Warning> warnings_from(const std::string& text);
 
-/// After those of the file before; each once.
+/// Returns the earlier warnings, then the new ones of `own`, without duplicates.
 std::vector<Warning> joined(std::vector<Warning> earlier, const std::vector<Warning>& own);
 
 }  // namespace dresslife::pipeline

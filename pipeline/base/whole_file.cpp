@@ -30,7 +30,7 @@ fs::path folder_of(const fs::path& file) {
 
 constexpr std::string_view part_begin = "dresslife-", part_end = ".part";
 
-/// Whether `name` is "dresslife-PROCESS-NUMBER.part".
+/// Returns whether `name` is "dresslife-PROCESS-NUMBER.part".
 bool is_part(std::string_view name) {
   if (!name.starts_with(part_begin) || !name.ends_with(part_end)) return false;
   const std::string_view middle =
@@ -39,12 +39,12 @@ bool is_part(std::string_view name) {
          std::count(middle.begin(), middle.end(), '-') == 1;
 }
 
-constexpr int most_parts = 1000;  // of one process in one folder
+constexpr int most_parts = 1000;  // limit for one process in one folder
 std::string part_name(int number) {
   return fmt::format("{}{}-{}{}", part_begin, ::getpid(), number, part_end);
 }
 
-/// Makes and locks a file under a new name. Nothing: see errno.
+/// Creates and locks a file under a new name. Returns -1 on failure: see errno.
 std::pair<int, fs::path> make_part(const fs::path& folder) {
   for (int number = 0; number < most_parts; ++number) {
     fs::path part = folder / part_name(number);
@@ -52,12 +52,12 @@ std::pair<int, fs::path> make_part(const fs::path& folder) {
         ::open(part.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR | O_CLOEXEC, readable_by_all);
     if (made < 0 && errno == EEXIST) continue;
     if (made < 0) return {-1, {}};
-    // Another program that tidies up may have taken it for left behind before it was locked.
+    // Another program may have removed the file as a leftover before it was locked.
     const bool locked = take_lock(made, LOCK_EX) != LockState::held_by_another;
     struct stat status {};
     const bool known = ::fstat(made, &status) == 0;
     const int error = errno;
-    if (locked && known && status.st_nlink == 1) return {made, std::move(part)};  // nothing may throw before it is noted
+    if (locked && known && status.st_nlink == 1) return {made, std::move(part)};  // nothing throws before its registration
     ::close(made);
     if (!locked || known) continue;
     ::unlink(part.c_str());
@@ -68,7 +68,7 @@ std::pair<int, fs::path> make_part(const fs::path& folder) {
   return {-1, {}};
 }
 
-/// Whether a plain file of this name holds the same bytes. Errors: DiskError.
+/// Returns whether a plain file of this name has the same bytes. Errors: DiskError.
 bool same_bytes(const WholeFile& one, const fs::path& path) {
   const std::int64_t size = state_of(one.descriptor(), one.final_name()).size;
   if (state_of(path).size != size) return false;
@@ -84,11 +84,11 @@ bool same_bytes(const WholeFile& one, const fs::path& path) {
   return true;
 }
 
-/// 0, or errno.
+/// Syncs a folder. Returns 0 or errno.
 int sync_folder(const fs::path& folder) {
   const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (opened < 0) return errno == EACCES ? 0 : errno;  // one may write into a folder that one may not read
-  const int error = ::fsync(opened) == 0 || errno == EINVAL ? 0 : errno;  // some file systems sync no folders
+  if (opened < 0) return errno == EACCES ? 0 : errno;  // a folder may be writable but not readable
+  const int error = ::fsync(opened) == 0 || errno == EINVAL ? 0 : errno;  // some file systems cannot sync folders
   ::close(opened);
   return error;
 }
@@ -108,7 +108,7 @@ WholeFile::WholeFile(fs::path final_name) : final_name_(std::move(final_name)) {
 
 WholeFile::~WholeFile() {
   if (!committed_) ::unlink(part_.c_str());
-  ::close(descriptor_);  // with it goes the lock; what it could say, commit() has asked for
+  ::close(descriptor_);  // this releases the lock; commit() has already asked for delayed errors
 }
 
 void WholeFile::fail(int error) const {
@@ -162,10 +162,9 @@ void WholeFile::check_mark() const {
 void WholeFile::commit(Sync when) {
   check();
   check_mark();
-  if (same_bytes(*this, final_name_)) return;  // the part goes with this object
+  if (same_bytes(*this, final_name_)) return;  // the destructor removes the temporary file
   if (when == Sync::now && ::fsync(descriptor_) != 0) fail(errno);
-  // Closing is the last moment at which a file system reports a failed write; the lock stays on the other
-  // one.
+  // A file system reports a failed write at the latest when a descriptor is closed. The lock stays on the other descriptor.
   const int other = ::dup(descriptor_);
   if (other < 0 || ::close(other) != 0) fail(errno);
   check_replaceable(final_name_);
@@ -174,7 +173,7 @@ void WholeFile::commit(Sync when) {
   removed_at_the_end_.reset();
   if (when == Sync::never) return;
   if (const int error = sync_folder(folder_of(final_name_))) {
-    ::unlink(final_name_.c_str());  // the name may not outlive a crash: better none
+    ::unlink(final_name_.c_str());  // the name might be lost in a crash, so the file is removed
     fail(error);
   }
 }
@@ -202,14 +201,14 @@ void copy_if_there(const fs::path& from, const fs::path& to) {
 
 void give_second_name(const fs::path& file, const fs::path& name) {
   check_replaceable(name);
-  // Under a name of its own first: the other goes only when this one is there.
+  // The new link has a temporary name first, so the old file is replaced in one step.
   const fs::path part = folder_of(name) / part_name(most_parts);
   const RemovedAtTheEnd removed(part);
   ::unlink(part.c_str());
   if (::link(file.c_str(), part.c_str()) != 0) return copy_if_there(file, name);
   const bool given = ::rename(part.c_str(), name.c_str()) == 0;
   const int error = errno;
-  ::unlink(part.c_str());  // of two names of one file a rename leaves both
+  ::unlink(part.c_str());  // a rename between two links of one file keeps both names
   if (!given)
     throw MachineFault({name.string()}, fmt::format("cannot be written ({})", std::strerror(error)),
                        "check the folder and the disk");

@@ -1,10 +1,10 @@
-// A file that is whole or absent, however its writing ends, and that replaces only what is ours (ownership.h).
+// Writes a file that is complete or absent, however the writing ends. It replaces only files of ours (ownership.h).
 //
-// It is written under a name of its own, dresslife-PROCESS-NUMBER.part in the folder of its final name, made
-// exclusively and never through a link, and locked while its writer lives. commit() syncs it, lets the file system
-// report what it has kept back, gives it its final name in one step and syncs the folder. Of two writers of one name
-// the later wins whole. A signal removes the part (last_moment.h). What killed writers left is not locked: the next
-// writer in that folder removes it. On a file system without locks it stays.
+// The file is written under a temporary name, dresslife-PROCESS-NUMBER.part, in the folder of its final name. It is created
+// exclusively, never through a link, and locked while its writer lives. commit() syncs it, closes a duplicate of its descriptor
+// to get delayed write errors, renames it in one step and syncs the folder. If two writers use one name, the later one replaces
+// the whole file. A signal removes the temporary file (last_moment.h). Temporary files of killed writers are not locked, and the
+// next writer in that folder removes them. On a file system without locks they stay.
 #pragma once
 
 #include <cstdint>
@@ -18,32 +18,32 @@
 
 namespace dresslife::pipeline {
 
-/// Whether a file's bytes reach the disk before its final name does. What every run compares and mends anyway
-/// needs no sync, and ten thousand jobs have ten thousand such files.
+/// Whether the bytes of a file reach the disk before its final name. Files that every run compares and corrects anyway need no
+/// sync: ten thousand jobs have ten thousand such files.
 enum class Sync { now, never };
 
 class WholeFile {
  public:
-  /// Errors: InputError when it cannot be made there, or would replace what is not ours.
+  /// Opens the temporary file. Errors: InputError if it cannot be created, or would replace a file that is not ours.
   explicit WholeFile(std::filesystem::path final_name);
-  /// Without commit() nothing stays behind.
+  /// Removes the temporary file unless commit() was called.
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
-  /// For libraries that cannot be thrown through: the first failure is kept and later writes do nothing;
-  /// commit() and check() throw it.
+  /// Writes bytes. Throws nothing, because libraries that call it cannot handle exceptions: the first failure is stored, later
+  /// writes do nothing, and commit() and check() throw it.
   void write_at(const void* bytes, std::size_t count, std::uint64_t offset) noexcept;
   void set_length(std::uint64_t bytes) noexcept;
-  /// What was written there; false where it cannot be read back, which is a failure like that of a write.
+  /// Reads written bytes. Returns false if they cannot be read; this counts as a failed write.
   bool read_back(void* bytes, std::size_t count, std::uint64_t offset) noexcept;
-  /// Later writes do nothing: the file is not wanted any more.
+  /// Makes later writes do nothing, because the file is not needed.
   void give_up() noexcept;
-  /// Errors: InputError when a write has failed.
+  /// Errors: InputError if a write has failed.
   void check() const;
 
-  /// Makes it the final file; a final file of the same bytes stays untouched, with its time.
-  /// Errors: InputError; nothing has been made then. std::logic_error: it has no mark that it is ours.
+  /// Makes this the final file. If the final file has the same bytes already, it stays unchanged, with its time. Errors:
+  /// InputError; then no final file was made. std::logic_error: the file has no mark of ours.
   void commit(Sync when = Sync::now);
 
   int descriptor() const { return descriptor_; }
@@ -59,23 +59,23 @@ class WholeFile {
   bool given_up_ = false, committed_ = false;
 };
 
-/// Writes a whole text file; leaves it untouched when it holds just that text.
-/// Errors: InputError when the folder or the file cannot be written.
+/// Writes a whole text file; leaves it unchanged if it has this text already. Errors: InputError if the folder or the file cannot
+/// be written.
 void write_text_if_changed(const std::filesystem::path& file, const std::string& text, Sync when = Sync::now);
 
-/// Copies a plain file, whole or not at all. Nothing where there is none. Errors: InputError, DiskError.
+/// Copies a plain file completely or not at all. Does nothing if `from` is absent. Errors: InputError, DiskError.
 void copy_if_there(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Gives a file that is whole a second name, which replaces what is ours there; where the file system has no second
-/// names, a copy. Errors: InputError, DiskError.
+/// Makes `name` a hard link to a complete file and replaces a file of ours there. Copies the file if the file system has no hard
+/// links. Errors: InputError, DiskError.
 void give_second_name(const std::filesystem::path& file, const std::filesystem::path& name);
 
-/// Removes what killed writers left in a folder.
+/// Removes temporary files of killed writers in a folder.
 void remove_leftovers(const std::filesystem::path& folder);
 
 enum class LockState { taken, held_by_another, not_known_here };
-/// Takes a lock of a file without waiting for it (operation: of flock). Errors: none; a file system without locks is
-/// not_known_here.
+/// Tries to lock a file without waiting (operation: of flock). Throws nothing; returns not_known_here for a file system without
+/// locks.
 LockState take_lock(int descriptor, int operation);
 
 }  // namespace dresslife::pipeline

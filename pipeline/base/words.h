@@ -1,4 +1,4 @@
-// The words by which a user names the values of an enumeration.
+// Words that name the values of an enumeration in settings.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace dresslife::pipeline {
 
-/// The word of a value, from all of them in the order of the values, which count from 0. Empty beyond the last:
-/// there the list of a choice (pipeline/settings/fields.h) ends.
+/// Returns the word of a value; `words` are in the order of the values, which count from 0. Empty beyond the last value: this
+/// ends the list of a choice (pipeline/settings/fields.h).
 constexpr std::string_view word_at(std::initializer_list<std::string_view> words, auto value) {
   const auto at = static_cast<std::size_t>(value);
   return at < words.size() ? words.begin()[at] : std::string_view();

@@ -1,4 +1,4 @@
-// The smallest bend radius that a dresspack is made for, where its maker names none.
+// The least bend radius of a dresspack whose maker gives none.
 #pragma once
 
 #include <algorithm>
@@ -7,14 +7,14 @@
 
 namespace dresslife::pipeline {
 
-/// The usual rule for moved cables and hoses: Parker prefers ten diameters of its flex cables and allows 5; ABB's manual of
-/// its DressPack (3HAC055424) asks for ten diameters of a cable or hose.
+/// Usual rule for moving cables and hoses: Parker prefers ten diameters for its flex cables and allows 5; ABB's manual of its
+/// DressPack (3HAC055424) requires ten diameters of a cable or hose.
 inline constexpr double least_bend_diameters = 10;
 
-/// [m] at the dresspack's axis. A corrugated hose is no cable: it bends by its folds, and the rule holds for the parts in
-/// it. Each part on the inner side of the bend, nearer to its centre by its helix radius, keeps the rule; so does what fills
-/// the middle, counted as one part. Everything else keeps it by its own diameter. The folds' own limit is not known here:
-/// least_bend_radius_mm is for it.
+/// Returns the least bend radius at the dresspack's axis [m]. A corrugated hose bends by its folds, so the rule applies to the
+/// parts in it: a part on the inner side of the bend is nearer to the centre by its helix radius and must still satisfy the rule;
+/// the core counts as one part on the axis. Any other dresspack must satisfy the rule with its own diameter. The limit of the
+/// folds is unknown here; least_bend_radius_mm is the key for it.
 inline double least_bend_radius(const Dresspack& dresspack) {
   if (dresspack.least_bend_radius) return *dresspack.least_bend_radius;
   if (!dresspack.hose_corrugation || dresspack.components.empty()) return least_bend_diameters * dresspack.diameter;

@@ -15,14 +15,13 @@ using helices::ComponentState;
 using helices::Placement;
 using helices::Series;
 
-// Around a layer: what is summed has 2 d harmonics at level d, so 12 angles are exact for those of five.
+// Angles around a layer: the summed quantity has 2 d harmonics at level d, so 12 angles are exact for five levels.
 constexpr int phases = 12;
-constexpr double small = 1e-4;  // [1/m], [rad/m]; strains of 1e-6: first order to 1e-6, rounding 1e-10
-// Length of a cable that is bent to measure it [m], as config/observations/your_cable.md asks. Wires slide out at the
-// ends of a longer wave. It counts only for parts whose turn is longer: those of the shipped dresspacks turn within
-// 66 mm.
+constexpr double small = 1e-4;  // [1/m], [rad/m]; strains of 1e-6: the error of the first order is 1e-6, rounding 1e-10
+// Length of a cable in its bending test [m], as config/observations/your_cable.md requires. Over longer waves, wires slide out at
+// the ends. This length matters only for parts with a longer turn; those of the shipped dresspacks turn within 66 mm.
 constexpr double bent_sample = 0.5;
-constexpr double reach = 1e-3;  // [m]: as much of elongation per twist, a wire's distance from the axis
+constexpr double reach = 1e-3;  // [m]; elongation per twist of similar effect, a typical distance of a wire from the axis
 
 void scale_friction(std::vector<Component>& parts, double factor) {
   for (Component& part : parts) {
@@ -31,32 +30,32 @@ void scale_friction(std::vector<Component>& parts, double factor) {
   }
 }
 
-constexpr double no_friction = 0, all_friction = 1e12;  // levels
+constexpr double no_friction = 0, all_friction = 1e12;  // friction levels
 
-/// A part of the cable at rest and slightly deformed.
+/// A part of the cable, undeformed and slightly deformed.
 struct BentPart {
   ComponentState<double> rest, now;
-  double per_length;      ///< how many of it, times their length, per length of the cable
-  double turning;         ///< about the cable's axis, per its length [rad/m]
-  bool helical;           ///< it or what it lies in
-  double friction_level;  ///< of what lies in it
+  double per_length;      ///< number of such parts times their length, per length of the cable
+  double turning;         ///< about the cable's axis, per length of the part [rad/m]
+  bool helical;           ///< the part or one of its parents is helical
+  double friction_level;  ///< of the parts in it
   int depth;
-  bool alike_around = false;  ///< all parts of one radius have the same strain at every angle
+  bool alike_around = false;  ///< all parts at one radius have the same strain at every angle
 };
 
-/// Of a layer of parts or wires at one angle, per size of the deformation.
+/// Deformation of a layer of parts or wires at one angle, per size of the cable's deformation.
 struct Answer {
   const Component& layer;
   const BentPart& parent;
   double EA, weight;
   double evening;  ///< length over which its strain evens out; 0: straight in straight parts [m]
   double share;
-  double away, mean;                ///< strain's deviation from the mean over its pitch, and that mean
+  double away, mean;                ///< deviation of the strain from the mean over its pitch, and that mean
   double bend1 = 0, bend2 = 0, twist = 0;  ///< of wires
   int depth;
 };
 
-/// Walks down the levels from a deformed parent; take(answer) of each layer at each of its angles.
+/// Visits the levels below a deformed parent; calls take(answer) for each layer at each of its angles.
 template <class Take>
 void descend(const Dresspack& dresspack, const Component& layer, const BentPart& parent, const Take& take) {
   const double signed_angle = sign_of(layer.hand) * layer.lay_angle, R = layer.helix_radius;
@@ -91,21 +90,21 @@ void descend(const Dresspack& dresspack, const Component& layer, const BentPart&
   }
 }
 
-/// Levels of parts in it, at least one: each uses up one order (series.h).
+/// Returns the number of levels of parts in a part, at least one. Each level needs one order (series.h).
 int levels_in(const Component& part) {
   int levels = 0;
   for (const Component& inner : part.components) levels = std::max(levels, levels_in(inner) + 1);
   return levels;
 }
 
-/// Exact down to the deepest wires in it.
+/// Returns a uniformly deformed cable with enough orders for its deepest wires.
 BentPart straight_cable(const Component& cable, double elongation, double curvature, double twist) {
   const int order = std::clamp(levels_in(cable), 1, Series<double>::capacity - 1);
   return {helices::uniform_rod<double>(0, 0, 0, 0, order),
           helices::uniform_rod<double>(elongation, curvature, 0, twist, order), 1, 0, false, 1, 0, curvature == 0};
 }
 
-/// Of a wire whose deviation is free, per size of the deformation and length of the cable.
+/// Returns the stiffness of a wire whose deviation is free, per size of the deformation and per length of the cable.
 double own_stiffness(const Dresspack& dresspack, const Answer& of) {
   const Material* const material = find_material(dresspack, of.layer.material);
   if (!of.layer.components.empty() || material == nullptr) return 0;
@@ -114,11 +113,11 @@ double own_stiffness(const Dresspack& dresspack, const Answer& of) {
                       of.share * of.EA * of.mean * of.mean);
 }
 
-/// Mean of held(phi) sin(phi) around a layer whose deviation is `away` sin(phi) (W29). cap: at phi = pi/2.
+/// Returns the mean of held(phi) sin(phi) around a layer with the deviation `away` sin(phi) (W29). cap: at phi = pi/2.
 double held_by_friction(double away, double cap) {
-  const double slope = 2 * cap / pi;  // of what friction gathers from the neutral axis, per angle
+  const double slope = 2 * cap / pi;  // of the accumulated friction, per angle from the neutral axis
   if (away <= slope) return away / 2;
-  double slides = pi / 2;  // up to this angle, where both are equal
+  double slides = pi / 2;  // up to this angle, at which both are equal
   if (away < cap)
     for (double low = 0, high = pi / 2; slides = (low + high) / 2, high - low > 1e-14;)
       (away * std::sin(slides) > slope * slides ? low : high) = slides;
@@ -210,7 +209,7 @@ double PullAndTwist::relaxed() const {
 }
 
 PullAndTwist pull_and_twist(const Dresspack& dresspack, const Component& cable) {
-  // Twice the energy of a deformation is its answer times itself: three of them give the three numbers.
+  // Twice the energy of a deformation is quadratic in it: three deformations give the three constants.
   const auto twice_energy = [&](double elongation, double twist) {
     double sum = 0;
     for (const Component& layer : cable.components)
@@ -237,7 +236,7 @@ double friction_level(const Dresspack& dresspack, const Component& cable) {
             cable.name, wanted, curvature, least, most),
         "check the measurement, polymer_bending_stiffness_Nm2, the radii and lay angles, and that the layers "
         "have a friction_coefficient and a radial_line_load_N_per_m");
-  double low = 1e-9, high = all_friction;  // M grows with the level
+  double low = 1e-9, high = all_friction;  // M increases with the level
   for (int halving = 0; halving < 80; ++halving) {
     const double middle = std::sqrt(low * high);
     (stiffness(middle) < wanted ? low : high) = middle;

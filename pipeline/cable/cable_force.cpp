@@ -36,7 +36,7 @@ void CableForce::add(const Dresspack& dresspack, const Component& part, double c
   if (!material) return;
   strength_ += area * cosines * material->tensile_strength.value_or(0);
   Wires wires{area * cosines, share, material->youngs_modulus, 0, 1};
-  if (material->fatigue_strength > 0) {  // else a polymer's table: elastic
+  if (material->fatigue_strength > 0) {  // otherwise a polymer with a life table: elastic
     wires.hardening = hardening_exponent(*material);
     wires.cyclic_strength = cyclic_strength(*material);
   }
@@ -50,8 +50,8 @@ void CableForce::add(const Dresspack& dresspack, const Component& part, double c
     same->area += wires.area;
 }
 
-/// Newton's method in the stress from the elastic one, which is above the root of a convex rising curve, so
-/// that every step goes down to it.
+/// Solves with Newton's method for the stress. The start is the elastic stress, above the root of a convex increasing function,
+/// so every step decreases to the root.
 double CableForce::Wires::stress(double strain) const {
   const double size = std::abs(strain);
   double sigma = modulus * size;
@@ -78,7 +78,7 @@ double CableForce::strain_at(double wanted) const {
   if (wanted == 0 || wires_.empty()) return 0;
   double low = 0, high = 1e-3;
   while (force(high) < std::abs(wanted) && high < 1e3) high *= 2;
-  while (high - low > 1e-15 + 1e-13 * high) {  // halving: no slope of a sum of powers can mislead it
+  while (high - low > 1e-15 + 1e-13 * high) {  // by bisection, because the slope of a sum of powers can mislead Newton's method
     const double middle = (low + high) / 2;
     (force(middle) < std::abs(wanted) ? low : high) = middle;
   }

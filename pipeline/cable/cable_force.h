@@ -1,10 +1,11 @@
-// The force of a cable from its strain, and what it bears (strain/README.md, W37): the principle is that a
-// strain is believed only with the force that makes it.
+// Force of a cable for a given strain, and its strength (strain/README.md, W37). A strain is credible only if the force that
+// causes it is.
 //
-// Wires at lay angles alpha, one for each level in the cable, have of its strain the product of cos^2(alpha) and of what soft
-// beds leave (W31), and give it of their force the product of cos(alpha). A metal wire has the stress of its cyclic curve,
+// A wire has a lay angle alpha at each level of the cable. Its strain is the cable's strain times the product of cos^2(alpha) and
+// of the shares of soft beds (W31). It contributes its force times the product of cos(alpha). The stress
+// of a metal wire follows its cyclic curve,
 //     strain = sigma / E + (sigma / K')^(1/n')    (F7 of fatigue/README.md),
-// rising and odd. Insulation counts nothing. A part without wires (plain_part.h) is elastic.
+// an increasing odd function. Insulation is neglected. A part without wires (plain_part.h) is elastic.
 #pragma once
 
 #include <vector>
@@ -19,18 +20,17 @@ class CableForce {
   CableForce(const Dresspack& dresspack, const Component& cable);
 
   double force(double strain) const;                ///< sum of A sigma [N]
-  double strain_at(double force) const;             ///< its inverse, for a force of any sign [N]
-  double strength() const { return strength_; }     ///< at which it tears [N]; 0: not known
+  double strain_at(double force) const;             ///< inverse of force(), for a force of any sign [N]
+  double strength() const { return strength_; }     ///< breaking force [N]; 0: unknown
   double mass_per_length() const { return mass_; }  ///< mass_of_part() (stiffness.h) [kg/m]
-  /// E I: measured, else of its wires, each about its own axis, and of its polymer, given or a round of 50
-  /// MPa: a cable whose parts slide past one another [N m2].
+  /// E I [N m2]: cable_stiffness() of a cable, properties_of() of a part without wires.
   double bending_stiffness() const { return bending_; }
 
  private:
-  /// Wires of one layer.
+  /// The wires of one layer.
   struct Wires {
-    double area;                                 ///< times the cosines [m2]
-    double share;                                ///< of the cable's strain
+    double area;                                 ///< times the product of cos(alpha) [m2]
+    double share;                                ///< strain of the wires / strain of the cable
     double modulus, cyclic_strength, hardening;  ///< E, K' [Pa], n'
     double stress(double strain) const;
   };

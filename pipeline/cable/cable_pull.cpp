@@ -10,7 +10,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Stretch and twist rate of a parent, now and at rest.
+/// Stretch and twist rate of a parent, deformed or undeformed.
 struct Straight {
   double stretch = 1, twist = 0;
 };
@@ -22,7 +22,7 @@ Straight along(const Component& part, const Straight& parent) {
   return {cosine * std::hypot(turning, parent.stretch), cosine * cosine * turning / part.helix_radius};
 }
 
-/// Pull along the parent.
+/// Returns the pull along the parent.
 double pull_of(const std::vector<Component>& components, const Dresspack& dresspack, const Straight& now,
                const Straight& rest) {
   double sum = 0;
@@ -66,7 +66,7 @@ double pull_of_wires(const Dresspack& dresspack, const std::vector<Component>& p
 
 double elongation_under(const Dresspack& dresspack, const std::vector<Component>& parts, double pull,
                         double twist) {
-  double low = -0.5, high = 0.5;  // the pull grows with the elongation
+  double low = -0.5, high = 0.5;  // the pull increases with the elongation
   for (int k = 0; k < 60; ++k) {
     const double middle = (low + high) / 2;
     (pull_of_wires(dresspack, parts, middle, twist) < pull ? low : high) = middle;
@@ -76,7 +76,7 @@ double elongation_under(const Dresspack& dresspack, const std::vector<Component>
 
 TwistShortening twist_shortening(const Dresspack& dresspack, const Component& cable) {
   constexpr double twist =
-      1;  // [rad/m], as much as hoses are twisted: the cubic is 1e-5 of it, rounding 1e-15
+      1;  // [rad/m], a large twist of hoses: the cubic term is 1e-5 of the result, rounding 1e-15
   if (!(pull_of_wires(dresspack, cable.components, 1e-3, 0) > 0)) return {};
   const double there = -elongation_under(dresspack, cable.components, 0, twist);
   const double back = -elongation_under(dresspack, cable.components, 0, -twist);

@@ -18,7 +18,7 @@
 namespace dresslife::pipeline {
 
 
-/// Two digits, rounded up: what is needed.
+/// Returns a length in mm, rounded up to two digits, for requirements.
 static std::string millimetres_above(double metres) { return percent_above(10 * metres); }
 
 double excess_at_force(const CableForce& cable, double force, double room) {
@@ -27,7 +27,7 @@ double excess_at_force(const CableForce& cable, double force, double room) {
 
 double force_of_excess(const CableForce& cable, double excess, double room) {
   if (excess <= 0) return 0;
-  double low = 0, high = cable.force(excess);  // without room
+  double low = 0, high = cable.force(excess);  // the force without room
   for (int halving = 0; halving < 60; ++halving) {
     const double middle = (low + high) / 2;
     (excess_at_force(cable, middle, room) < excess ? low : high) = middle;
@@ -150,7 +150,7 @@ std::vector<Warning> construction_warnings_at(const std::string& key, Dresspack 
 
 namespace {
 
-/// To two digits.
+/// Returns a percentage with two digits.
 std::string percent(double share, double (*rounded)(double)) {
   if (!(share > 0)) return "0";
   const double unit = std::pow(10.0, std::floor(std::log10(100 * share)) - 1);

@@ -1,23 +1,23 @@
-// Nested helices: from the state of a parent rod to the state of a component that lies in it on a helix.
-// W5 to W12 of strain/README.md, which has the measurements.
+// Nested helices: computes the state of a component on a helix from the state of its parent rod. W5 to W12 of strain/README.md,
+// which also has the measurements.
 //
-// A rod is a curve with a frame (d1, d2, d3 = tangent), described per ideal length l of its own: `stretch`,
-// path length per l, is 1 for the undeformed dresspack; `bend1`, `bend2`, `twist` are the frame's rotation
-// rates about d1, d2, d3 [1/m]; each is a power series in l about the place of interest.
+// A rod is a curve with a frame (d1, d2, d3 = tangent). Its parameter l is its own ideal length. `stretch`, the path length per
+// l, is 1 for the undeformed dresspack. `bend1`, `bend2`, `twist` are the rotation rates of the frame about d1, d2, d3 [1/m].
+// Each is a power series in l about the evaluated point.
 //
-// A component lies at radius R from its parent's axis, at the angle theta(l) from d1 toward d2; theta' =
-// tan(alpha)/R with the lay angle alpha signed (left hand negative). With X = bend1 sin(theta) - bend2
-// cos(theta), sigma = theta' + twist and y = stretch + R X its path derivative is
+// A component lies at radius R from its parent's axis, at the angle theta(l) from d1 toward d2. theta' = tan(alpha)/R, where the
+// lay angle alpha is signed (left hand negative). With X = bend1 sin(theta) - bend2 cos(theta), sigma = theta' + twist and y =
+// stretch + R X, the derivative of its path is
 //     v = R sigma e_theta + y e_z,    V = |v| (W5)
-// which has no radial part. So the component's frame (n = inward radial, b = t x n, t = v/V) turns against
-// its parent's by theta about e_z and by the deformed lay angle a = atan(R sigma / y) about n, and the
-// component's state per ideal length of its own, l / cos(alpha), is (W6)
+// which has no radial part. So the component's frame (n = inward radial, b = t x n, t = v/V) is rotated from its parent's by
+// theta about e_z and by the deformed lay angle a = atan(R sigma / y) about n. The component's state per its own ideal length, l
+// / cos(alpha), is (W6)
 //     stretch = cos(alpha) V
 //     bend1   = cos(alpha) (a' - bend1 cos(theta) - bend2 sin(theta)),  a' = R (sigma' y - sigma y') / V^2
 //     bend2   = cos(alpha) (R sigma^2 + y X) / V
 //     twist   = cos(alpha) sigma stretch / V
-// with the parent's state on the right. Axial strain is the stretch over that of the undeformed construction,
-// minus one (W7). Nothing is approximated. `thesis` kinematics is Backman's set (12) to (23), see W9 there.
+// with the parent's state on the right. Axial strain is the stretch over that of the undeformed construction, minus one (W7).
+// These equations are exact. The `thesis` kinematics is Backman's set (12) to (23), see W9 of strain/README.md.
 #pragma once
 
 #include "pipeline/cable/series.h"
@@ -25,23 +25,23 @@
 
 namespace dresslife::helices {
 
-constexpr int highest_level = 6;  ///< of nesting; Series::capacity must exceed it by two
+constexpr int highest_level = 6;  ///< of nesting; Series::capacity must be larger by at least two
 
-/// State of a component at one place: see above. In `thesis` kinematics only the values (order 0) are used,
-/// stretch is 1 + strain, bend1 = kappa_bi and bend2 = kappa_no.
+/// State of a component at one point, see the file head. The `thesis` kinematics uses only the values (order 0): stretch is 1 +
+/// strain, bend1 = kappa_bi and bend2 = kappa_no.
 template <class T>
 struct ComponentState {
   Series<T> stretch, bend1, bend2, twist;
 };
 
-/// The same at one place, values only: what a wire needs.
+/// State of a wire at one point: values without derivatives.
 template <class T>
 struct WireState {
   T stretch, bend1, bend2, twist;
-  T inverse_stretch;  ///< what sliding scales with; not in `thesis`
+  T inverse_stretch;  ///< factor for sliding; not in `thesis`
 };
 
-/// Where a component lies in its parent, at one place along it.
+/// Position of a component in its parent, at one point along it.
 struct Placement {
   pipeline::Kinematics kinematics = pipeline::Kinematics::exact;
   double radius = 0;            ///< R [m]
@@ -51,15 +51,15 @@ struct Placement {
   Series<double> sine, cosine;  ///< of theta along the parent
 };
 
-/// The strain of a fibre on a wire's surface by the wire's bending: its strain is (axial + by_bend1 x change of
-/// bend1 + by_bend2 x change of bend2) x scale.
+/// Strain of a fibre on a wire's surface by the wire's bending: (axial + by_bend1 x change of bend1 + by_bend2 x change of bend2)
+/// x scale.
 struct FibreShape {
   double by_bend1 = 0, by_bend2 = 0, scale = 1;
 };
 
 inline namespace DRESSLIFE_MACHINE {
 
-/// Tangent and cosine of the lay angle, which is signed; phase = theta at the place [rad]. order: of the
+/// Returns a placement for the tangent and cosine of the signed lay angle. phase: theta at the point [rad]. order: of the
 /// parent's state; 0 is enough for wires.
 inline Placement make_placement(pipeline::Kinematics kinematics, double radius, double lay_tangent,
                                 double lay_cosine, double phase, int order = Series<double>::capacity - 1) {
@@ -81,7 +81,7 @@ inline Placement make_placement(pipeline::Kinematics kinematics, double radius, 
   return make_placement(kinematics, radius, std::tan(lay_angle), std::cos(lay_angle), phase);
 }
 
-/// A rod in a uniform state, as the dresspack is within a segment. curvature [1/m], twist [rad/m].
+/// Returns a rod in a uniform state, like the dresspack in one segment. curvature [1/m], twist [rad/m].
 template <class T>
 ComponentState<T> uniform_rod(const T& elongation, const T& curvature1, const T& curvature2, const T& twist,
                               int order) {
@@ -89,7 +89,7 @@ ComponentState<T> uniform_rod(const T& elongation, const T& curvature1, const T&
           constant_series(curvature2, order), constant_series(twist, order)};
 }
 
-/// The deformed lay angle (13), as the thesis' equations use it.
+/// Deformed lay angle (13) of the thesis.
 template <class T>
 struct ThesisAngle {
   T cosine_squared, cosine, sine_cosine;
@@ -102,7 +102,7 @@ ThesisAngle<T> thesis_angle(const ComponentState<T>& parent, const Placement& pl
   return {cosine_squared, square_root(cosine_squared), tangent * cosine_squared};
 }
 
-/// Path length of a component per ideal length of its parent (exact: V of W5; thesis: 1 + its strain, W9).
+/// Returns the path length of a component per ideal length of its parent (exact: V of W5; thesis: 1 + its strain, W9).
 template <class T>
 T path_rate(const ComponentState<T>& parent, const Placement& place) {
   const double R = place.radius;
@@ -116,10 +116,9 @@ T path_rate(const ComponentState<T>& parent, const Placement& place) {
   return square_root(R * R * sigma * sigma + y * y);
 }
 
-/// The mean of path_rate over all phases theta at this state of the parent (W10). With f(y) = sqrt(A + y^2),
-/// y = stretch + R K sin and K^2 = bend1^2 + bend2^2 it is f + f2 R^2 K^2 / 4 + f4 R^4 K^4 / 64, f2 and f4
-/// the second and fourth derivative; the next term is below A (R K)^6 / 50, 2e-7 at R K = 0.2 and alpha = 25
-/// deg.
+/// Returns the mean of path_rate over all phases theta for one state of the parent (W10). With f(y) = sqrt(A + y^2), y = stretch
+/// + R K sin and K^2 = bend1^2 + bend2^2, the mean is f + f2 R^2 K^2 / 4 + f4 R^4 K^4 / 64, where f2 and f4 are the second and
+/// fourth derivative. The next term is below A (R K)^6 / 50: 2e-7 at R K = 0.2 and alpha = 25 deg.
 template <class T>
 T mean_path_rate(const ComponentState<T>& parent, const Placement& place) {
   const double R = place.radius;
@@ -131,7 +130,7 @@ T mean_path_rate(const ComponentState<T>& parent, const Placement& place) {
   const T y2 = parent.stretch.at[0] * parent.stretch.at[0], A = R * R * sigma * sigma;
   const T bend = R * R * (parent.bend1.at[0] * parent.bend1.at[0] + parent.bend2.at[0] * parent.bend2.at[0]);
   const T f = square_root(A + y2), inverse2 = 1.0 / (A + y2);
-  const T second = 0.25 * A * bend * inverse2 * inverse2;  // f2 R^2 K^2 / 4, over f
+  const T second = 0.25 * A * bend * inverse2 * inverse2;  // f2 R^2 K^2 / 4, divided by f
   return f * (1.0 + second * (1.0 + (3.0 / 16.0) * bend * (4.0 * y2 - A) * inverse2 * inverse2));
 }
 
@@ -144,9 +143,8 @@ ComponentState<T> thesis_child(const ComponentState<T>& parent, const Placement&
           constant_series(T(a.cosine * Y), 0), constant_series(T(a.sine_cosine * X), 0)};
 }
 
-/// The values of a glued component (W6) without the series. bend1 needs a parent of order one and is 0
-/// without; in `thesis` bend1 is minus kappa_no, about n, and bend2 kappa_bi, about b: not the order of
-/// ComponentState.
+/// Returns the values of a glued component (W6) without series. bend1 needs a parent of order one and is 0 for order zero. In
+/// `thesis`, bend1 is minus kappa_no, about n, and bend2 is kappa_bi, about b: the order differs from ComponentState.
 template <class T>
 WireState<T> wire_state(const ComponentState<T>& parent, const Placement& place) {
   const double R = place.radius, c = place.lay_cosine;
@@ -169,7 +167,7 @@ WireState<T> wire_state(const ComponentState<T>& parent, const Placement& place)
   return wire;
 }
 
-/// The component glued to its parent, one order less than the parent (W6).
+/// Returns the state of a component glued to its parent (W6). Its order is one less than the parent's.
 template <class T>
 ComponentState<T> child(const ComponentState<T>& parent, const Placement& place) {
   if (is_thesis(place.kinematics)) return thesis_child(parent, place);
@@ -195,9 +193,9 @@ ComponentState<T> child(const ComponentState<T>& parent, const Placement& place)
   return rod;
 }
 
-/// The component when it slides along its path until its axial strain is `strain` everywhere (W11): curvature
-/// and torsion per path length stay, so its rotation rates per material length scale with the stretch. rest:
-/// the component in the undeformed construction.
+/// Returns a component that slides along its path until its axial strain is `strain` everywhere (W11). Curvature and torsion per
+/// path length do not change, so the rotation rates per material length are proportional to the stretch. rest: the component in
+/// the undeformed construction.
 template <class T>
 ComponentState<T> slid(const ComponentState<T>& glued, const T& strain, const ComponentState<double>& rest,
                        pipeline::Kinematics kinematics) {
@@ -218,7 +216,8 @@ ComponentState<T> slid(const ComponentState<T>& glued, const T& strain, const Co
   return rod;
 }
 
-/// The same when its axial strain changes along it: what friction holds back (W17).
+/// Returns a component that slides like in slid(), but with an axial strain that changes along it because friction limits the
+/// sliding (W17).
 template <class T>
 ComponentState<T> slid_unevenly(const ComponentState<T>& glued, const Series<T>& strain,
                                 const ComponentState<double>& rest, pipeline::Kinematics kinematics) {
@@ -232,16 +231,16 @@ ComponentState<T> slid_unevenly(const ComponentState<T>& glued, const Series<T>&
   return rod;
 }
 
-/// The stretch at rest, by which a wire's rates count per path length; 1 where the kinematics knows none.
+/// Returns the stretch at rest, which converts a wire's rates to path length; 1 in `thesis`.
 inline double rest_length(pipeline::Kinematics kinematics, const WireState<double>& rest) {
   return is_thesis(kinematics) ? 1 : rest.stretch;
 }
 
-/// The fibre at angle phi (from n toward b) on a wire of radius r is stretch + r Y long per ideal length of
-/// the wire, Y = bend1 sin(phi) - bend2 cos(phi). Against the same at rest, index 0, with the axial strain
-/// e = stretch / stretch0 - 1 of the wire,
+/// Returns the shape of the fibre at angle phi (from n toward b) on a wire of radius r. Per ideal length of the wire, the fibre's
+/// length is stretch + r Y with Y = bend1 sin(phi) - bend2 cos(phi). With index 0 for the undeformed state and the axial strain e
+/// = stretch / stretch0 - 1 of the wire, the strain of the fibre is
 ///     (stretch + r Y) / (stretch0 + r Y0) - 1 = (e + r (Y - Y0) / stretch0) / (1 + r Y0 / stretch0). (W12)
-/// Precondition: r Y0 > -stretch0, the wire is thinner than its bend at rest is round.
+/// Precondition: r Y0 > -stretch0, so the wire is thinner than the radius of its bend at rest.
 inline FibreShape fibre_shape(pipeline::Kinematics kinematics, const WireState<double>& rest, double r,
                               double phi_sine, double phi_cosine) {
   const double per_length = r / rest_length(kinematics, rest);
@@ -251,7 +250,7 @@ inline FibreShape fibre_shape(pipeline::Kinematics kinematics, const WireState<d
   return shape;
 }
 
-/// Strain of a fibre from that of its wire's axis and the changes of the wire's bending.
+/// Returns the strain of a fibre from the axial strain of its wire and the changes of the wire's bending.
 template <class T>
 T fibre_strain(const FibreShape& fibre, const T& axial, const T& bend1_change, const T& bend2_change) {
   return (axial + fibre.by_bend1 * bend1_change + fibre.by_bend2 * bend2_change) * fibre.scale;

@@ -7,10 +7,10 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double poisson = 0.45;  // between polyamide 12, 0.4, and polyurethane, 0.48
-constexpr double early = 1.38;    // over R: median of thirteen tubes
+constexpr double poisson = 0.45;  // between polyamide 12 (0.4) and polyurethane (0.48)
+constexpr double early = 1.38;    // kink radius / R: median of thirteen tubes
 constexpr double early_spread =
-    0.1;  // of log10. Within the thirteen: 0.05. ESTIMATE for other polymers: twice that
+    0.1;  // of log10. The thirteen tubes have 0.05. ESTIMATE for other polymers: twice that
 constexpr double collapse = 2.0 / 9;  // z at the maximum of the moment
 
 }  // namespace

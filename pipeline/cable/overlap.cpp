@@ -13,10 +13,10 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double allowed = 0.02;   // of the diameter, without a warning
-constexpr double rounding = 1e-9;  // of the diameter: six straight ones around one of their size touch
-constexpr double hopeless = 0.5;   // of the diameter, between the axes
-constexpr int steps = 64;          // of phi, to find the valley
+constexpr double allowed = 0.02;   // share of the diameter without a warning
+constexpr double rounding = 1e-9;  // share of the diameter: six straight parts around one of equal diameter touch
+constexpr double hopeless = 0.5;   // share of the diameter, between the axes
+constexpr int steps = 64;          // of phi, to find the minimum
 constexpr const char* rough = "radii and lay angles that were measured or estimated roughly";
 
 bool fits(const Component& of, double lay_angle, int count, double give = rounding) {
@@ -29,7 +29,7 @@ int largest_count(const Component& of) {
   return count;
 }
 
-/// Between 0, which fits, and that of the component, which does not.
+/// Returns the largest lay angle that fits, by bisection between 0, which fits, and the component's angle, which does not.
 double largest_lay_angle(const Component& of) {
   double low = 0, high = of.lay_angle;
   for (int halving = 0; halving < 40; ++halving) {
@@ -39,9 +39,9 @@ double largest_lay_angle(const Component& of) {
   return low;
 }
 
-/// Of the circle on which they lie beside each other at this lay angle [m].
+/// Returns the least radius of the circle on which the parts fit at this lay angle [m].
 double least_helix_radius(const Component& of) {
-  double low = of.helix_radius, high = of.count * of.radius / std::cos(of.lay_angle);  // a circle of 2 pi R > K 2 r / cos
+  double low = of.helix_radius, high = of.count * of.radius / std::cos(of.lay_angle);  // they fit if 2 pi R > K 2 r / cos
   for (int halving = 0; halving < 40; ++halving) {
     const double middle = (low + high) / 2;
     (neighbour_distance(middle, of.lay_angle, of.count) < 2 * of.radius ? low : high) = middle;
@@ -49,7 +49,7 @@ double least_helix_radius(const Component& of) {
   return high;
 }
 
-/// Keys with values, each of which cures it alone.
+/// Returns keys with values, each of which is a remedy by itself.
 std::string what_fits(const Component& of) {
   std::string keys = fmt::format("count: {} or less", largest_count(of));
   if (of.lay_angle > 0 && fits(of, 0, of.count))
@@ -57,13 +57,13 @@ std::string what_fits(const Component& of) {
   return keys + fmt::format(", or helix_radius_mm: {:.4g} or more", std::ceil(1e6 * least_helix_radius(of)) / 1e3);
 }
 
-/// Turn about the parent's axis along it [rad/m].
+/// Returns the rotation about the parent's axis along the parent [rad/m].
 double turn_rate(const Component& of) {
   if (of.helix_radius == 0) return 0;
   return (of.hand == Hand::left ? -1 : 1) * std::tan(of.lay_angle) / of.helix_radius;
 }
 
-/// Side by side all along, or crossing each other within a metre.
+/// Returns whether parts stay beside each other; otherwise they cross within a metre.
 bool go_on_alike(const Component& one, const Component& other) {
   constexpr double along = 1;  // [m]
   if (one.helix_radius == 0 || other.helix_radius == 0) return true;
@@ -97,7 +97,7 @@ void add_overlaps_between(const std::vector<Component>& components, Problems& pr
     }
 }
 
-/// Gross overlap is a problem, less of it a warning where these are asked for.
+/// Adds a problem for a gross overlap, and a warning for a smaller one if warnings are requested.
 void add_overlaps(const Component& of, Problems& problems, std::vector<Warning>* warnings) {
   for (const Component& inner : of.components) add_overlaps(inner, problems, warnings);
   add_overlaps_between(of.components, problems, warnings);
@@ -113,7 +113,7 @@ void add_overlaps(const Component& of, Problems& problems, std::vector<Warning>*
     warnings->push_back(warning_of(WarningKind::overlap, of.where.text(), what, rough, what_fits(of)));
 }
 
-/// Of a bore that is not given.
+/// Adds warnings about parts outside of an estimated bore.
 void add_outside(const Dresspack& dresspack, std::vector<Warning>& warnings) {
   const PartsRoom room = room_of_parts(dresspack);
   for (const Component& of : dresspack.components)
@@ -130,8 +130,8 @@ void add_outside(const Dresspack& dresspack, std::vector<Warning>& warnings) {
 
 }  // namespace
 
-// One valley between phi = -turned, where the other lies beside it, and 0, where it lies a lay before it:
-// found by steps, then by thirds.
+// The distance has one minimum between phi = -turned, where the neighbour is beside the point, and 0, where it is a lay before
+// it. It is found by steps, then by ternary search.
 double neighbour_distance(double helix_radius, double lay_angle, int count) {
   const double turned = 2 * pi / count, R = helix_radius;
   if (lay_angle == 0) return 2 * R * std::sin(turned / 2);
@@ -145,7 +145,7 @@ double neighbour_distance(double helix_radius, double lay_angle, int count) {
   double low = -turned * std::min(nearest + 1, steps) / steps,
          high = -turned * std::max(nearest - 1, 0) / steps;
   for (int third = 0; third < 40;
-       ++third) {  // 2/3 of the width each time: 1e-7 of a step, squared in the distance
+       ++third) {  // the width becomes 2/3 each time: 1e-7 of a step in the end, squared in the distance
     const double left = (2 * low + high) / 3, right = (low + 2 * high) / 3;
     (squared(left) < squared(right) ? high : low) = squared(left) < squared(right) ? right : left;
   }
@@ -184,7 +184,7 @@ std::vector<Warning> overlap_warnings(const Dresspack& dresspack) {
 }
 
 void refuse_gross_overlap(const Dresspack& dresspack) {
-  if (crowd_in(dresspack)) return;  // check_dresspack() has said so
+  if (crowd_in(dresspack)) return;  // check_dresspack() reports it
   Problems problems;
   for (const Component& component : dresspack.components) add_overlaps(component, problems, nullptr);
   add_overlaps_between(dresspack.components, problems, nullptr);

@@ -9,7 +9,7 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double bore_over_diameter =
-    2.0 / 3;  // of the outer diameter, ESTIMATE: 6 x 4, 8 x 5.5, 10 x 7, 12 x 8 mm are sold
+    2.0 / 3;  // of the outer diameter, ESTIMATE: sizes on sale are 6 x 4, 8 x 5.5, 10 x 7, 12 x 8 mm
 constexpr double water_density = 1000;  // [kg/m3]
 
 }  // namespace

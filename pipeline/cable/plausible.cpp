@@ -17,65 +17,66 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double copper = 8960,
-                 aluminium = 2700;  // densities: the heaviest and the lightest metal of cables [kg/m3]
-// Damping ratio pi f tau at 1.8 Hz, the median of published swings of hanging cables (0.115 there). Beyond 1 nothing
-// swings; steel ropes without friction between their wires have 0.005.
+                 aluminium = 2700;  // densities of the heaviest and the lightest metal of cables [kg/m3]
+// Damping ratio pi f tau at 1.8 Hz, the median frequency of published swings of hanging cables (ratio 0.115). Above 1 there is no
+// swing. Steel ropes without friction between their wires have 0.005.
 constexpr double swing_frequency = 1.8, least_ratio = 0.005, most_ratio = 1;
-constexpr double stiffest = 115e9, shear = 45e9;  // moduli of copper [Pa]: a dresspack is no solid bar of it
-constexpr double most_stretch = 0.02;             // by the weight of a metre, at which a simulation stops
-constexpr double strongest_jacket = 10e6;         // [Pa]: the pressure at which soft jackets (PVC, PUR) yield
-constexpr double thinnest = 0.01e-3;              // radius of a wire [m]: the finest strands are 0.03 mm wide
+constexpr double stiffest = 115e9, shear = 45e9;  // moduli of copper [Pa]: no dresspack is a solid copper bar
+constexpr double most_stretch = 0.02;             // strain by the weight of a metre; a simulation stops at this strain
+constexpr double strongest_jacket = 10e6;         // [Pa]: pressure at which soft jackets (PVC, PUR) yield
+constexpr double thinnest = 0.01e-3;              // radius of a wire [m]: the finest strands have a diameter of 0.03 mm
 constexpr double least_lay =
-    0.6 * degree;  // a turn in 100 helix diameters and more; lays of cables are 3 to 40 deg, 0.05 to 0.7 rad
-// Widths of the layer: four times the longest lay of cores in flexible cables, which have 8 to 16 (config/defaults.md).
+    0.6 * degree;  // a turn in 100 helix diameters or more; lays of cables are 3 to 40 deg, 0.05 to 0.7 rad
+// Lay length in widths of the layer: four times the longest lay of cores in flexible cables, 8 to 16 (config/defaults.md).
 constexpr double longest_lay = 64;
 
 constexpr double widest_hose = 0.2,
-                 thinnest_cable = 1e-3;  // [m]: hoses on robots are 15 to 110 mm wide, sensor cables 2
+                 thinnest_cable = 1e-3;  // [m]: hoses on robots have diameters of 15 to 110 mm, sensor cables 2 mm
 constexpr double thin_hose =
-    5e-3;  // [m]: the thinnest hose or cable on a robot that a slip of the unit may stand for
+    5e-3;  // [m]: the thinnest hose or cable on a robot that a wrong unit may stand for
 constexpr double thickest_wall =
-    0.25;  // of the diameter: a corrugated hose has 0.05 to 0.1, a rubber hose 0.2
-constexpr double thinnest_wall = 0.1e-3;  // [m]: corrugated hoses have 0.3 mm and more, and their folds
+    0.25;  // share of the diameter: corrugated hoses have 0.05 to 0.1, rubber hoses 0.2
+constexpr double thinnest_wall = 0.1e-3;  // [m]: corrugated hoses have 0.3 mm and more
 constexpr double same_height =
-    0.2;  // of a corrugation: catalogues round diameters to 0.5 mm, heights are 1.5 to 6 mm
+    0.2;  // of a corrugation: catalogues round diameters to 0.5 mm; heights are 1.5 to 6 mm
 constexpr double largest_bend_radius = 40;  // diameters: makers' limits are 3 to 15
-constexpr double tight_bend = 1.3;          // diameters: the least of corrugated hoses that do not move
-// Diameters, of moved parts by their makers: hoses have 3 to 10, cables 5 to 15. Of cables that lie still makers print 3 to 4.
+constexpr double tight_bend = 1.3;          // diameters: the limit of corrugated hoses that do not move
+// In diameters, for moving parts, from makers: hoses have 3 to 10, cables 5 to 15. For fixed cables, makers give 3 to 4.
 constexpr double tightest_hose = 3, widest_hose_bend = 10, tightest_cable = 4.5, widest_cable_bend = 15;
 constexpr double least_torsion = 0.01,
-                 most_torsion = 100;      // G J over E I: a solid bar has 0.77, corrugated hoses to 10
+                 most_torsion = 100;      // G J / E I: a solid bar has 0.77, corrugated hoses up to 10
 constexpr double largest_friction = 1.5;  // rubber on steel has 1
 constexpr double least_most_twist = 5, largest_most_twist = 3600;     // [deg/m]: makers allow 50 to 360
 constexpr double least_most_tension = 5, largest_most_tension = 1e5;  // [N]
-constexpr double least_slack = 5e-4;  // half a millimetre in a metre: nobody lays a cable so exactly
-constexpr double least_grip = 1;                       // [N]: a cable's weight in half a metre of hose
+constexpr double least_slack = 5e-4;  // half a millimetre per metre: no cable is laid so accurately
+constexpr double least_grip = 1;                       // [N]: weight of a cable in half a metre of hose
 constexpr double largest_construction_curvature = 50;  // [1/m]: a radius of 20 mm
-constexpr double thinnest_sleeve = 0.05e-3, thickest_sleeve = 0.25;  // [m], and of the diameter
-/// [m3/(N m)]: a tenth of the least rate of polymers that slide (1e-7 mm3/(N m)); above abrasive cloth on polyurethane (0.075).
+constexpr double thinnest_sleeve = 0.05e-3, thickest_sleeve = 0.25;  // [m], and share of the diameter
+/// [m3/(N m)]: a tenth of the lowest rate of sliding polymers (1e-7 mm3/(N m)); above abrasive cloth on polyurethane (0.075).
 constexpr double least_wear = 1e-17, most_wear = 1e-10;
 constexpr double strongest_part =
-    200e6;  // [Pa] over the whole section of a part: a cable is half metal and tears at 400 MPa
+    200e6;  // [Pa] over the whole cross-section of a part: half of a cable is metal, which breaks at 400 MPa
 constexpr double fewest_rated = 100;                          // cycles
 constexpr double softest_wire = 10e9, stiffest_wire = 450e9;  // [Pa]: magnesium 45, tungsten 400
 constexpr double weakest_wire = 30e6, strongest_wire = 10e9;  // [Pa]: soft aluminium 50 MPa, steel cord 4 GPa
-constexpr double largest_ductility = 10;                      // copper of the thesis 2.4
+constexpr double largest_ductility = 10;                      // copper of the thesis has 2.4
 constexpr double steepest_strength = -0.3, steepest_ductility = -1.2,
                  flattest_ductility = -0.3;  // b -0.05 to -0.15, c -0.5 to -0.8
 constexpr double heaviest_filling =
     2500;  // [kg/m3]: hydraulic hoses with four layers of steel wire have 1500 to 2000
-constexpr double least_grams = 50;  // [kg/m]: more is g/m; less may be the mass of a whole dresspack
+constexpr double least_grams = 50;  // [kg/m]: a larger number is in g/m; a smaller one may be the mass of a whole dresspack
 constexpr double lightest_part =
-    50;  // [kg/m3] over the section of a part without wires: foam; an air hose of 8/5.5 mm has 630
-// Bore over outer diameter: tubes for air and water have 0.5 (4 x 2 mm) to 0.8 (16 x 13 mm), hydraulic hoses with two braids of steel 0.43. A
-// radius in place of the diameter makes 0.40 of a tube of 10 x 8 mm.
+    50;  // [kg/m3] over the cross-section of a part without wires: foam; an air hose of 8/5.5 mm has 630
+// Bore / outer diameter: tubes for air and water have 0.5 (4 x 2 mm) to 0.8 (16 x 13 mm), hydraulic hoses with two steel braids
+// 0.43. A tube of 10 x 8 mm has 0.40 if a radius is given instead of the diameter.
 constexpr double narrowest_bore = 0.42, widest_bore = 0.92, usual_bore = 0.45;
-// Of a usual jacket, 1 mm + 0.035 bundle diameters (pipeline/resolve/cable_rules.h): two sheaths with a screen between them have 1.9.
+// In units of a usual jacket, 1 mm + 0.035 bundle diameters (pipeline/resolve/cable_rules.h): two sheaths with a screen between
+// them have 1.9.
 constexpr double thickest_jacket = 2, jacket_base = 1e-3, jacket_slope = 0.035;
 constexpr double shortest_pitch = 0.3e-3;  // [m]: the finest corrugated hoses have 1 mm
-constexpr double largest_grip = 1e5;       // [N]: ten times what tears a power cable
+constexpr double largest_grip = 1e5;       // [N]: ten times the breaking force of a power cable
 
-/// Of all wires in a metre of the part, lays along: as if of aluminium [kg/m].
+/// Returns the mass of all wires per metre of the part along their lays, with the density of aluminium [kg/m].
 double least_wire_mass(const std::vector<Component>& components) {
   double mass = 0;
   for (const Component& of : components) {
@@ -94,7 +95,7 @@ class Judge {
   }
 
   void parts(const std::vector<Component>& components) {
-    double widest = 0;  // of what is laid together: its layers have one lay length, so that the innermost has a small angle
+    double widest = 0;  // of all layers that are laid together: they have one lay length, so the innermost has a small angle
     for (const Component& of : components) widest = std::max(widest, 2 * (of.helix_radius + of.radius));
     for (std::size_t k = 0; k < components.size(); ++k) {
       const Component& of = components[k];
@@ -179,7 +180,7 @@ class Judge {
   }
 
  private:
-  /// A hose in the hose, its bore and outer diameter [mm].
+  /// Judges bore and outer diameter of a hose in the hose [mm].
   void tube(const Component& of, double bore, double outer) {
     if (bore >= narrowest_bore * outer && bore <= widest_bore * outer) return;
     const auto fits = [&](double inner, double around) {
@@ -211,14 +212,14 @@ class Judge {
   std::vector<Warning>& warnings_;
 };
 
-/// Whether a wire is made of this material.
+/// Returns whether a wire is of this material.
 bool has_wire_of(const std::vector<Component>& components, const std::string& material) {
   return std::any_of(components.begin(), components.end(), [&](const Component& of) {
     return is_wire(of) ? of.material == material : has_wire_of(of.components, material);
   });
 }
 
-/// Constants of metals that wires are made of.
+/// Judges the constants of wire metals.
 void plausible_metal(const Material& of, Judge& judge) {
   const auto beyond = [&](const char* key, double value, double low, double high, double unit,
                           const std::string& cause, const std::string& remedy) {
@@ -259,7 +260,7 @@ void plausible_metal(const Material& of, Judge& judge) {
          fmt::format("fatigue_ductility: {:g} if that was per cent", of.fatigue_ductility / 100));
 }
 
-/// Limits that a maker states, and what lies around the hose.
+/// Judges limits from makers, and the sleeve and other parts around the hose.
 void plausible_limits(const Dresspack& dresspack, Judge& judge) {
   if (const double twist = dresspack.most_twist.value_or(degree * least_most_twist) / degree;
       twist < least_most_twist * (1 - 1e-9) || twist > largest_most_twist)
@@ -305,7 +306,7 @@ void plausible_limits(const Dresspack& dresspack, Judge& judge) {
                   : "thickness_mm of one wall");
 }
 
-/// Diameters, bend radius and torsion beside each other, and what parts have.
+/// Judges diameters, bend radius and torsion against each other, and against the parts.
 void plausible_size(const Dresspack& dresspack, Judge& judge) {
   const double diameter = dresspack.diameter;
   if (diameter > widest_hose || diameter < thinnest_cable) {
@@ -399,7 +400,7 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
   Judge judge(warnings);
   const double mass = dresspack.mass_per_length, section = pi / 4 * dresspack.diameter * dresspack.diameter;
   const double least = least_wire_mass(dresspack.components);
-  // Beside what its parts have, a hose is filled at most with steel braid and rubber. Without parts it may be anything.
+  // In addition to its parts, a hose is filled with steel braid and rubber at most. Without parts its content is unknown.
   const double built = dresspack.components.empty() ? 0 : mass_of_construction(dresspack);
   const double most = built > 0 ? built + heaviest_filling * section : copper * section;
   if (mass > most)
@@ -445,7 +446,7 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
   beyond_solid("axial_stiffness_N", dresspack.axial_stiffness, stiffest * section, "N");
   constexpr double gravity = 9.81;
   const double weight =
-      std::min(mass, most) * gravity;  // a mass that is doubtful does not make the stiffness doubtful
+      std::min(mass, most) * gravity;  // an implausible mass does not make the stiffness implausible
   if (const bool computed = dresspack.axial_from_construction;
       dresspack.axial_stiffness > 0 && weight > most_stretch * dresspack.axial_stiffness)
     judge.add(

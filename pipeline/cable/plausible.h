@@ -1,5 +1,5 @@
-// Values of a dresspack that no dresspack has, and that another unit or a slip of the pen explains: accepted by the
-// ranges of the keys, and silently wrong in every result.
+// Detects implausible values of a dresspack that a wrong unit or a typing error explains. The ranges of the keys accept such
+// values, and all results would be wrong without a message.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace dresslife::pipeline {
 
-/// Mass and stiffnesses against solid copper, its own wires and weight, damping against any swing that is seen,
-/// wires, lay angles, pressures and play against what is made, bores of tubes against their radii, the corrugation
-/// against the two diameters, parts side by side of one name. Each warning names key, value and limit.
+/// Compares mass and stiffnesses with solid copper, the dresspack's own wires and its weight; damping with observed swings;
+/// wires, lay angles, pressures and play with real products; bores of tubes with their radii; the corrugation with the two
+/// diameters; parts of one name with each other. Each warning states key, value and limit.
 std::vector<Warning> plausibility_warnings(const Dresspack& dresspack);
 
 }  // namespace dresslife::pipeline

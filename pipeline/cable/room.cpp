@@ -12,12 +12,12 @@ namespace {
 
 double away(const CableSpot& cable) { return std::hypot(cable.place[0], cable.place[1]); }
 
-/// Distances from the axis between which a ring lies [m].
+/// Range of distances from the axis in which a ring lies [m].
 struct CableRing {
   double inside, outside;
 };
 
-/// Puts cables into rings, innermost first.
+/// Assigns cables to rings, innermost first.
 std::vector<CableRing> rings_of(std::span<const CableSpot> cables, std::vector<CableRoom>& rooms) {
   std::vector<CableRing> rings;
   for (const std::size_t k :
@@ -51,7 +51,7 @@ std::vector<CableRoom> rooms_of(std::span<const CableSpot> cables, double bore, 
         room.gap = std::min(room.gap, std::max(0.0, (apart - cables[k].radius - cables[other].radius) / 2));
       }
   }
-  for (CableRoom& room : rooms)  // alone in its ring a cable meets no other
+  for (CableRoom& room : rooms)  // a single cable of a ring touches no other cable
     if (room.gap == infinity) room.ring = no_ring;
   return rooms;
 }

@@ -1,13 +1,11 @@
-// Truncated power series in a length l: f(l) = f0 + f1 l + f2 l^2 + ..., the derivatives along a component
-// that the nested helices need (W6). Every level of nesting uses up one order: the child's rotation rate
-// needs the slope of its lay angle, which needs the slope of its parent's rotation rate.
+// Truncated power series in a length l: f(l) = f0 + f1 l + f2 l^2 + .... They contain the derivatives along a component that
+// nested helices need (W6). Every level of nesting needs one order: the child's rotation rate depends on the slope of its lay
+// angle, which depends on the slope of its parent's rotation rate.
 //
-// T is double or a pack of samples side by side (strain/kernels/body.h). Orders are run-time numbers below
-// `capacity`.
+// T is double or a pack of samples (strain/kernels/body.h). Orders are run-time numbers below `capacity`.
 //
-// The functions of this header and of helix.h are compiled once per instruction set (kernels.h) and therefore
-// carry the name of the set: two copies of one name would be merged by the linker, and a plain machine might
-// run the wide one.
+// The functions of this header and of helix.h are compiled once per instruction set (kernels.h). Their namespace has the name of
+// the set, because the linker merges two copies of one name, and an older machine might then run the wide copy.
 #pragma once
 
 #ifndef DRESSLIFE_MACHINE
@@ -25,7 +23,7 @@ struct Series {
   static constexpr int capacity = 8;  ///< orders 0 .. capacity - 1
 
   int order = 0;               ///< highest power kept
-  std::array<T, capacity> at;  ///< coefficients; those above `order` hold nothing and are not copied
+  std::array<T, capacity> at;  ///< coefficients; those above `order` are undefined and are not copied
 
   Series() {}
   Series(const Series& other) { *this = other; }
@@ -83,7 +81,7 @@ Series<T> operator*(double factor, Series<T> series) {
   return series;
 }
 
-/// The same series with a number added.
+/// Adds a number to a series.
 template <class T>
 Series<T> operator+(double value, Series<T> series) {
   series.at[0] = value + series.at[0];
@@ -103,7 +101,7 @@ Series<T> operator/(const Series<T>& numerator, const Series<T>& denominator) {
   return quotient;
 }
 
-/// Square root of a series whose value is positive.
+/// Returns the square root of a series. Precondition: its value is positive.
 template <class T>
 Series<T> square_root(const Series<T>& square) {
   Series<T> root;
@@ -119,7 +117,7 @@ Series<T> square_root(const Series<T>& square) {
   return root;
 }
 
-/// The slope df/dl, one order less.
+/// Returns the slope df/dl. Its order is one less.
 template <class T>
 Series<T> slope(const Series<T>& series) {
   assert(series.order > 0);
@@ -129,7 +127,7 @@ Series<T> slope(const Series<T>& series) {
   return result;
 }
 
-/// The same function of a length m with l = scale m.
+/// Returns the series in the variable m with l = scale m.
 template <class T>
 Series<T> stretched(Series<T> series, double scale) {
   double power = 1;
@@ -137,8 +135,8 @@ Series<T> stretched(Series<T> series, double scale) {
   return series;
 }
 
-/// sin(angle + rate l) from sine and cosine of the angle. The cosine is the sine a quarter turn on: give it
-/// (cosine, -sine).
+/// Returns sin(angle + rate l) from sine and cosine of the angle. For the cosine, pass (cosine, -sine), because it is the sine a
+/// quarter turn later.
 inline Series<double> sine_series(double sine, double cosine, double rate, int order) {
   assert(order < Series<double>::capacity);
   const double pattern[4] = {sine, cosine, -sine, -cosine};

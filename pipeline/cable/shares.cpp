@@ -23,7 +23,7 @@ double elastic_share(double jacket_stiffness, double axial_stiffness, double eve
 
 double radial_share(double axial_stiffness, double lay_angle, double helix_radius, double radial_stiffness) {
   if (helix_radius == 0) return 1;
-  const double press = std::pow(std::sin(lay_angle), 2) / helix_radius;  // of a tension [1/m]
+  const double press = std::pow(std::sin(lay_angle), 2) / helix_radius;  // line load per tension [1/m]
   return 1 / (1 + axial_stiffness * press * press / radial_stiffness);
 }
 

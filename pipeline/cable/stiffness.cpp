@@ -21,14 +21,15 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double wire_density = 8900;        // [kg/m3], of copper
-constexpr double torsion_of_core = 0.8;      // ESTIMATE, as of a solid round bar
+constexpr double torsion_of_core = 0.8;      // ESTIMATE: that of a solid round bar
 constexpr double gravity = 9.81;             // [m/s2]
-constexpr double believable_stretch = 1e-3;  // by its own weight; hoses of polyamide: 1e-4 and less
-constexpr double believable = 2;  // a life moves by up to a factor of five with twice the E I (README)
+constexpr double believable_stretch = 1e-3;  // by the hose's own weight; hoses of polyamide have 1e-4 and less
+constexpr double believable = 2;  // twice the E I changes a life by a factor of up to five (README)
 
 bool is_hose(const Dresspack& dresspack) { return inner_radius(dresspack).has_value(); }
 
-/// Of all in it. What is no hose is a cable itself, of parts in a jacket, or holds nothing but one.
+/// Returns E I of all polymer in the dresspack. A dresspack that is no hose is a cable of parts in a jacket, or contains a single
+/// cable.
 double polymer_of(const Dresspack& dresspack) {
   double sum = 0;
   bool on_axis = false;
@@ -59,7 +60,7 @@ HoseStiffness wall_of(const Dresspack& dresspack) {
   return {EA * R * R / 2, 2 * pi * R * R * R * profile.wall * G * profile.pitch / fold.unfolded(), EA};
 }
 
-/// Adds the wires over the polymer that they displace [kg/m].
+/// Adds the mass of the wires minus that of the polymer that they displace [kg/m].
 void add_wires(const Component& part, double count, double cosines, double& mass) {
   count *= part.count;
   cosines *= std::cos(part.lay_angle);
@@ -69,7 +70,7 @@ void add_wires(const Component& part, double count, double cosines, double& mass
   mass += (wire_density - polymer_density) * area / cosines;
 }
 
-/// [m2] across the hose.
+/// Returns the cross-section of the wall [m2].
 double section_of_wall(const Dresspack& dresspack) {
   if (dresspack.hose_corrugation) {
     const Corrugation& profile = *dresspack.hose_corrugation;
@@ -86,7 +87,7 @@ HoseStiffness core_of(const Dresspack& dresspack) {
           dresspack.core_axial_stiffness.value_or(0)};
 }
 
-/// A layer of the dresspack by itself, as if it were all of a cable.
+/// Returns a cable that consists of this layer only.
 Component alone(const Component& layer) {
   Component cable;
   cable.components = {layer};
@@ -99,7 +100,7 @@ Component whole(const Dresspack& dresspack) {
   return all;
 }
 
-/// What its wires answer, once for all states.
+/// Resistance of the wires, computed once for all states.
 class Wires {
  public:
   explicit Wires(const Dresspack& dresspack) : bending_(dresspack, whole(dresspack), StraightParts::slide) {
@@ -117,7 +118,7 @@ class Wires {
     }
     return 0;
   }
-  /// Held by friction alone [N m].
+  /// Returns the moment by friction alone [N m].
   double friction(double curvature) const {
     return bending_.moment(curvature, 1) - bending_.free_stiffness() * curvature;
   }
@@ -125,7 +126,7 @@ class Wires {
 
  private:
   CableBending bending_;
-  std::vector<PullAndTwist> layers_;  ///< of the dresspack
+  std::vector<PullAndTwist> layers_;  ///< one for each layer of the dresspack
 };
 
 double pull_of_plain(const Component& part) {
@@ -182,13 +183,14 @@ HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState st
 }
 
 std::vector<BendingFriction> friction_of_construction(const Dresspack& dresspack, double sliding) {
-  constexpr double all = 1e4;           // [1/m]: nothing in a cable sticks to the end of it
-  constexpr double stiffest = 9;        // beyond it the implicit part of (S3) slows swings of 5 Hz by more than 10 % at 5 ms
+  constexpr double all = 1e4;           // [1/m]: nothing in a cable sticks up to this curvature
+  constexpr double stiffest = 9;        // with more, the implicit part of (S3) slows swings of 5 Hz by more than 10 % at 5 ms
   constexpr double first_share = 0.33;
   const Wires wires(dresspack);
   const double most = wires.friction(all);
   if (!(most > 1e-9 * sliding)) return {};
-  // Where the friction's moment reaches a share of all, and where its secant falls to a limit: both are monotonic.
+  // Finds a curvature: where the friction's moment reaches a share of all friction, or where its secant falls to a limit. Both
+  // are monotonic.
   const auto where = [&](const auto& reached) {
     double low = 1e-6, high = all;
     for (int halving = 0; halving < 60; ++halving) {
@@ -206,7 +208,7 @@ std::vector<BendingFriction> friction_of_construction(const Dresspack& dresspack
   double before = 0, moment_before = 0, slope_before = 0;
   for (const double k : at) {
     const double moment = wires.friction(k), slope = (moment - moment_before) / (k - before);
-    if (moment - moment_before < 1e-3 * most) continue;  // of a stiff element that holds nearly all friction
+    if (moment - moment_before < 1e-3 * most) continue;  // if a stiff element has almost all friction
     if (!elements.empty()) elements.back().stiffness = slope_before - slope;
     elements.push_back({slope, k});
     before = k, moment_before = moment, slope_before = slope;
@@ -218,7 +220,7 @@ std::vector<double> bending_moments(const Dresspack& dresspack, double friction,
   const Wires wires(dresspack);
   const double sliding = stiffness_with(wires, dresspack, SlipState::sliding, 1).bending;
   std::vector<double> moments;
-  for (const double k : curvature)  // twice the limits hold twice the moment at twice the curvature
+  for (const double k : curvature)  // for twice the friction, the moment is doubled at twice the curvature
     moments.push_back(sliding * k + (friction > 0 ? friction * wires.friction(k / friction) : 0));
   return moments;
 }
@@ -265,7 +267,7 @@ void take_from_construction(Dresspack& dresspack) {
 
 namespace {
 
-/// Of stiffnesses from a construction of which something is not known.
+/// Returns a warning about stiffnesses from an incomplete construction.
 std::optional<Warning> too_little(const Dresspack& dresspack, const std::vector<std::string>& missing) {
   std::vector<std::string> taken, keys;
   const auto take = [&](bool from_construction, const char* key, double value) {
@@ -297,11 +299,12 @@ std::optional<Warning> too_little(const Dresspack& dresspack, const std::vector<
                   joined(keys, ", ")));
 }
 
-/// A smooth wall that no mechanic bends to its bend radius: the profile of a corrugated hose was left out.
+/// Returns a warning about a smooth wall that a mechanic cannot bend to its bend radius: the profile of a corrugated hose is
+/// probably missing.
 std::optional<Warning> too_stiff_wall(const Dresspack& dresspack) {
-  // [N m]: two hands 0.1 m apart push with 100 N each, half of what EN 1005-3 takes as the most for pushing with the whole
-  // body. Of polyamide, a tube of 8/6 mm bent to 40 mm needs 6, the corrugated hose of
-  // config/dresspacks/handling.yaml, 48 mm wide, bent to 200 mm 3.
+  // [N m]: two hands 0.1 m apart push with 100 N each, half of the limit of EN 1005-3 for pushing with the whole body. For
+  // polyamide, a tube of 8/6 mm bent to 40 mm needs 6, the corrugated hose of config/dresspacks/handling.yaml (48 mm) bent to 200
+  // mm needs 3.
   constexpr double by_hand = 10;
   if (dresspack.hose_material.empty() || dresspack.hose_corrugation || !knows_wall(dresspack))
     return std::nullopt;
@@ -345,18 +348,17 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
   };
   const double sliding = bending(SlipState::sliding), friction = bending(SlipState::friction),
                stuck = bending(SlipState::stuck);
-  // How solid a jacket is that holds parts, and how it holds them, is not known of a cable.
+  // The stiffness of a jacket around parts, and how it holds them, are unknown for a cable.
   const double least =
       is_hose(dresspack) ? std::max(friction / believable, sliding) : sliding - polymer_of(dresspack);
-  // A wall that is not described is no stiffer than a solid bar of polyamide 66 (3.3 GPa dry, the stiffest without
-  // glass).
+  // A wall of unknown construction is at most as stiff as a solid bar of polyamide 66 (3.3 GPa dry, the stiffest without glass).
   constexpr double stiffest = 3.3e9;
   const double solid = stiffest * std::numbers::pi / 64 * std::pow(dresspack.diameter, 4);
   const double most = !missing.empty()     ? stuck + solid
                       : is_hose(dresspack) ? std::min(friction * believable, stuck)
                                            : stuck;
   if (given >= least && given <= most) return warnings;
-  if (wall) {  // the given one may be right
+  if (wall) {  // the given stiffness may be right
     warnings.push_back(*wall);
     return warnings;
   }

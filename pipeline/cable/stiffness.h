@@ -1,25 +1,23 @@
-// The stiffness of a filled hose from its contents: `bending_stiffness_Nm2: from_construction`, so that the
-// simulation moves the hose whose wires the strain stage strains.
+// Stiffness of a filled hose from its contents: `bending_stiffness_Nm2: from_construction`. Then the simulation and the strain
+// stage use the same hose.
 //
-// Cables that lie straight in a hose share its bend and its twist, each about its own axis. What fills the
-// middle and the wall share them, too:
+// Cables that lie straight in a hose are bent and twisted with it, each about its own axis. The core and the wall are bent and
+// twisted too:
 //     E I = sum of (polymer + M(kappa) / kappa of its wires, cable_bending.h) + wall + core,
-//     G J = sum of (2/3 polymer + its wires', its length free where it has slack) + wall + core,
-//     E A = sum of its wires' where it has no slack                               + wall + core.
-// What a cable off the axis gains in a bend it keeps or loses along the whole hose: that is a force from
-// clamp to clamp (W34 of strain/README.md), no stiffness of the cross-section, and nothing where it has
-// slack. Only glued cables (`stuck`) add E A R^2 / 2 to E I. Parts without wires (plain_part.h) count as
-// polymer, in E A too.
+//     G J = sum of (2/3 polymer + that of its wires, at free length if it has slack) + wall + core,
+//     E A = sum of that of its wires if it has no slack                              + wall + core.
+// The elongation of a cable off the axis in a bend is constant along the whole hose. It is a force from clamp to clamp (W34 of
+// strain/README.md), not a stiffness of the cross-section, and 0 with slack. Only glued cables (`stuck`) add E A R^2 / 2 to E I.
+// Parts without wires (plain_part.h) count as polymer, also in E A.
 //
-// state: `sliding`, nothing rubs; `stuck`, nothing slides; `friction`, what friction and pressures hold at
-// construction_curvature. That is the secant of the first bend. A bend to and fro between -kappa and kappa
-// ends where the first bend did (Masing). In that state a simulated hose moves with the sliding stiffness and its friction
-// beside it (bending_friction), never with the secant as a spring.
-// Twist is alike all along a lay, so slip does not reduce it: G J has two values only.
+// state: `sliding`: no friction; `stuck`: no sliding; `friction`: friction and pressures at construction_curvature. `friction` is
+// the secant of the first bend. A cyclic bend between -kappa and kappa has the same end points (Masing). A simulated hose in this
+// state has the sliding stiffness and a friction in parallel (bending_friction), never the secant as a spring. Twist is uniform
+// along a lay, so slip does not reduce it: G J has only two values.
 //
-// The wall of a corrugated hose is a folded beam (W22): pulled by F per length around, a corrugation gives by
-// 4 F J / D, D = E wall^3 / 12, so that E A = 2 pi R pitch E wall^3 / (48 J), E I = E A R^2 / 2; twist shears
-// it along its unfolded length: G J = 2 pi R^3 wall G pitch / (4 a + 2 pi r). A smooth wall is a tube.
+// The wall of a corrugated hose is a folded beam (W22). A pull F per length around the hose stretches a corrugation by 4 F J / D,
+// D = E wall^3 / 12, so E A = 2 pi R pitch E wall^3 / (48 J), E I = E A R^2 / 2. Twist shears it along its unfolded length: G J =
+// 2 pi R^3 wall G pitch / (4 a + 2 pi r). A smooth wall is a tube.
 #pragma once
 
 #include <string>
@@ -31,11 +29,11 @@
 
 namespace dresslife::pipeline {
 
-/// Of one part [kg/m]: given properties_of() what is without wires (plain_part.h), else its wires of 8900
-/// kg/m3, longer by their lays, in a polymer of 1200.
+/// Returns the mass of one part [kg/m]: properties_of() of a part without wires (plain_part.h), otherwise that of wires of 8900
+/// kg/m3 along their lays in a polymer of 1200 kg/m3.
 double mass_of_part(const Component& part);
-/// Of the dresspack [kg/m]: its parts, as they are given or by mass_of_part(), and a polymer wall; what fills
-/// its core and what flows in it is left out. Of what is no hose, a jacket fills what its parts leave.
+/// Returns the mass of the dresspack [kg/m]: its parts (given, or by mass_of_part()) and a polymer wall, without the core and the
+/// contents of hoses. If it is no hose, a jacket fills the space between its parts.
 double mass_of_construction(const Dresspack& dresspack);
 
 struct HoseStiffness {
@@ -44,36 +42,35 @@ struct HoseStiffness {
   double axial = 0;      ///< E A [N]
 };
 
-/// Of the dresspack's construction in this state. curvature: of state `friction` [1/m]. Parts without
-/// friction and pressures slide. Errors: InputError for a measured bending stiffness that no friction gives.
+/// Returns the stiffness of the dresspack's construction in this state. curvature: of state `friction` [1/m]. Parts without
+/// friction or pressure slide. Errors: InputError for a measured bending stiffness that no friction gives.
 HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState state, double curvature);
 
-/// What friction holds of a bend, as elements whose sum is the friction's share of M(kappa) at their own curvatures, and
-/// less between them: F at four curvatures, from the first, where a third of all friction is held or, if that is
-/// further, the elements together are nine times as stiff as the sliding hose, to the last, from which all slides.
-/// sliding: E I of the hose [N m2].
+/// Returns the friction of a bend as elements. Their sum equals the friction's share of M(kappa) at the curvatures of the
+/// elements and is smaller between them. There are up to four. At the first curvature a third of all friction acts; if this is
+/// larger, it is the curvature at which the elements together are nine times as stiff as the sliding hose. At the others, 50, 85
+/// and 99.5 % of the remaining friction act. sliding: E I of the hose [N m2].
 std::vector<BendingFriction> friction_of_construction(const Dresspack& dresspack, double sliding);
 
-/// What bends a straight hose for the first time [N m], (bend): E I without friction, and what friction holds, by a factor of it.
+/// Returns the moments that bend a straight hose for the first time [N m], (bend): E I without friction, plus `friction` times
+/// the friction. curvature: (bend) [1/m].
 std::vector<double> bending_moments(const Dresspack& dresspack, double friction, const std::vector<double>& curvature);
 
-/// The parts of the construction that those numbers leave out, as words: "what fills its core (...)". Empty:
-/// nothing.
+/// Returns the parts of the construction that are missing in these numbers, in words: "what fills its core (...)". Empty: none.
 std::vector<std::string> missing_in_construction(const Dresspack& dresspack);
 
-/// Sets the mass, the stiffnesses and the friction that the dresspack takes from its construction. Precondition: it is
-/// checked (check_dresspack). Errors: InputError where that has none.
+/// Sets the mass, the stiffnesses and the friction that the dresspack computes from its construction. Precondition:
+/// check_dresspack(). Errors: InputError if the construction is missing.
 void take_from_construction(Dresspack& dresspack);
 
-/// Warnings of these cases. Hose: the given E I differs by more than a factor of two from that of its parts with the
-/// given friction and pressures, or is below that of its parts without friction. A value above is checked only if the
-/// construction is complete. Cable with a jacket (the jacket's own stiffness is unknown): E I is below that of
-/// sliding wires or above that of glued ones. Stiffnesses from an incomplete construction: a hose without its wall
-/// has hardly any E A.
+/// Returns warnings. Hose: the given E I differs by more than a factor of two from that of its parts with the given friction and
+/// pressures, or is below that of its parts without friction. A value above is checked only if the construction is complete.
+/// Cable in a jacket (whose own stiffness is unknown): E I is below that of sliding wires or above that of glued ones.
+/// Stiffnesses from an incomplete construction: a hose without its wall has almost no E A.
 std::vector<Warning> stiffness_warnings(const Dresspack& dresspack);
 
-/// For people: "E I 8.23 N m2 from construction (friction at 1 1/m); ...", one line for each of the three,
-/// before them one for a mass from construction, ending with line feeds.
+/// Returns lines for people: "E I 8.23 N m2 from construction (friction at 1 1/m); ...", one for each of the three stiffnesses. A
+/// line for a mass from construction comes first. Each line ends with a line feed.
 std::string stiffness_text(const Dresspack& dresspack);
 
 }  // namespace dresslife::pipeline

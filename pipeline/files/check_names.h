@@ -1,5 +1,4 @@
-// The names of the checks of motions in motion.h5 (/check/name): who writes and who reads them means the
-// same.
+// Names of the checks of motions in motion.h5 (/check/name), shared by the code that writes them and the code that reads them.
 #pragma once
 
 #include <array>
@@ -8,7 +7,7 @@
 namespace dresslife::pipeline::check_name {
 
 inline constexpr char bend_radius[] = "smallest bend radius";
-inline constexpr char bend_radius_at_rest[] = "smallest bend radius at rest";  // of `dresslife check`
+inline constexpr char bend_radius_at_rest[] = "smallest bend radius at rest";  // by `dresslife check`
 inline constexpr char twist[] = "largest twist";
 inline constexpr char net_twist[] = "largest net twist";
 inline constexpr char twist_left[] = "net twist left by a repeat";

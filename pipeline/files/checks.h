@@ -1,5 +1,4 @@
-// The checks of a motion (/check/*) beside it: its receipt contains them, so that they are known where motion.h5
-// is not kept.
+// The checks of a motion (/check/*). The receipt of a motion contains them, so that they are available without motion.h5.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +11,15 @@ namespace dresslife::pipeline {
 
 struct CheckedValue {
   std::string name;             ///< check_names.h
-  double value = 0, limit = 0;  ///< in the unit of the check; infinite: no bend at all, no limit
+  double value = 0, limit = 0;  ///< in the unit of the check; infinite: no bend, or no limit
   bool operator==(const CheckedValue&) const = default;
 };
 
-/// For the receipt of a motion; nothing of a motion without checks. Errors: InputError when it cannot be
+/// Returns the checks of a motion for its receipt; empty for a motion without checks. Errors: InputError if the file cannot be
 /// read.
 std::vector<ResultValue> results_of_checks(const std::filesystem::path& motion_file);
 
-/// The checks in the results of results_of_checks().
+/// Returns the checks in a list from results_of_checks().
 std::vector<CheckedValue> checks_in(const std::vector<ResultValue>& results);
 
 }  // namespace dresslife::pipeline

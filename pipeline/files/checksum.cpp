@@ -34,7 +34,7 @@ struct Promise {
   std::uint64_t bytes = 0;
 };
 
-/// What a block says, if it is one to the last bit.
+/// Returns the content of a block, if every byte of it is correct.
 std::optional<Promise> promise_of(const std::string& block) {
   constexpr std::size_t digest_at = first_line.size() + before_digest.size();
   constexpr std::size_t bytes_at = digest_at + digest_digits + before_bytes.size();

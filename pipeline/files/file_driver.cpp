@@ -13,18 +13,18 @@ namespace {
 
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
-/// What the access list carries to open_file().
+/// Data of the access list for open_file().
 struct Target {
   WholeFile* written = nullptr;
-  InputBytes* read = nullptr;  ///< one of the two
+  InputBytes* read = nullptr;  ///< one of the two pointers is set
 };
 
-/// The library's idea of an open file: its own part first.
+/// An open file of the library; the library's own part is first.
 struct OpenFile {
   H5FD_t library{};
   Target target;
-  haddr_t end_of_use = 0;   ///< bytes that the library has given away
-  haddr_t end_of_file = 0;  ///< bytes that have been written
+  haddr_t end_of_use = 0;   ///< bytes that the library has allocated
+  haddr_t end_of_file = 0;  ///< bytes that were written
 };
 
 OpenFile& opened(H5FD_t* file) { return *reinterpret_cast<OpenFile*>(file); }
@@ -45,7 +45,7 @@ herr_t close_file(H5FD_t* file) {
   return 0;
 }
 
-/// As the library's own driver: it gathers small pieces before it calls.
+/// Flags like those of the library's own driver: the library collects small pieces before it calls the driver.
 herr_t print_abilities(const H5FD_t*, unsigned long* flags) {
   if (flags)
     *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
@@ -60,8 +60,8 @@ herr_t set_end_of_use(H5FD_t* file, H5FD_mem_t, haddr_t address) {
 }
 haddr_t get_end_of_file(const H5FD_t* file, H5FD_mem_t) { return opened(file).end_of_file; }
 
-/// Of a file that is only read nothing lies beyond its end, whatever lengths its tables name; a file being
-/// written has places that were given away and not filled yet.
+/// A file that is only read has no bytes beyond its end, whatever lengths its tables state. A file that is being written has
+/// allocated places without content yet; they are read as zeros.
 herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t count, void* bytes) {
   const OpenFile& from = opened(file);
   const std::size_t there = address >= from.end_of_file ? 0 : std::min<haddr_t>(count, from.end_of_file - address);
@@ -78,8 +78,8 @@ herr_t write_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t coun
   return 0;
 }
 
-/// Called when the library has given its last space back. The length is set even where the last write made
-/// it: whether that is so depends on what was packed how well, and every file shall end on the same path.
+/// Called after the library has returned its last space. The length is always set, also if the last write produced it already:
+/// otherwise the path of the code would depend on the sizes of packed data.
 herr_t cut_file(H5FD_t* file, hid_t, hbool_t) {
   OpenFile& of = opened(file);
   if (!of.target.written) return 0;
@@ -90,9 +90,9 @@ herr_t cut_file(H5FD_t* file, hid_t, hbool_t) {
 
 H5FD_class_t driver_table() {
   H5FD_class_t table{};
-#ifdef H5FD_CLASS_VERSION  // of HDF5 1.14, not of 1.10
+#ifdef H5FD_CLASS_VERSION  // in HDF5 1.14, not in 1.10
   table.version = H5FD_CLASS_VERSION;
-  table.value = 256;  // the first that the library leaves to programs: no file names it
+  table.value = 256;  // the first value for programs; no file contains it
 #endif
   table.name = "dresslife";
   table.maxaddr = HADDR_MAX;
@@ -107,7 +107,7 @@ H5FD_class_t driver_table() {
   table.read = read_bytes;
   table.write = write_bytes;
   table.truncate = cut_file;
-  const H5FD_mem_t map[] = H5FD_FLMAP_DICHOTOMY;  // the library's own: raw data apart from its tables
+  const H5FD_mem_t map[] = H5FD_FLMAP_DICHOTOMY;  // that of the library: raw data separate from its tables
   std::copy(std::begin(map), std::end(map), table.fl_map);
   return table;
 }

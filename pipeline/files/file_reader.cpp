@@ -86,7 +86,7 @@ void FileReader::Impl::check_format() {
 }
 
 void FileReader::Impl::open_dataset(const Dataset& description) {
-  // H5Lexists wants every group on the way to exist.
+  // H5Lexists requires that every group in the path exists.
   for (std::size_t slash = description.path.find('/', 1);; slash = description.path.find('/', slash + 1)) {
     const std::string way = description.path.substr(0, slash);
     const htri_t there = H5Lexists(file, way.c_str(), H5P_DEFAULT);
@@ -178,7 +178,7 @@ void FileReader::Impl::read_values(const std::string& path, std::size_t first, s
   check_finite(from, first, out);
 }
 
-/// Stored: as the numbers lie in the file.
+/// Stored: type of the numbers in the file.
 template <class Stored, class T>
 void FileReader::Impl::read_packed(const Open& from, std::size_t first, std::size_t count,
                                    std::vector<T>& out) const {
@@ -235,7 +235,7 @@ FileReader::~FileReader() = default;
 bool FileReader::has(const std::string& dataset) const { return impl_->open.count(dataset) > 0; }
 bool FileReader::has_attribute(const std::string& name) const {
   const htri_t there = H5Aexists(impl_->file, name.c_str());
-  if (there < 0) impl_->fail("cannot be read (the file is damaged)");  // HDF5's checksums of attributes are wrong
+  if (there < 0) impl_->fail("cannot be read (the file is damaged)");  // HDF5's checksums of attributes do not match
   return there > 0;
 }
 std::size_t FileReader::length(const std::string& axis) const {
@@ -313,7 +313,7 @@ const std::string& FileReader::checksum() const { return impl_->checksum; }
 
 namespace {
 
-/// Of an open file.
+/// Returns the format of an open file.
 std::string format_in(hid_t file) {
   constexpr std::size_t longest = 100;  // names of formats are short
   if (H5Aexists(file, "format") <= 0) return "";
@@ -325,7 +325,7 @@ std::string format_in(hid_t file) {
   return format.c_str();  // padded with zeros
 }
 
-/// The root attribute `format`; empty: not one of ours, or no file. Errors: those of PlainFile.
+/// Returns the root attribute `format`; empty: not one of our formats, or no file. Errors: those of PlainFile.
 std::string written_format(const std::filesystem::path& file) {
   if (kind_of(file) == FileKind::absent) return "";
   silence_library();

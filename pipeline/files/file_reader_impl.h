@@ -1,4 +1,4 @@
-// What a FileReader holds, for FileWriter::copy(), which takes datasets as they lie in the file.
+// Members of a FileReader. FileWriter::copy() also uses them, because it copies datasets without unpacking.
 #pragma once
 
 #include <filesystem>
@@ -17,17 +17,17 @@ struct FileReader::Impl {
     Handle id;
     std::vector<hsize_t> lengths;
     std::size_t row_values = 1;
-    /// Of a chunk that scale_offset.h or list_deflate.h unpacks; 0: left to the library.
+    /// Rows of a chunk that scale_offset.h or list_deflate.h unpacks; 0: the library unpacks.
     std::size_t packed_rows = 0;
-    mutable std::vector<char> unpacked;  ///< the last of these chunks, for reads of single rows
-    mutable hsize_t unpacked_at = 0;     ///< its first row
-    std::vector<hsize_t> chunk;                 ///< along each axis; empty: not in chunks
-    mutable bool chunks_to_be_checked = false;  ///< before the library reads them
+    mutable std::vector<char> unpacked;  ///< the last unpacked chunk, for reads of single rows
+    mutable hsize_t unpacked_at = 0;     ///< first row of that chunk
+    std::vector<hsize_t> chunk;                 ///< length along each axis; empty: not in chunks
+    mutable bool chunks_to_be_checked = false;  ///< check before the library reads them
   };
   std::filesystem::path name;
   const Format* format = nullptr;
-  InputBytes input;         // closed after the library has let go of it
-  std::uint64_t bytes = 0;  // of the file: nothing that it holds is larger
+  InputBytes input;         // closed after the library has closed the file
+  std::uint64_t bytes = 0;  // size of the file, the upper limit of every content
   Handle file;
   std::map<std::string, Open> open;
   std::map<std::string, std::size_t> axes;
@@ -35,36 +35,35 @@ struct FileReader::Impl {
 
   [[noreturn]] void fail(const std::string& what) const;
   const Open& dataset(const std::string& path) const;
-  /// One value of an attribute: no other number of them is read into the place of one.
+  /// Opens an attribute that has exactly one value, because the result is read into the place of one value.
   Handle one_value(hid_t object, const std::string& attribute) const;
   std::string text_of(hid_t object, const std::string& attribute) const;
-  /// number: of the memory type that is named.
+  /// number: a variable of the memory type `type`.
   void read_number(const std::string& attribute, hid_t type, void* number) const;
   void check_format();
   void open_dataset(const Dataset& description);
   void check_type(const Open& made) const;
   void check_shape(Open& made);
   // file_storage.cpp
-  /// All values are in the file, packed as one of our programs or a plain one does it. What a file's tables
-  /// promise beyond that the library would make up, as zeros, in as much memory as they say; and where a
-  /// chunk holds less than a chunk, it would read on behind it.
+  /// Checks that all values are in the file, packed as by a program of this project or an ordinary one. For values that a file's
+  /// tables promise but the file does not contain, the library would return zeros and allocate as much memory as the tables
+  /// state. For a chunk that is too short, it would read beyond the end.
   void check_storage(Open& made) const;
   void check_chunks_are_there(Open& made, hid_t creation) const;
-  /// Ours or the library's, by the filters that a dataset in chunks went through.
+  /// Selects the reading of this project or of the library, by the filters of a dataset in chunks.
   void choose_reading(Open& made, hid_t creation) const;
-  /// Of `chunks` of chunk_size bytes each, unpacked: each takes its place in the file, and what lies there
-  /// unfiltered is no smaller than it was. No dataset has more chunks than the file has room for, nor are
-  /// those that exist larger than the file.
+  /// Checks that `chunks` chunks of `chunk_size` unpacked bytes fit into the file. Each chunk needs space in the file, an
+  /// unfiltered one its full size.
   void check_fits(const Open& made, hsize_t chunks, hsize_t chunk_size, bool filtered) const;
-  /// Without a cache of chunks the library reads as many bytes as the dataset says; with one it takes a
-  /// chunk's length from the file's index, and reads on behind a short one.
+  /// Reopens a dataset without a cache of chunks. Then the library reads the number of bytes that the dataset states. With a
+  /// cache, it takes the length of a chunk from the file's index, and reads beyond a short one.
   void read_without_cache(Open& made) const;
-  /// Every chunk is deflated from as many bytes as a chunk has: the library reads on behind one of fewer.
+  /// Checks that every chunk inflates to the size of a chunk: the library would read beyond a smaller one.
   void check_chunks(const Open& made) const;
-  /// A chunk as it lies in the file, having gone through all filters of the dataset.
+  /// Reads a chunk as it is stored. Precondition: it went through all filters of the dataset.
   void read_chunk(const Open& from, const hsize_t* at, std::vector<char>& packed) const;
   [[noreturn]] void fail_at_chunk(const Open& from) const;
-  /// Rows [first, first + count) of packed numbers. unpack(chunk, numbers): false where it is damaged.
+  /// Unpacks rows [first, first + count) of packed numbers. unpack(chunk, numbers) returns false for a damaged chunk.
   template <class T, class Unpack>
   void unpack_rows(const Open& from, std::size_t first, std::size_t count, T* out,
                    const Unpack& unpack) const;

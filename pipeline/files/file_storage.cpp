@@ -1,5 +1,4 @@
-// How the values of a dataset lie in the file: what a FileReader believes of that, and chunks that it unpacks
-// itself.
+// Storage of a dataset's values in a file: the checks of a FileReader, and the chunks that it unpacks itself.
 #include <algorithm>
 #include <array>
 
@@ -10,11 +9,11 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_chunk_bytes = 64 << 20;  // one is held unpacked; others write 1 MB and less
+constexpr std::size_t most_chunk_bytes = 64 << 20;  // one chunk is kept unpacked; other programs write chunks of 1 MB or less
 
 using Filters = std::vector<H5Z_filter_t>;
 
-/// In the order in which they pack.
+/// Returns the filters in the order of packing.
 Filters filters_of(hid_t creation) {
   Filters filters;
   for (int k = 0; k < H5Pget_nfilters(creation); ++k) {
@@ -26,17 +25,17 @@ Filters filters_of(hid_t creation) {
   return filters;
 }
 
-/// Numbers of so many bytes, as they lie in memory.
+/// Returns whether the dataset contains numbers of this class and size, in the byte order of the memory.
 bool is_of(H5T_class_t numbers, std::size_t bytes, hid_t dataset) {
   const Handle type(H5Dget_type(dataset), H5Tclose);
   return H5Tget_class(type) == numbers && H5Tget_size(type) == bytes && H5Tget_order(type) == H5T_ORDER_LE &&
          (numbers == H5T_FLOAT || H5Tget_sign(type) == H5T_SGN_NONE);
 }
 
-/// The only filter of the dataset packs as scale_offset.h does.
+/// Returns whether the first filter of the dataset has the parameters of scale_offset.h.
 bool is_scale_offset(hid_t creation, int decimals) {
   std::array<unsigned, 20>
-      values{};  // scale type, scale, numbers a chunk, class, size, sign, order, fill value ...
+      values{};  // scale type, scale, numbers per chunk, class, size, sign, order, fill value ...
   std::size_t count = values.size();
   unsigned flags = 0, config = 0;
   H5Pget_filter2(creation, 0, &flags, &count, values.data(), 0, nullptr, &config);
@@ -113,7 +112,7 @@ void FileReader::Impl::choose_reading(Open& made, hid_t creation) const {
 }
 
 void FileReader::Impl::check_fits(const Open& made, hsize_t chunks, hsize_t chunk_size, bool filtered) const {
-  constexpr hsize_t least_index_bytes = 4;  // of a chunk: at least its length stands somewhere
+  constexpr hsize_t least_index_bytes = 4;  // per chunk: at least its length is stored
   const std::string& path = made.description->path;
   if (chunks > bytes / (filtered ? least_index_bytes : chunk_size))
     fail(fmt::format("dataset {} promises {} chunks of {} bytes in a file of {} (the file is damaged)", path,
@@ -123,7 +122,7 @@ void FileReader::Impl::check_fits(const Open& made, hsize_t chunks, hsize_t chun
 }
 
 void FileReader::Impl::read_without_cache(Open& made) const {
-  made.id.reset();  // what is opened twice shares the first one's cache
+  made.id.reset();  // a dataset that is opened twice uses the cache of the first one
   const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk_cache(access, 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
   made.id = Handle(H5Dopen2(file, made.description->path.c_str(), access), H5Dclose);

@@ -13,9 +13,9 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t written_at_once = 1 << 16;  // one write call and one chunk: large enough to amortise both
+constexpr std::size_t written_at_once = 1 << 16;  // size of a write call and of a chunk: large enough to amortise both
 constexpr std::size_t packed_chunk_numbers =
-    1 << 15;  // fewer calls; the range of values, hence their bits, hardly grows
+    1 << 15;  // fewer calls; the range of values, and so the number of bits, hardly increases
 static_assert(packed_chunk_numbers <= ListDeflater::most_numbers);
 
 std::size_t size_of(Type type) {
@@ -77,7 +77,7 @@ bool write_text_attribute(hid_t object, const std::string& name, const std::stri
 struct FileWriter::Impl {
   struct Open {
     const Dataset* description = nullptr;
-    Handle id, file_type, memory_type;  // id: from the first write on
+    Handle id, file_type, memory_type;  // id: valid after the first write
     std::size_t row_values = 1, value_bytes = 0, rows = 0, chunk_rows = 1;
     std::vector<char> buffer;
     std::map<std::string, std::string> attributes;
@@ -86,23 +86,23 @@ struct FileWriter::Impl {
   WholeFile whole;
   const Format* format = nullptr;
   Handle file;
-  std::map<std::string, Open> open;  // ordered: same calls, same bytes
+  std::map<std::string, Open> open;  // sorted, so that equal calls give equal bytes
   std::map<std::string, std::size_t> axes, text_widths;
   std::vector<char> packed;  // the chunk being written
   ListDeflater deflater;
-  std::string checksum;  // once committed
+  std::string checksum;  // after commit()
 
   Impl(std::filesystem::path final_name, const Format& of) : whole(std::move(final_name)), format(&of) {}
 
-  /// Closes what the library holds before the file goes; where it is not wanted, nothing more is written.
+  /// Closes the library's objects before the file. A file that is not needed gets no more writes.
   ~Impl() {
     whole.give_up();
     open.clear();
     file.reset();
   }
 
-  /// The disk never lets a call of the library fail (file_driver.h), except where what was written cannot be read
-  /// back: else the fault is ours.
+  /// Throws the error of the disk, if there is one. The disk makes a call of the library fail only if written bytes cannot be
+  /// read back (file_driver.h); any other failure is a bug of this project.
   [[noreturn]] void fail(const std::string& what) const {
     whole.check();
     throw std::logic_error(whole.final_name().string() + ": HDF5 refuses " + what);
@@ -139,7 +139,7 @@ struct FileWriter::Impl {
     return made;
   }
 
-  /// Not before there is something to write: what fits into less than a chunk takes no whole one on the disk.
+  /// Creates a dataset at its first write, so that a dataset smaller than a chunk does not take a whole chunk on the disk.
   void create(Open& made) {
     const std::string& path = made.description->path;
     const auto& shape = made.description->shape;
@@ -157,7 +157,7 @@ struct FileWriter::Impl {
     if (made.description->deflate) H5Pset_shuffle(creation);
     if (made.description->deflate || made.description->lists) H5Pset_deflate(creation, 1);
     if (made.description->decimals) {
-      H5Pset_fill_value(creation, made.file_type, nullptr);  // a defined one would need a number of its own
+      H5Pset_fill_value(creation, made.file_type, nullptr);  // a defined value would need a code of its own
       H5Pset_scaleoffset(creation, H5Z_SO_FLOAT_DSCALE, *made.description->decimals);
     }
     make_groups(path);
@@ -168,7 +168,7 @@ struct FileWriter::Impl {
       if (!write_text_attribute(made.id, name, value)) fail("attribute " + name + " of " + path);
   }
 
-  /// Writes the rest of a dataset, which may be all of it.
+  /// Writes the rest of a dataset, or a whole dataset that is small.
   void finish(Open& target) {
     const std::size_t rows = target.row_bytes() ? target.buffer.size() / target.row_bytes() : 0;
     if (!target.id.valid()) {
@@ -178,8 +178,8 @@ struct FileWriter::Impl {
     flush(target);
   }
 
-  /// The groups above a dataset. (Left to the library they would carry the time of day: other bytes in every
-  /// run.)
+  /// Creates the groups above a dataset. Groups that the library creates contain the time of day, so each run would give other
+  /// bytes.
   void make_groups(const std::string& path) {
     const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
     H5Pset_obj_track_times(creation, false);
@@ -192,7 +192,7 @@ struct FileWriter::Impl {
   }
 
   void put(Open& target, const void* bytes, std::size_t count) {
-    whole.check();  // an hour of work for a full disk would be lost
+    whole.check();  // so that a full disk is detected before an hour of work
     const char* begin = static_cast<const char*>(bytes);
     target.buffer.insert(target.buffer.end(), begin, begin + count);
     if (target.description->packed())
@@ -201,7 +201,7 @@ struct FileWriter::Impl {
       flush(target);
   }
 
-  /// Whole chunks; at the end the last one too, filled up with its last number.
+  /// Writes whole chunks; at the end also the last one, filled up with its last number.
   void flush_packed(Open& target, bool at_end) {
     const std::size_t whole_chunk = target.chunk_rows * target.row_bytes();
     if (whole_chunk == 0) return;
@@ -219,7 +219,7 @@ struct FileWriter::Impl {
     target.buffer.clear();
   }
 
-  /// rows: of the chunk that belong to the dataset.
+  /// rows: number of the chunk's rows that belong to the dataset.
   void write_chunk(Open& target, const char* numbers, std::size_t rows) {
     if (!target.id.valid()) create(target);
     const std::size_t count = target.chunk_rows * target.row_values;
@@ -307,7 +307,7 @@ struct FileWriter::Impl {
     put(target, bytes.data(), bytes.size());
   }
 
-  /// Every dataset is there, and datasets that share an axis agree on it.
+  /// Checks that every dataset exists, and that datasets agree on the length of common axes.
   void check_whole() {
     std::map<std::string, std::size_t> seen = axes;
     for (const Dataset& description : format->datasets) {
@@ -330,7 +330,7 @@ FileWriter::FileWriter(std::filesystem::path file, const Format& format) {
   silence_library();
   impl_ = std::make_unique<Impl>(std::move(file), format);
   const Handle access(access_for_writing(impl_->whole), H5Pclose);
-  // The 1.8 layout lets attributes (the job's text) exceed 64 KiB.
+  // Layout 1.8 allows attributes of more than 64 KiB (the job's text).
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation, false);

@@ -1,5 +1,5 @@
-// The HDF5 files that pass between the stages. Each format is one table, from which the writer creates, the
-// reader checks and the manual is printed. The HDF5 library stays behind this header.
+// HDF5 files between the stages. Each format is one table, which is used to create files, to check files and to print the manual.
+// Only the sources of this folder use the HDF5 library.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace dresslife::pipeline {
 
 enum class Type { f64, f32, i32, u32, u64, text };
 
-/// One dataset of a format. Its shape names axes ("sample", "segment", "site") or gives a number ("3"); the
-/// first axis grows by append(). Datasets that name an axis agree on its length; "+1" after a name adds one.
+/// One dataset of a format. Its shape contains names of axes ("sample", "segment", "site") or numbers ("3"). The first axis grows
+/// with append(). All datasets with an axis have the same length along it; "+1" after a name means one more.
 struct Dataset {
   std::string path;
   Type type = Type::f64;
@@ -27,11 +27,11 @@ struct Dataset {
   std::string meaning;
   bool may_be_infinite = false;
   bool may_be_absent = false;
-  bool deflate = false;  ///< repetitive tables; histories are left plain for speed
-  /// Of f32 and f64: kept to this many decimals in as few bits as each chunk needs (HDF5's scale-offset filter,
-  /// scale_offset.h); nothing: as they are.
+  bool deflate = false;  ///< for repetitive tables; not for histories, which must be fast
+  /// For f32 and f64: numbers are rounded to this many decimals and stored with as few bits as each chunk needs (HDF5's
+  /// scale-offset filter, scale_offset.h); std::nullopt: not rounded.
   std::optional<int> decimals{};
-  bool lists = false;  ///< of u32, one axis: rising lists, each much like that before (list_deflate.h)
+  bool lists = false;  ///< for u32 with one axis: increasing lists, each similar to the preceding one (list_deflate.h)
   bool packed() const { return decimals || lists; }
 };
 
@@ -44,10 +44,10 @@ struct AttributeInfo {
 struct Format {
   std::string name;  ///< value of the root attribute `format`
   int version = 1;
-  std::string made_by;  ///< program, for remedies
+  std::string made_by;  ///< program that makes the file, for remedies
   std::string purpose;
   std::vector<Dataset> datasets;
-  std::vector<AttributeInfo> attributes;  ///< beyond those of every file
+  std::vector<AttributeInfo> attributes;  ///< in addition to those of every file
   const Dataset& find(std::string_view path) const;
 };
 
@@ -58,14 +58,14 @@ const Format& preview_format();
 const Format& screening_format();
 const Format& ways_format();
 
-/// All formats as Markdown.
+/// Returns all formats as Markdown.
 std::string file_manual();
 
 class FileReader;
 
-/// Writes a file that is whole or absent (pipeline/base/whole_file.h): on commit() it gets its name, without
-/// commit() nothing stays behind. Its first 512 bytes hold a checksum of all others (checksum.h). Errors:
-/// InputError when the file cannot be created or the disk is full, at the next call or in commit().
+/// Writes a file that is complete or absent (pipeline/base/whole_file.h): commit() gives it its name; without commit() no file
+/// remains. Its first 512 bytes contain a checksum of all others (checksum.h). Errors: InputError if the file cannot be created
+/// or the disk is full, from the next call or from commit().
 class FileWriter {
  public:
   FileWriter(std::filesystem::path file, const Format& format);
@@ -73,11 +73,11 @@ class FileWriter {
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
 
-  /// Length of an axis; needed before the first append() of a dataset whose trailing axes name it.
+  /// Sets the length of an axis. Required before the first append() of a dataset that has this axis behind its first one.
   void set_axis(const std::string& axis, std::size_t length);
-  /// Longest text of a dataset that is appended to in several calls; otherwise the first call's longest.
+  /// Sets the longest text of a dataset that is appended in several calls; default: the longest text of the first call.
   void set_text_width(const std::string& dataset, std::size_t bytes);
-  /// Appends whole rows (all axes but the first). Values convert to the dataset's type.
+  /// Appends whole rows (all axes except the first). Values are converted to the dataset's type.
   void append(const std::string& dataset, std::span<const double> rows);
   void append(const std::string& dataset, std::span<const float> rows);
   void append(const std::string& dataset, std::span<const std::int32_t> rows);
@@ -85,13 +85,13 @@ class FileWriter {
   void append(const std::string& dataset, std::span<const std::uint64_t> rows);
   void append(const std::string& dataset, std::span<const std::string> rows);
 
-  /// The whole dataset of another file, as it lies there: packed rows are not unpacked. Precondition: of the
-  /// same path, unit and kind of values in both formats, and not appended to.
+  /// Copies a whole dataset of another file without unpacking it. Precondition: it has the same path, unit and type in both
+  /// formats, and was not appended to.
   void copy(const FileReader& from, const std::string& dataset);
 
   void attribute(const std::string& name, const std::string& value);
   void attribute(const std::string& name, double value);
-  /// An attribute of a dataset that has been appended to (for example `links` of /robot/link_pose).
+  /// Writes an attribute of a dataset that has data (for example `links` of /robot/link_pose).
   void dataset_attribute(const std::string& dataset, const std::string& name, const std::string& value);
 
   void commit();
@@ -103,15 +103,14 @@ class FileWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Opens a file and checks it: every byte against its checksum, then against its format: name, version,
-/// datasets, ranks, lengths and units, and that every value lies in the file. Reads check for non-finite
-/// values. Files without a checksum, of other programs or older versions, are read, too. Errors: InputError,
-/// one line.
+/// Opens a file and checks it: every byte against its checksum, then its format: name, version, datasets, ranks, lengths and
+/// units, and that every value is in the file. Reads check for non-finite values. Files without a checksum, from other programs
+/// or older versions, are accepted. Errors: InputError, one line.
 class FileReader {
  public:
   enum class Scope { everything, attributes };
-  /// attributes: leaves the datasets and the checksum over all bytes alone, for who gathers a few numbers
-  /// from many files; the library has a checksum of its own for attributes.
+  /// attributes: does not open the datasets and does not check the checksum over all bytes, to read a few numbers from many
+  /// files. The library has its own checksums of attributes.
   FileReader(const std::filesystem::path& file, const Format& format, Scope scope = Scope::everything);
   ~FileReader();
   FileReader(const FileReader&) = delete;
@@ -119,7 +118,7 @@ class FileReader {
 
   bool has(const std::string& dataset) const;
   bool has_attribute(const std::string& name) const;  ///< of the root
-  std::size_t length(const std::string& axis) const;  ///< of a named axis; 0 when no dataset has it
+  std::size_t length(const std::string& axis) const;  ///< of a named axis; 0 if no dataset has it
   std::size_t rows(const std::string& dataset) const;
   std::size_t row_size(const std::string& dataset) const;  ///< values per row
 
@@ -155,10 +154,11 @@ class FileReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Whether a file was made by one of our stages, whole or not. Errors: those of PlainFile, where there is a file.
+/// Returns whether a file was made by a stage of this project, complete or not. Errors: those of PlainFile, if the file exists.
 bool is_dresslife_file(const std::filesystem::path& file);
 
-/// The format that its attribute names; null: none of them, or no file. Errors: as is_dresslife_file().
+/// Returns the format that the file's attribute names; null if it is none of ours, or the file is absent. Errors: those of
+/// is_dresslife_file().
 const Format* format_of(const std::filesystem::path& file);
 
 }  // namespace dresslife::pipeline

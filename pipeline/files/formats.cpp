@@ -1,4 +1,4 @@
-// The file formats, dataset by dataset: the public contract between the stages.
+// The file formats, dataset by dataset: the public interface between the stages.
 #include <algorithm>
 #include <initializer_list>
 #include <stdexcept>
@@ -10,16 +10,16 @@ namespace {
 
 using enum Type;
 
-/// What a dataset or an attribute may be, and how a dataset is kept (Dataset in files.h).
+/// Properties of a dataset or an attribute, and the storage of a dataset (Dataset in files.h).
 enum Traits : unsigned {
   always = 0,
-  maybe = 1,         ///< it may be absent: where it does not apply, and in older files
+  maybe = 1,         ///< optional: it does not apply to every file, or older files lack it
   endless = 2,       ///< its values may be infinite
   deflated = 4,      ///< repetitive
-  decimals_7 = 8,    ///< of strains: a five-thousandth of the default gate
-  lists = 16,        ///< rising lists
-  decimals_12 = 32,  ///< of places and orientations: an elongation of links of 20 mm is kept to 1e-10
-  decimals_4 = 64,   ///< of forces in N
+  decimals_7 = 8,    ///< for strains: one five-thousandth of the default gate
+  lists = 16,        ///< increasing lists
+  decimals_12 = 32,  ///< for positions and orientations: the elongation of links of 20 mm is accurate to 1e-10
+  decimals_4 = 64,   ///< for forces in N
 };
 constexpr Traits operator|(Traits a, Traits b) { return Traits(unsigned(a) | unsigned(b)); }
 
@@ -37,7 +37,7 @@ struct AttributeRow {
   const char* meaning;
 };
 
-/// Adds datasets. group: goes before every path. set: goes before the axes that count sites and turning points.
+/// Adds datasets. group: prefix of every path. set: prefix of the axes that count sites and reversals.
 void add(Format& format, std::initializer_list<Row> rows, const std::string& group = "",
          const std::string& set = "") {
   for (const Row& row : rows) {
@@ -66,7 +66,7 @@ void add(Format& format, std::initializer_list<AttributeRow> rows) {
 
 // clang-format off
 
-/// Which dresspack is where.
+/// Adds the datasets that assign segments and clamps to dresspacks.
 void add_dresspacks(Format& format) {
   add(format, {
     {"/segment/dresspack", i32,  "segment",   "1",    maybe,
@@ -77,7 +77,7 @@ void add_dresspacks(Format& format) {
   });
 }
 
-/// Sites with their turning points. strain.h5 holds three sets: the job's own, and the two bounds.
+/// Adds sites with their reversals. strain.h5 has three sets: that of the job and those of the two bounds.
 void add_sites(Format& format, const std::string& group, const std::string& set) {
   add(format, {
     {"/site/segment",    i32,  "site",           "1",    deflated,
@@ -96,7 +96,7 @@ void add_sites(Format& format, const std::string& group, const std::string& set)
   }, group, set);
 }
 
-/// Where the surface of the dresspacks is rubbed.
+/// Adds the datasets of the rubbed surface of the dresspacks.
 void add_rubbing(Format& format) {
   add(format, {
     {"/rubbing/dresspack", i32,  "patch",    "1",    maybe | deflated,
@@ -645,7 +645,7 @@ std::string file_manual() {
                         format->purpose, format->made_by);
     text += "| dataset | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
     for (const Dataset& dataset : format->datasets) {
-      if (dataset.path.starts_with("/bound_")) continue;  // one line below the table
+      if (dataset.path.starts_with("/bound_")) continue;  // the text below the table describes them
       text += fmt::format("| `{}` | {}{} | {} | {} | {} |\n", dataset.path, type_text(dataset.type),
                           dataset.may_be_absent ? ", optional" : "", shape_text(dataset), dataset.unit,
                           dataset.meaning);

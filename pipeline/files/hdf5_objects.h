@@ -1,5 +1,4 @@
-// What writing and reading of HDF5 files have in common: identifiers that close themselves, the library's
-// silence and its memory, types and axes.
+// Common parts of reading and writing HDF5 files: identifiers that close themselves, settings of the library, types and axes.
 #pragma once
 
 #include <hdf5.h>
@@ -39,7 +38,7 @@ class Handle {
 };
 
 inline void silence_library() {
-  H5dont_atexit();  // nothing is left open, and a library out of memory stumbles over itself
+  H5dont_atexit();  // no identifier stays open, and the exit handler of the library fails after it ran out of memory
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
@@ -61,7 +60,7 @@ inline hid_t memory_type(Type type) {
   return -1;
 }
 
-/// The words for the length of a table's axis: a number, "name", or "name+1" for one more than that.
+/// The length of an axis in a format's table: a number, "name", or "name+1" for one more.
 struct AxisLength {
   std::string name;
   std::size_t plus = 0;

@@ -1,15 +1,12 @@
-// Rising lists of numbers, one after the other and each much like the one before, as HDF5's deflate filter
-// stores them: any HDF5 library reads such a dataset as plain numbers. Wires side by side turn at the same
-// samples, so a list costs little more than where it departs from that before: one bit a number where
-// counting bits would need thirteen.
+// Compresses increasing lists of numbers, each similar to the preceding one, in the format of HDF5's deflate filter: any HDF5
+// library reads such a dataset as plain numbers. Neighbouring wires have their reversals at the same samples, so a list needs
+// little space for the parts that are equal: one bit per number, where a coding of the numbers alone would need thirteen.
 //
-// libdeflate (the only includer) writes the chunks, at its lowest level and without HDF5's shuffle filter:
-// whole numbers repeat better than their bytes one by one. For the 114 million turning points of a glued job
-// of 0.8 G wire-samples it takes 0.5 s and 9.9 MB; shuffled 1.1 s and 9.2 MB; HDF5's own filters 1.1 s and
-// 11.9 MB; HDF5's scale-offset filter 1.2 s and 170 MB (Xeon, one core).
+// libdeflate (included only here) compresses the chunks at its lowest level, without HDF5's shuffle filter: whole numbers repeat
+// better than their single bytes. For the 114 million reversals of a glued job of 0.8 G wire-samples it takes 0.5 s and 9.9 MB;
+// shuffled 1.1 s and 9.2 MB; HDF5's own filters 1.1 s and 11.9 MB; HDF5's scale-offset filter 1.2 s and 170 MB (Xeon, one core).
 //
-// The other way it undoes any chunk that was deflated, and says where that is not exactly a chunk: HDF5 reads
-// on behind one that holds too little.
+// Inflater decompresses any deflated chunk, and reports a chunk of a wrong size: HDF5 would read beyond the end of a short one.
 //
 // Source: HDF5 reference manual, H5Pset_deflate; RFC 1950.
 #pragma once
@@ -24,15 +21,15 @@ struct libdeflate_decompressor;
 
 namespace dresslife::pipeline {
 
-/// Reused from chunk to chunk.
+/// Compresses lists; one object is used for many chunks.
 class ListDeflater {
  public:
-  /// Largest chunk.
+  /// Largest number of numbers in a chunk.
   static constexpr std::size_t most_numbers = 1 << 15;
 
   ListDeflater();
 
-  /// Bytes of one chunk. Precondition: 1 .. most_numbers numbers.
+  /// Writes the bytes of one chunk. Precondition: 1 .. most_numbers numbers.
   void pack(std::span<const std::uint32_t> numbers, std::vector<char>& chunk);
 
  private:
@@ -42,13 +39,12 @@ class ListDeflater {
   std::unique_ptr<libdeflate_compressor, Free> compressor_;
 };
 
-/// Reused from chunk to chunk.
+/// Decompresses chunks; one object is used for many chunks.
 class Inflater {
  public:
   Inflater();
 
-  /// The bytes of a chunk that was deflated, by whatever program. False: it is damaged, or holds more or
-  /// fewer than bytes.size().
+  /// Decompresses a chunk of any program. Returns false if it is damaged, or does not have exactly bytes.size() bytes.
   bool unpack(std::span<const char> chunk, std::span<char> bytes);
 
  private:

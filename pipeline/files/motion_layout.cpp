@@ -34,7 +34,7 @@ void check_lengths(const FileReader& file, const std::vector<double>& free_lengt
                        remedy);
     together[dresspack[i]] += lengths[i];
   }
-  constexpr double rounding = 1e-6;  // of a share: numbers that were kept in single precision
+  constexpr double rounding = 1e-6;  // relative, for numbers that were stored in single precision
   for (std::size_t d = 0; d < count; ++d)
     if (!(std::abs(together[d] - free_lengths[d]) <= rounding * free_lengths[d]))
       throw InputError(
@@ -62,7 +62,7 @@ std::vector<MotionSpan> motion_spans(const FileReader& motion) {
   for (std::size_t c = 0; fits && c + 1 < before.size(); ++c) {
     const auto first = static_cast<std::size_t>(before[c]), end = static_cast<std::size_t>(before[c + 1]);
     if (first < end) {
-      // No dresspack begins between two clamps, or at the tool clamp of another.
+      // No dresspack may begin between two clamps, or at the tool clamp of another one.
       const bool shares = !spans.empty() && spans.back().tool_clamp == c;
       fits =
           dresspack[first] == dresspack[end - 1] && (!shares || spans.back().dresspack == dresspack[first]);

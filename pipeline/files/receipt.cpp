@@ -30,7 +30,7 @@ const std::string& Digests::of(const std::filesystem::path& file) {
 std::string recipe_of(std::string_view settings, const std::vector<std::filesystem::path>& files,
                       const std::filesystem::path& program, Digests& digests) {
   Xxh3 digest;
-  // Lengths before texts: no two lists run into the same bytes.
+  // Each text follows its length, so that different lists never give the same bytes.
   const auto add = [&](std::string_view text) {
     const std::string length = fmt::format("{}:", text.size());
     digest.add(length.data(), length.size());
@@ -62,7 +62,7 @@ std::vector<ResultValue> results_in(const std::filesystem::path& file, const For
 
 namespace {
 
-/// A short file at one go, and when it was changed last.
+/// Returns the text of a short file and the time of its last change.
 std::optional<std::string> whole_text(const std::filesystem::path& name, std::int64_t& changed_ns) {
   constexpr std::uint64_t longest = 1 << 20;
   if (!state_of(name).exists()) return std::nullopt;
@@ -71,7 +71,7 @@ std::optional<std::string> whole_text(const std::filesystem::path& name, std::in
   return file.size() <= longest ? std::optional(file.text()) : std::nullopt;
 }
 
-/// In one line, and back.
+/// in_line() replaces line feeds of a text, out_of_line() restores them.
 std::string in_line(const std::string& text) {
   std::string line;
   for (const char letter : text)
@@ -92,7 +92,7 @@ std::string words_of(const FileState& state) {
   return fmt::format("{} {} {} {}", state.size, state.modified_ns, state.changed_ns, state.inode);
 }
 
-/// end: what follows the state.
+/// end: the character behind the state.
 FileState state_in(Words& words, char end) {
   FileState state;
   state.size = words.number<std::int64_t>(' ');
@@ -102,7 +102,7 @@ FileState state_in(Words& words, char end) {
   return state;
 }
 
-/// All but the digest at the end.
+/// Returns the text of a receipt without the digest at its end.
 std::string text_of(const Receipt& receipt) {
   std::string text = fmt::format("recipe {}\ninput {}\noutput {}\nstate {}\n", receipt.recipe, receipt.input,
                                  receipt.output, words_of(receipt.state));
@@ -117,7 +117,7 @@ std::string text_of(const Receipt& receipt) {
 }  // namespace
 
 std::string note_digests(const std::vector<std::filesystem::path>& files) {
-  constexpr auto tick = std::chrono::milliseconds(10);  // of the slowest kernels' file times
+  constexpr auto tick = std::chrono::milliseconds(10);  // of the file times of the slowest kernels
   std::string notes;
   for (const std::filesystem::path& file : files) {
     const FileState state = state_of(file);
@@ -175,14 +175,14 @@ void write_receipt(const std::filesystem::path& file, Receipt receipt, const std
   receipt.state = state_of(output);
   const std::string text = text_of(receipt);
   write_text_if_changed(file, text + fmt::format("end {}\n", xxh3(text)), Sync::never);
-  // A receipt that says what it said before is now as young as this look at the output.
+  // If the text of the receipt did not change, its time is set to now, so that it is younger than the output.
   if (state_of(file).changed_ns <= receipt.state.changed_ns) ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0);
 }
 
 void renew_receipt(const std::filesystem::path& file, const std::filesystem::path& output) {
   const std::optional<Receipt> receipt = read_receipt(file);
   const FileState state = state_of(output);
-  // The bytes are compared after the state was taken: what changes them later changes the state.
+  // The bytes are compared after the state was read, so a later change alters the state.
   if (receipt && checksum_of(output) == receipt->output && state_of(output) == state)
     write_receipt(file, *receipt, output);
 }

@@ -14,18 +14,18 @@ static_assert(std::endian::native == std::endian::little,
               "headers and numbers are written as they lie in memory");
 
 constexpr std::size_t header_bytes = 21;
-constexpr int whole = 32;             // bits of a number that is kept as it is
-constexpr std::size_t group = whole;  // numbers that fill words without a rest, whatever their bits
+constexpr int whole = 32;             // bits of an unchanged number
+constexpr std::size_t group = whole;  // this many numbers fill whole words with any number of bits
 
 std::size_t chunk_bytes(std::size_t numbers, int bits) { return header_bytes + numbers * bits / 8 + 1; }
 
 std::uint32_t swapped(std::uint32_t word) { return __builtin_bswap32(word); }
 
-/// 32 numbers into `bits` words, and back. All shifts are constants once the loop is unrolled.
+/// Packs 32 numbers into `bits` words; unpack_group() does the inverse. All shifts are constants in the unrolled loop.
 template <int bits>
 void pack_group(const std::uint32_t* in, char* out) {
   std::uint64_t held = 0;
-  int count = 0;  // of bits held
+  int count = 0;  // number of bits in `held`
 #pragma GCC unroll 32
   for (std::size_t k = 0; k < group; ++k) {
     held = held << bits | in[k];
@@ -71,7 +71,7 @@ constexpr auto unpack_by_bits = unpackers(std::make_integer_sequence<int, whole 
 
 float power_of_ten(int decimals) { return static_cast<float>(std::pow(10.0, decimals)); }
 
-/// What is put into the bits for a number, and the number for that.
+/// steps() returns the bits for a number, number_at() the number for these bits.
 std::uint32_t steps(float number, float smallest, float scale) {
   return static_cast<std::uint32_t>(static_cast<std::int32_t>((number - smallest) * scale + 0.5f));
 }
@@ -79,7 +79,7 @@ float number_at(std::uint32_t steps, float smallest, float scale) {
   return static_cast<float>(static_cast<std::int32_t>(steps)) / scale + smallest;
 }
 
-/// Bits for numbers up to `largest`; whole where steps would not fit a float's digits.
+/// Returns the number of bits for numbers up to `largest`; `whole` if the steps have more digits than a float.
 int bits_for(float largest, float smallest, float scale) {
   constexpr float most_steps = 1 << 23;
   const float span = (largest - smallest) * scale;
@@ -87,11 +87,11 @@ int bits_for(float largest, float smallest, float scale) {
 }
 
 constexpr int whole_double = 64;
-// With at most seven bits before it in its first byte a number ends within eight bytes; and a double holds that
-// many steps exactly.
+// A number with at most seven other bits before it in its first byte ends within eight bytes, and a double represents this number
+// of steps exactly.
 constexpr int most_bits_of_double = 52;
 
-/// The eight bytes at `at`, the first one highest.
+/// Returns the eight bytes at `at`, the first one as the most significant.
 std::uint64_t word_at(const char* at) {
   std::uint64_t word;
   std::memcpy(&word, at, sizeof(word));
@@ -115,7 +115,7 @@ void pack_chunk(std::span<const float> numbers, int decimals, std::vector<char>&
   const float scale = power_of_ten(decimals);
   const std::int32_t bits = bits_for(largest, smallest, scale);
   chunk.assign(chunk_bytes(numbers.size(), bits) + group * sizeof(float),
-               0);  // the last group may be partly filled
+               0);  // the last group may be incomplete
   std::memcpy(chunk.data(), &bits, sizeof(bits));
   chunk[4] = 8;
   std::memcpy(chunk.data() + 5, &smallest, sizeof(smallest));
@@ -164,7 +164,7 @@ void pack_chunk(std::span<const double> numbers, int decimals, std::vector<char>
   const auto [smallest, largest] = std::minmax_element(numbers.begin(), numbers.end());
   const double scale = std::pow(10.0, decimals), least = *smallest;
   const std::int32_t bits = bits_for(*largest, least, scale);
-  chunk.assign(chunk_bytes(numbers.size(), bits) + sizeof(std::uint64_t), 0);  // the last word may end beyond
+  chunk.assign(chunk_bytes(numbers.size(), bits) + sizeof(std::uint64_t), 0);  // the last word may end beyond the chunk
   std::memcpy(chunk.data(), &bits, sizeof(bits));
   chunk[4] = 8;
   std::memcpy(chunk.data() + 5, &least, sizeof(least));
@@ -212,7 +212,7 @@ bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<double> n
   const std::size_t stream = chunk.size() - header_bytes, width = static_cast<std::size_t>(bits);
   std::array<char, 2 * sizeof(std::uint64_t)> rest{};
   const std::size_t inside =
-      stream < rest.size() ? 0 : stream - sizeof(std::uint64_t);  // words begin up to here
+      stream < rest.size() ? 0 : stream - sizeof(std::uint64_t);  // words begin before this offset
   std::size_t k = 0;
   for (; k < numbers.size() && k * width / 8 < inside; ++k)
     numbers[k] = number_at(in + k * width / 8, k * width);

@@ -1,4 +1,4 @@
-// The words of a text that we wrote ourselves, one after the other; numbers that are none count as 0.
+// Splits a text of this project's programs into words. A number that cannot be parsed counts as 0.
 #pragma once
 
 #include <charconv>
@@ -11,7 +11,7 @@ class Words {
   explicit Words(std::string_view text) : rest_(text) {}
   bool any() const { return !rest_.empty(); }
   std::string_view rest() const { return rest_; }
-  /// What stands before `end`, which is passed over; all, where there is no `end`.
+  /// Returns the text before `end` and removes both; the whole text if there is no `end`.
   std::string_view until(char end) {
     const std::size_t at = rest_.find(end);
     const std::string_view word = rest_.substr(0, at);

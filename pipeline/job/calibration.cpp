@@ -136,9 +136,9 @@ void check_calibration(const Calibration& calibration) {
                      "use the dresslife that wrote it, or calibrate again");
   for (std::size_t i = 0; i < calibration.parameters.size(); ++i) check_parameter(calibration, i);
   const Eigen::MatrixXd covariance = covariance_of(calibration);
-  constexpr double rounding = 1e-6;  // of what is printed
+  constexpr double rounding = 1e-6;  // of printed numbers
   const bool symmetric = (covariance - covariance.transpose()).norm() <= rounding * covariance.norm();
-  // A parameter that is known has no variance.
+  // A known parameter has variance 0.
   const Eigen::MatrixXd lifted =
       covariance + rounding * Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols());
   if (!symmetric || lifted.llt().info() != Eigen::Success)
@@ -149,7 +149,7 @@ void check_calibration(const Calibration& calibration) {
 ParameterKnowledge knowledge_of(const Calibration& calibration, ParameterKnowledge prior) {
   ParameterKnowledge& knowledge = prior;
   const Eigen::MatrixXd covariance = covariance_of(calibration);
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> places;  // in the list, among the parameters of wires
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> places;  // index in the list, index of the parameter
   for (std::size_t i = 0; i < calibration.parameters.size(); ++i)
     if (const std::size_t p = index_of(calibration.parameters[i].name); p < uncertain_count)
       places.emplace_back(i, p);
@@ -161,8 +161,8 @@ ParameterKnowledge knowledge_of(const Calibration& calibration, ParameterKnowled
 }
 
 std::vector<std::string> beyond(const LearnedWithin& within, const Experience& experience) {
-  constexpr double hardly = 1.05;  // tests are known to a few per cent
-  // A test's own strains lie so far apart at the centre of a calibration's last round and at its medians. ESTIMATE.
+  constexpr double hardly = 1.05;  // the tests' quantities are known to a few per cent
+  // A test's strains may differ by this factor between the last round of a calibration and its medians. ESTIMATE.
   constexpr double strains = 1.25;
   std::vector<std::string> words;
   const auto at_most = [&](const char* what, double value, const std::optional<double>& most, double margin) {

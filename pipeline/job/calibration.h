@@ -1,11 +1,11 @@
-// What observations have taught of what is not known (uncertainty.h): a file that `dresslife calibrate`
-// writes and a job names. Where a job names one, the keys of all parameters that stand at their defaults go
-// to its medians, and its draws are the calibration's.
+// Knowledge about uncertain parameters (uncertainty.h), learned from observations: a file that `dresslife calibrate` writes and a
+// job names. With a calibration, the keys of all parameters that have their default values get the calibration's medians, and the
+// samples come from the calibration.
 //
 //   calibration: calibration.yaml
 //
-// In the resolved job the file's content stands in place of its name, with `applied: true` once its medians
-// stand in the keys: what a file of results depends on is all in it.
+// In the resolved job, the content of the file replaces its name, with `applied: true` after the medians were written into the
+// keys. So the job contains every input of a result file.
 #pragma once
 
 #include <optional>
@@ -19,32 +19,32 @@ namespace dresslife::pipeline {
 
 class Fields;
 
-/// One parameter: its z, and for people the key.
+/// One parameter: its z, and its key for people.
 struct LearnedParameter {
   std::string name;
   double median = 0, mean = 0;                     ///< of z
   std::vector<double> covariance;                  ///< of z, with every parameter of the list
-  double value = 0, value_p10 = 0, value_p90 = 0;  ///< of the key: median, and 80 % lie between
+  double value = 0, value_p10 = 0, value_p90 = 0;  ///< median of the key, and limits between which 80 % lie
   Where where;
 };
 
-/// From what it was learned.
+/// One observation of a calibration.
 struct LearnedFrom {
   std::string observation, observed;              ///< name; "at least 100,000 cycles"
-  std::string predicted_before, predicted_after;  ///< median, and 10 .. 90 %
-  std::string digest;                             ///< of the row and the files that it names
+  std::string predicted_before, predicted_after;  ///< median, and 10 % .. 90 %
+  std::string digest;                             ///< of the table row and the files that it names
 };
 
-/// The ranges that the tests covered. Outside of them the calibration is an extrapolation.
+/// Ranges of the tests. Outside of these ranges, the calibration is an extrapolation.
 struct LearnedWithin {
-  std::optional<double> least_strain_range, largest_strain_range;  ///< of the worst wires
+  std::optional<double> least_strain_range, largest_strain_range;  ///< of the most strained wires
   std::optional<double> largest_curvature, largest_twist;          ///< of the cables [1/m], [rad/m]
   std::optional<double> fewest_cycles, most_cycles;                ///< that were observed
   std::string materials;                                           ///< of the wires, comma-separated
-  std::string left_out;  ///< parameters that do not hold for the job that names it, in words; empty: none
+  std::string left_out;  ///< parameters that are not valid for the current job, in words; empty: none
 };
 
-/// A key that all jobs have; of several tests there may be several values.
+/// A setting that every job has. Different tests may have different values of it.
 struct LearnedSetting {
   std::string key, value;
   bool operator==(const LearnedSetting&) const = default;
@@ -53,7 +53,7 @@ struct LearnedSetting {
 /// A cable whose wires were evaluated.
 struct LearnedCable {
   std::string name;
-  std::string hose;          ///< dresspack that it lay in; empty: it was alone
+  std::string hose;          ///< dresspack that contained the cable; empty: no dresspack
   std::string construction;  ///< digest of its parts, without names and friction keys
   std::string friction;      ///< friction keys of its parts, comma-separated
   bool operator==(const LearnedCable&) const = default;
@@ -65,7 +65,7 @@ struct LearnedMaterial {
   bool operator==(const LearnedMaterial&) const = default;
 };
 
-/// What the tests were computed with (learned_settings.h).
+/// Settings, cables and materials of the tests (learned_settings.h).
 struct LearnedUnder {
   std::vector<LearnedSetting> settings;
   std::vector<LearnedCable> cables;
@@ -78,7 +78,7 @@ struct Calibration {
   std::string format = format_word;
   int format_version = newest_version;
   bool applied = false;
-  bool typical = false;  ///< of makers' cables together: its parameters are those of a cable that no test had
+  bool typical = false;  ///< true: learned from makers' ratings of many cables; its parameters are those of a cable without tests
   std::string note;
   std::vector<LearnedParameter> parameters;
   LearnedUnder under;
@@ -95,17 +95,17 @@ void describe(Fields& f, LearnedMaterial& material);
 void describe(Fields& f, LearnedUnder& under);
 void describe(Fields& f, Calibration& calibration);
 
-/// Errors: InputError at the place: another format or a newer version, an unknown parameter or one twice, a
-/// covariance that is not square, symmetric and positive.
+/// Errors: InputError at the place for another format, a newer version, an unknown or repeated parameter, or a covariance that is
+/// not square, symmetric and positive.
 void check_calibration(const Calibration& calibration);
 
-/// In the order of uncertain_parameters(); one that the calibration does not know keeps its prior.
+/// Returns the calibration's parameters in the order of uncertain_parameters(). Parameters without calibration keep their prior.
 ParameterKnowledge knowledge_of(const Calibration& calibration, ParameterKnowledge prior);
 
-/// Where a job goes beyond what a calibration was learned from: "a strain range of 0.012 (0.001 .. 0.006 in
-/// its tests)".
+/// A job's quantities that are compared with the ranges of a calibration. beyond() returns each quantity outside of its range in
+/// words: "a strain range of 0.012 (0.001 .. 0.006 in its tests)".
 struct Experience {
-  double strain_range = 0;          ///< of the worst wire
+  double strain_range = 0;          ///< of the most strained wire
   double curvature = 0, twist = 0;  ///< largest of the motion [1/m], [rad/m]
 };
 std::vector<std::string> beyond(const LearnedWithin& within, const Experience& experience);

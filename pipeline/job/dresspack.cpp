@@ -9,7 +9,7 @@ namespace dresslife::pipeline {
 
 namespace {
 
-/// Keys of a component, of the first level only.
+/// Keys of a component; only first-level components have them.
 void describe(Fields& f, Laying& laying) {
   f.choice(
       "position", laying.position,
@@ -121,7 +121,7 @@ void describe(Fields& f, Dresspack& dresspack) {
       "left out where a rig or a deformation moves it.");
   const Need need = dresspack.cable_alone ? Need::optional : Need::required;
   const Range range = dresspack.cable_alone ? at_least(0) : above(0);
-  constexpr Range up_to_a_metre{0, 1000, true};  // no robot carries more, and its search for contacts takes minutes
+  constexpr Range up_to_a_metre{0, 1000, true};  // no robot carries more, and the search for contacts takes minutes then
   f.number("diameter_mm", dresspack.diameter, Need::required, up_to_a_metre, "The outer diameter of the hose.");
   constexpr std::string_view from = "from_construction";
   f.number_or_word("mass_kg_per_m", dresspack.mass_per_length, dresspack.mass_from_construction, from, need,
@@ -267,7 +267,7 @@ void check_plain(const Component& part, const Component* parent, Problems& probl
                  "give it: data sheets state it");
 }
 
-/// parent: null: the dresspack. Returns how many levels of parts it has, itself the first.
+/// parent: null for a part of the dresspack. Returns the number of levels of parts, including this one.
 int check_component(const Component& component, const Component* parent, Problems& problems) {
   const Where& where = component.where;
   if (component.plain)
@@ -299,9 +299,9 @@ int check_component(const Component& component, const Component* parent, Problem
   return depth + 1;
 }
 
-/// A thin wall with round crests and roots fits the profile (corrugation.h).
+/// Checks that a thin wall with round crests and roots fits the profile (corrugation.h).
 void check_hose(const Dresspack& dresspack) {
-  if (!dresspack.hose_corrugation || !(dresspack.diameter > 0)) return;  // a refused diameter is a problem of its own
+  if (!dresspack.hose_corrugation || !(dresspack.diameter > 0)) return;  // a refused diameter is another problem
   const Corrugation& c = *dresspack.hose_corrugation;
   if (dresspack.hose_strain_factor)
     throw InputError(c.where, "both hose_strain_factor and hose_corrugation are given",
@@ -325,7 +325,7 @@ bool hold_wires(const std::vector<Component>& parts) {
                      [](const Component& part) { return is_wire(part) || hold_wires(part.components); });
 }
 
-/// A loose part needs room that is known, and must be straight; deeper parts and wires lie where they are.
+/// Checks the keys of laying: a loose part needs a known space and must be straight; deeper parts and wires cannot be loose.
 void check_laying(const Dresspack& dresspack, const Component& component, bool first_level) {
   const Laying& laying = component.laying;
   const bool lone = is_wire(component);
@@ -353,10 +353,10 @@ void check_laying(const Dresspack& dresspack, const Component& component, bool f
                      "give dresspack.inner_diameter_mm or its play_mm");
 }
 
-/// The space in a hose holds what is said to lie in it.
+/// Checks that the parts fit into the hose.
 void check_room(const Dresspack& dresspack) {
   const auto inner = inner_radius(dresspack);
-  if (!inner || !(dresspack.diameter > 0)) return;  // a missing diameter is a problem of its own
+  if (!inner || !(dresspack.diameter > 0)) return;  // a missing diameter is another problem
   if (2 * *inner > dresspack.diameter || *inner <= 0)
     throw InputError(dresspack.where,
                      fmt::format("inner_diameter_mm is {:.4g} (diameter_mm is {:.4g})", 2e3 * *inner,
@@ -371,12 +371,12 @@ void check_room(const Dresspack& dresspack) {
                      "check core_diameter_mm");
 }
 
-/// What fills the middle is either described by the core's keys or a component; no part lies in the core or outside
-/// the bore.
+/// Checks the place of a part. The middle is described either by the keys of the core or by a component. No part may be inside of
+/// the core or outside of the bore.
 void check_place(const Dresspack& dresspack, const Component& component) {
-  if (!(dresspack.diameter > 0)) return;  // refused: a problem of its own
+  if (!(dresspack.diameter > 0)) return;  // a refused diameter is another problem
   const PartsRoom room = room_of_parts(dresspack);
-  if (!(room.bore > 0)) return;  // refused, too
+  if (!(room.bore > 0)) return;  // a refused bore is another problem
   const bool has_core = room.core > 0 || dresspack.core_bending_stiffness.value_or(0) > 0;
   if (component.helix_radius == 0 && has_core && inner_radius(dresspack))
     throw InputError(
@@ -401,7 +401,7 @@ void check_place(const Dresspack& dresspack, const Component& component) {
                                  1e3 * (room.core + component.radius),
                                  2e3 * std::max(0.0, component.helix_radius - component.radius)));
   const double by = outside_bore(room, component);
-  if (by == 0 || room.estimated) return;  // of an estimated bore a warning (overlap.h)
+  if (by == 0 || room.estimated) return;  // an estimated bore only gives a warning (overlap.h)
   const bool hose = inner_radius(dresspack).has_value();
   throw InputError(
       component.where,
@@ -416,7 +416,7 @@ void check_place(const Dresspack& dresspack, const Component& component) {
                   2e3 * (component.helix_radius + component.radius)));
 }
 
-/// In a hose whose bore is not known it is not known whether parts fit, nor how far they can go.
+/// Refuses wires in a hose without a known bore: it is unknown whether the parts fit, and how far they can move.
 void check_bore(const Dresspack& dresspack) {
   if (dresspack.hose_material.empty() || inner_radius(dresspack) || !has_wires(dresspack) || dresspack.cable_alone)
     return;
@@ -443,7 +443,7 @@ void check_bending_friction(const Dresspack& dresspack) {
                    "give as bending_stiffness_Nm2 moment over curvature of the first bend, friction included");
 }
 
-/// A copy of each is checked: what the job says stays as written.
+/// Checks copies of the ratings, because check_rig() fills in defaults and the job must stay unchanged.
 void check_ratings(const std::vector<Rating>& ratings, bool of_plain) {
   for (Rating rating : ratings) {
     if (!rating.rig.where.line) rating.rig.where = rating.where;
@@ -455,7 +455,7 @@ void check_ratings(const std::vector<Rating>& ratings, bool of_plain) {
   }
 }
 
-/// Ratings are of whole cables, described or not.
+/// Checks that only whole cables have ratings, with or without a known construction.
 void check_ratings(const Component& component, bool first_level) {
   const bool plain = component.plain && component.plain->kind == PlainKind::cable;
   if (!component.ratings.empty() && (!first_level || (component.components.empty() && !plain)))
@@ -467,7 +467,7 @@ void check_ratings(const Component& component, bool first_level) {
   for (const Component& inner : component.components) check_ratings(inner, false);
 }
 
-/// Parts of the core only have a life.
+/// Checks the components of the core, which only have a life.
 void check_core(const Dresspack& dresspack, Problems& problems) {
   for (const Component& part : dresspack.core_components) {
     Laying mass_alone;

@@ -13,7 +13,7 @@ JobForms forms_of(const Job& job) {
 }
 
 void describe_keys(Fields& f, Job& job, const JobForms& forms) {
-  // The motion first: whether it brings its own clamp poses decides whether a robot is needed.
+  // The motion is first, because it determines whether a robot is required.
   f.group("motion", job.motion, Need::required,
           "The motion: a name of config/programs, a file, or the keys themselves.");
   f.group("robot", job.robot, job.motion.needs_robot() ? Need::required : Need::optional,
@@ -61,7 +61,7 @@ Material material_of(const Job& job, const std::string& name) {
 ParameterKnowledge knowledge_of(const Job& job) {
   ParameterKnowledge knowledge = prior_of(job.uncertainty);
   if (job.calibration) knowledge = knowledge_of(*job.calibration, std::move(knowledge));
-  if (job.robot.joints.empty()) {  // no controller's ramps, no swing
+  if (job.robot.joints.empty()) {  // no ramps of a controller and no swinging
     const auto motion = static_cast<Eigen::Index>(index_of(Uncertain::motion));
     knowledge.mean[motion] = 0;
     knowledge.covariance.row(motion).setZero();

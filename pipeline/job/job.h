@@ -1,12 +1,11 @@
 // A job: robot, motion, dresspacks with their routings, and the settings of each stage.
 //
-// Each part has a pair of files of its own in this room, with one describe() that lists its keys once: name
-// with unit, range, default and meaning. That list reads, checks, echoes and documents the key (see
-// fields.h). All values here are SI; the unit in a YAML key is the unit of the file. Robot, motion, dresspack
-// and material are catalogue entries: a job names a file of config/ or holds the entry itself, and `from:
-// NAME` starts from a catalogue entry.
+// Each part of a job has two files in this folder, with one describe() that lists its keys: name with unit, range, default and
+// meaning. This list is used to read, check, echo and document the key (fields.h). All values in structs are SI; the unit in a
+// YAML key is the unit in the file. Robot, motion, dresspack and material are catalogue entries: a job names a file of config/ or
+// contains the entry itself. `from: NAME` starts from a catalogue entry.
 //
-// Include setup.h or pipeline/resolve/job_text.h where they do: what includes this is compiled again for every key.
+// Prefer setup.h or pipeline/resolve/job_text.h: a file that includes job.h is compiled again after a change of any key.
 #pragma once
 
 #include <optional>
@@ -26,17 +25,17 @@ struct Job : Setup {
   Fatigue fatigue;
   Inspection inspection;
   Uncertainty uncertainty;
-  std::optional<Calibration> calibration;  ///< what observations have taught; its medians stand in the keys
+  std::optional<Calibration> calibration;  ///< learned from observations; its medians are in the keys
 };
 
 void describe(Fields& f, Job& job);
 
-/// What is known of its parameters: from observations where it names a calibration, else its prior.
+/// Returns the knowledge about the job's parameters: that of its calibration, or the prior without a calibration.
 ParameterKnowledge knowledge_of(const Job& job);
 
-/// The material that a wire of material `name` has under these settings, as changed() leaves it, and that of
-/// a hose's wall, which fatigue.material leaves alone. Dresspacks share their materials: one name, one
-/// material. Precondition: the job was read by read_job() or job_from().
+/// material_of returns the material of wires of material `name` after changed(). hose_material_of returns the material of a
+/// hose's wall, which fatigue.material does not replace. All dresspacks share the materials: one name is one material.
+/// Precondition: the job was read by read_job() or job_from().
 Material material_of(const Job& job, const std::string& name);
 const Material& hose_material_of(const Job& job, const Dresspack& dresspack);
 

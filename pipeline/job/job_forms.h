@@ -1,15 +1,15 @@
-// The two forms in which a job gives its dresspacks, and its keys in either.
+// The two forms of dresspacks in a job, and the keys of each form.
 #pragma once
 
 #include "pipeline/job/job.h"
 
 namespace dresslife::pipeline {
 
-/// One dresspack by two keys of the job itself, or a list. The manual describes both.
+/// `one`: the job's own keys describe one dresspack. `list`: a list of dresspacks. The manual describes both forms.
 struct JobForms {
   bool one = true, list = false;
 };
-/// Precondition of reading: the job's list is empty when the document has one.
+/// Returns the form of a job. Precondition of reading: the job's list is empty if the document has a list.
 JobForms forms_of(const Job& job);
 
 void describe_keys(Fields& f, Job& job, const JobForms& forms);

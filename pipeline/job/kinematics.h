@@ -1,4 +1,4 @@
-// Which geometry of nested helices counts (strain/README.md, W5 to W9).
+// Geometry of nested helices (strain/README.md, W5 to W9).
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@ namespace dresslife::pipeline {
 
 enum class Kinematics { exact, thesis };
 constexpr std::string_view word(Kinematics value) { return word_at({"exact", "thesis"}, value); }
-/// Whether (12) to (23) are used as they are printed; else the geometry itself.
+/// Returns whether (12) to (23) are used as printed in the thesis; otherwise the exact geometry is used.
 constexpr bool is_thesis(Kinematics value) { return value == Kinematics::thesis; }
 
 }  // namespace dresslife::pipeline

@@ -42,7 +42,7 @@ std::size_t levels_of(const std::vector<Component>& parts) {
   return levels;
 }
 
-/// One word per level, outermost first; "any" for the first of a cable that lies in nothing.
+/// Returns one word per level, outermost first. The first word is "any" if the dresspack is a single cable.
 std::string slip_of(const Job& job, const Dresspack& dresspack) {
   const std::vector<Slip>& slip = job.strain.slip;
   std::vector<std::string> words;
@@ -52,7 +52,8 @@ std::string slip_of(const Job& job, const Dresspack& dresspack) {
   return listed(words);
 }
 
-/// Levels are counted from the wires: a cable may lie in a hose in one of the two jobs.
+/// Returns whether two slip settings agree. Levels are counted from the wires, because the cable may be in a hose in only one of
+/// the jobs.
 bool slips_agree(const std::string& one, const std::string& other) {
   const std::vector<std::string> a = split(one), b = split(other);
   for (std::size_t level = 1; level <= std::min(a.size(), b.size()); ++level) {
@@ -62,7 +63,7 @@ bool slips_agree(const std::string& one, const std::string& other) {
   return true;
 }
 
-/// One word where it says all.
+/// Returns one word if all levels have the same.
 std::string slip_words(const std::string& slip) {
   std::vector<std::string> words = split(slip);
   if (words.size() > 1 && words.front() == any) words.erase(words.begin());
@@ -92,7 +93,8 @@ bool is_friction(const std::string& key) {
          key == "measured_bending_stiffness_Nm2" || key == "measured_at_curvature_1_per_m";
 }
 
-/// Moves the friction keys of a part and of all in it out of its tree, into words. Drops names and ratings.
+/// Removes the friction keys of a part and of all parts in it from their tree and adds them to `words`. Removes names and
+/// ratings.
 void take_friction(Node& part, std::vector<std::string>& words) {
   const Node* const name = part.find("name");
   const bool measured = part.find("measured_bending_stiffness_Nm2");
@@ -126,7 +128,7 @@ bool holds_wires(const Component& part) {
   return is_wire(part) || std::any_of(part.components.begin(), part.components.end(), holds_wires);
 }
 
-/// Those whose wires are evaluated. A dresspack without a hose is a cable itself, or has one on its axis.
+/// Returns the cables with evaluated wires. A dresspack without a hose is a cable, or has one on its axis.
 std::vector<LearnedCable> cables_of(const Dresspack& dresspack) {
   const std::vector<Component>& parts = dresspack.components;
   const bool hose = inner_radius(dresspack) || !dresspack.hose_material.empty();
@@ -142,7 +144,7 @@ std::vector<LearnedCable> cables_of(const Dresspack& dresspack) {
   return cables;
 }
 
-/// The constants of a material as "key value, key value".
+/// Returns the constants of a material as "key value, key value".
 std::string constants_of(const Material& material) {
   std::vector<std::string> words;
   for (const Entry& entry : echo_fields(material).entries)
@@ -171,7 +173,7 @@ void add_job(const Job& job, LearnedUnder& under) {
   }
 }
 
-/// Words of `of` that `beside` lacks.
+/// Returns the words of `of` that are not in `beside`.
 std::string different(const std::string& of, const std::string& beside) {
   const std::vector<std::string> all = split(of), others = split(beside);
   std::vector<std::string> left;
@@ -191,7 +193,7 @@ void check_settings(const Calibration& calibration, const LearnedUnder& own, Pro
       add_once(learned, words(other.value));
       agree |= slip ? slips_agree(other.value, setting.value) : other.value == setting.value;
     }
-    if (agree || learned.empty()) continue;  // none: a key that is younger than the calibration
+    if (agree || learned.empty()) continue;  // `learned` is empty for a key that is newer than the calibration
     problems.add(
         calibration.where,
         fmt::format("was learned with {}: {} (this job has {})", setting.key, listed(learned, " or "),
@@ -234,7 +236,7 @@ void check_constants(const Calibration& calibration, const LearnedUnder& own, Pr
             "use the material of the tests, calibrate again with this one, or leave out the key calibration");
 }
 
-/// Names of those that no test had.
+/// Returns the names of the items that no test had.
 template <class T, class Known>
 std::vector<std::string> foreign(const std::vector<T>& own, const Known& is_known) {
   std::vector<std::string> names;

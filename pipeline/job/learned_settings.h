@@ -1,5 +1,5 @@
-// The settings, cables and materials of the tests from which a calibration was learned. Its parameters belong to them:
-// a friction that explains a test whose parts slip says nothing of a job whose parts stick.
+// Settings, cables and materials of the tests from which a calibration was learned. Its parameters are valid only with them: a
+// friction from a test in which parts slip gives no information for a job in which parts stick.
 #pragma once
 
 #include <set>
@@ -10,24 +10,25 @@
 
 namespace dresslife::pipeline {
 
-/// The settings of these jobs to which a calibration belongs, each different one once.
+/// Returns the different settings, cables and materials of these jobs, for a calibration.
 LearnedUnder learned_under(const std::vector<const Job*>& jobs);
 
-/// Errors: InputErrors at the calibration, one for each setting, friction key of a cable and constant of a material that
-/// is another in the job; a calibration without settings is refused, too.
+/// Checks that a job's settings are those of its calibration. Errors: InputErrors at the calibration, one for each different
+/// setting, friction key of a cable and constant of a material, and one for a calibration without settings.
 void check_learned_settings(const Job& job);
 
-/// LearnedFrom::observed of dresspacks in service: "3 of 12 failed".
+/// Returns LearnedFrom::observed for dresspacks in service: "3 of 12 failed".
 std::string service_text(std::size_t failed, std::size_t all);
-/// Whether a calibration was learned from dresspacks in service, of which those in use are a part.
+/// Returns whether a calibration was learned from dresspacks in service, some of which are still in use.
 bool counts_survivors(const Calibration& calibration);
 
-/// Takes these parameters out. The others keep their joint normal distribution.
+/// Removes these parameters from a calibration. The other parameters keep their joint normal distribution.
 void leave_out(Calibration& calibration, const std::set<std::string>& names);
 
-/// Takes the parameters out of the calibration that do not hold for the job: those of a construction (SharedBy) if the job
-/// has a cable, for friction_hose and play a hose, that no test had; those of a material if no test had one of the job's.
-/// The others keep their joint normal distribution without them, which is exact. within.left_out says it in words.
+/// Removes the parameters that are not valid for the job from its calibration. Parameters of a construction (SharedBy) are
+/// removed if the job has a cable (for friction_hose and play: a hose) that was not tested. Parameters of a material are removed
+/// if one of the job's materials was not tested. The other parameters keep their joint normal distribution, which is exact. Writes
+/// within.left_out in words.
 void leave_out_foreign_parameters(Job& job);
 
 }  // namespace dresslife::pipeline

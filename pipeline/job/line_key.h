@@ -1,4 +1,4 @@
-// Keys as a line of a job and --set name them.
+// Names of keys in a line of a job and in --set.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace dresslife::pipeline {
 
-/// A key of one of its dresspacks ("routing.free_length_m", "dresspack.components.2.slack_percent"): itself, or in a job
-/// with a list "dresspacks.1.routing.free_length_m".
+/// Returns the name of a dresspack's key ("routing.free_length_m", "dresspack.components.2.slack_percent"): unchanged, or
+/// "dresspacks.1.routing.free_length_m" for a job with a list of dresspacks.
 inline std::string line_key(const Setup& setup, std::size_t dresspack, const std::string& key) {
   const bool list = setup.dresspacks.size() > 1 || !setup.dresspacks.front().name.empty();
   return list ? fmt::format("dresspacks.{}.{}", dresspack + 1, key) : key;

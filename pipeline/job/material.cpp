@@ -39,7 +39,7 @@ void describe(Fields& f, Material& material) {
          "has none of the constants below.");
   if (!material.wear.empty() && material.wear.front().rate > 0) return;
   const bool measured = !material.strain_life_table.empty() && material.strain_life_table.front().cycles > 0;
-  if (measured) return;  // the manual's one point is without cycles: there the other keys follow
+  if (measured) return;  // the manual describes one point with 0 cycles, so that it lists the other keys too
   f.number("fatigue_strength_MPa", material.fatigue_strength, Need::required, above(0),
            "The fatigue strength sigma_f' of equation (8).");
   f.number("fatigue_strength_exponent", material.fatigue_strength_exponent, Need::required,

@@ -13,8 +13,8 @@ namespace dresslife::pipeline {
 
 class Fields;
 
-/// What rubs: on a hose a link of the robot, a guide ring, meshes of the cell, the floor, a hose; on a cable the inside of
-/// its hose.
+/// The body that rubs. On a hose: a link of the robot, a guide ring, meshes of the cell, the floor or another hose. On a cable:
+/// the inside of its hose.
 enum class Counterface { robot, ring, cell, floor, dresspack, hose };
 constexpr std::string_view word(Counterface value) {
   return word_at({"robot", "ring", "cell", "floor", "dresspack", "hose"}, value);
@@ -23,8 +23,8 @@ constexpr std::string_view word(Counterface value) {
 /// Archard's wear rate of a pair of materials.
 struct WearRate {
   Counterface against = Counterface::robot;
-  double rate = 0;    ///< worn volume over normal force times way, in the median [m3/(N m)]
-  double factor = 1;  ///< one standard deviation of its logarithm, as a factor
+  double rate = 0;    ///< median of worn volume / (normal force * sliding distance) [m3/(N m)]
+  double factor = 1;  ///< factor that is one standard deviation of the rate's logarithm
   std::string source;
 };
 
@@ -46,14 +46,14 @@ struct Material {
   std::optional<double> cyclic_hardening_exponent;    ///< n'; absent: b / c
   std::optional<double> tensile_strength;             ///< at which a wire tears [Pa]
   std::optional<double> walker_exponent;              ///< gamma; absent: 0.5, that of SWT
-  std::optional<double> relaxation_threshold_strain;  ///< above it mean stress relaxes; absent: never
-  std::optional<double> relaxation_exponent;          ///< at twice the threshold; absent: 0.085
+  std::optional<double> relaxation_threshold_strain;  ///< strain above which mean stress relaxes; absent: it never relaxes
+  std::optional<double> relaxation_exponent;          ///< relaxation exponent at twice the threshold; absent: 0.085
   std::vector<StrainLifePoint>
-      strain_life_table;  ///< instead of sigma_f' to n', for polymers; larger strains first
-  std::vector<WearRate> wear;  ///< of a hose, sleeve or jacket; empty: its abrasion is not evaluated
+      strain_life_table;  ///< replaces sigma_f' to n', for polymers; larger strains first
+  std::vector<WearRate> wear;  ///< of a hose, sleeve or jacket; empty: abrasion is not evaluated
   Where where;
 
-  /// Whether cycles have a life; else it only wears.
+  /// Returns whether the material has a strain-life curve; otherwise it only wears.
   bool has_strain_life() const { return fatigue_strength > 0 || !strain_life_table.empty(); }
 };
 
@@ -61,7 +61,7 @@ void describe(Fields& f, WearRate& rate);
 void describe(Fields& f, StrainLifePoint& point);
 void describe(Fields& f, Material& material);
 
-/// Errors: InputError where a table of measured lives does not fall, or wear rates are not one each.
+/// Errors: InputError for measured lives that do not decrease, or for two wear rates against one body.
 void check_materials(const std::vector<Material>& materials);
 
 }  // namespace dresslife::pipeline

@@ -165,7 +165,7 @@ void check_pose(const std::vector<double>& position, const std::vector<double>& 
     throw InputError(where, fmt::format("position_mm has {} numbers", position.size()), "give x, y, z");
   double squares = 0;
   for (double part : quaternion) squares += part * part;
-  constexpr double rounding = 1e-3;  // of quaternions written with four decimals
+  constexpr double rounding = 1e-3;  // limit for quaternions with four decimals
   if (quaternion.size() != 4 || std::abs(std::sqrt(squares) - 1) > rounding)
     throw InputError(where, "quaternion is not four numbers w, x, y, z of length 1",
                      "give the orientation of the pose");
@@ -197,7 +197,7 @@ void check_move(const MotionStep& step, const Robot& robot) {
     throw InputError(where, "more than one of zone_deg, zone_mm, zone_percent is given", "keep one of them");
 }
 
-/// Without the steps of a block.
+/// Checks one step without the steps of its block.
 void check_lone_step(const MotionStep& step, const Robot& robot) {
   const bool move = step.is_move(), dwell = step.dwell > 0, block = step.repeat > 0 || !step.steps.empty();
   if (move + dwell + block != 1)
@@ -264,7 +264,7 @@ void check_motion(const Motion& motion, const Robot& robot) {
 
 namespace {
 
-/// Takes out the keys that a file may leave out, because they have the values of `defaults`.
+/// Removes the keys whose values are those of `defaults`.
 void leave_out_defaults(Node& map, const Node& defaults) {
   std::erase_if(map.entries, [&](const auto& entry) {
     const Node* const same = defaults.find(entry.key);

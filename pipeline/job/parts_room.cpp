@@ -9,8 +9,8 @@ namespace dresslife::pipeline {
 
 namespace {
 
-/// Whether its first level holds cables or hoses, which a hose holds, not a jacket. A lone part on the axis is the
-/// cable itself.
+/// Returns whether the first level contains cables or hoses; such parts are in a hose, not in a jacket. A single part on the axis
+/// is the cable itself.
 bool holds_cables(const Dresspack& dresspack) {
   const std::vector<Component>& parts = dresspack.components;
   if (dresspack.cable_alone || (parts.size() == 1 && parts[0].count == 1 && parts[0].helix_radius == 0))
@@ -32,7 +32,7 @@ PartsRoom room_of_parts(const Dresspack& dresspack) {
 }
 
 Corrugation usual_corrugation(const Dresspack& dresspack) {
-  constexpr double pitch_share = 4.5 / 4, wall_share = 0.7 / 4;  // of the height, as of handling.yaml
+  constexpr double pitch_share = 4.5 / 4, wall_share = 0.7 / 4;  // relative to the height, from handling.yaml
   const double bore = dresspack.inner_diameter.value_or(usual_bore_share * dresspack.diameter);
   Corrugation usual;
   usual.height = (dresspack.diameter - bore) / 2;
@@ -63,7 +63,7 @@ double inside_core(const PartsRoom& room, const Component& component) {
 
 namespace {
 
-constexpr double touching = 1e-3;  // of the bore: place: auto packs no parts that touch
+constexpr double touching = 1e-3;  // share of the bore; place: auto arranges parts without contact
 
 std::string wider_bore(const Dresspack& dresspack, double radius) {
   return fmt::format("inner_diameter_mm{}: {:.4g} or more", dresspack.inner_diameter ? "" : " (now by hose_corrugation)",
@@ -72,12 +72,12 @@ std::string wider_bore(const Dresspack& dresspack, double radius) {
 
 std::string thickness(const Component& part) { return fmt::format("'{}' ({:.4g} mm)", part.name, 2e3 * part.radius); }
 
-/// middle lies in the middle, or must.
+/// Returns the conflict if `other` does not fit beside `middle`, which lies in the middle of the bore or must lie there.
 std::optional<Crowd> crowd_around(const Dresspack& dresspack, double bore, const Component& middle, const Component& other) {
   const double gap = bore - middle.radius;
   if (2 * other.radius <= gap + 2 * caliper_error * other.radius) return std::nullopt;
   const double thickest = std::max(middle.radius, other.radius);
-  const bool beside = 2 * thickest <= bore;  // both off the axis, on opposite sides
+  const bool beside = 2 * thickest <= bore;  // both fit beside the axis, on opposite sides
   const std::string what = fmt::format(
       "{} and {} do not fit into the bore of {:.4g} mm{}: around '{}' in the middle are {:.3g} mm", thickness(middle), thickness(other),
       2e3 * bore, beside ? " as they lie" : fmt::format("; a part wider than {:.4g} mm lies in the middle here", 1e3 * bore), middle.name,

@@ -1,6 +1,6 @@
-// Parts of a dresspack without wires: hoses for air and water, optical fibres, fillers, and cables whose construction is
-// not known. They have mass and stiffness, take room, push cables aside and pull at the clamps. Only cables with ratings
-// have a life (fatigue/rated_cables.h); hoses kink (pipeline/cable/kink.h).
+// Parts of a dresspack without wires: hoses for air and water, optical fibres, fillers, and cables of unknown construction. They
+// have mass and stiffness, need space, displace cables and pull at the clamps. Only cables with ratings have a life
+// (fatigue/rated_cables.h). Hoses kink (pipeline/cable/kink.h).
 #pragma once
 
 #include <optional>
@@ -21,23 +21,23 @@ constexpr std::string_view word(Medium value) { return word_at({"air", "water"},
 
 struct PlainPart {
   PlainKind kind = PlainKind::filler;
-  std::optional<double> bore;               ///< inner diameter of a hose [m]; absent: two thirds of the outer
-  Medium medium = Medium::air;              ///< that fills it
-  std::optional<double> bending_stiffness;  ///< E I [N m2]; absent: of polymer
+  std::optional<double> bore;               ///< inner diameter of a hose [m]; absent: two thirds of the outer diameter
+  Medium medium = Medium::air;              ///< content of a hose
+  std::optional<double> bending_stiffness;  ///< E I [N m2]; absent: that of polymer
   std::optional<double> damage_exponent;    ///< m of (F31), of a cable; absent: usual_damage_exponent
-  std::optional<double> least_bend_radius{};  ///< of a hose, at its axis, by its maker [m]; absent: by its wall (pipeline/cable/kink.h)
-  double stiffness_factor = 1;              ///< of its polymer, by the temperature of the cell (pipeline/cable/warmth.h)
+  std::optional<double> least_bend_radius{};  ///< of a hose's axis, from its maker [m]; absent: see pipeline/cable/kink.h
+  double stiffness_factor = 1;              ///< of its polymer at the cell's temperature (pipeline/cable/warmth.h)
   Where where{};
 };
 
-/// Damage of a bend or twist over its range. ESTIMATE: the strain-life curve of copper_halved has 3.1 at 1e5, 4.8 at 1e6 and
-/// 6.8 at 1e7 cycles.
+/// Exponent of damage over the range of a bend or twist. ESTIMATE: the strain-life curve of copper_halved has 3.1 at 1e5, 4.8 at
+/// 1e6 and 6.8 at 1e7 cycles.
 constexpr double usual_damage_exponent = 5, damage_exponent_deviation = 1.5;
 
 void describe(Fields& f, PlainPart& part);
 
-/// Errors: InputError for a bore or a least bend radius that does not fit, or of what is no hose, and for a damage exponent of
-/// what is no cable.
+/// Errors: InputError for a bore or a least bend radius that does not fit or belongs to no hose, and for a damage exponent that
+/// belongs to no cable.
 void check_plain_part(const PlainPart& part, double radius, std::string_view name);
 
 }  // namespace dresslife::pipeline

@@ -1,4 +1,4 @@
-// What a maker promises of a cable: so many cycles in a test rig.
+// A maker's rating of a cable: a number of cycles in a test rig.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ class Fields;
 
 struct Rating {
   Rig rig;
-  double cycles = 0;   ///< of the rig; rolling_flex: round trips
+  double cycles = 0;   ///< of the rig; for rolling_flex: round trips
   std::string source;  ///< data sheet, page
   Where where;
 };

@@ -14,7 +14,7 @@ namespace dresslife::pipeline {
 
 namespace {
 
-/// What a kind of rig does with one of the optional keys.
+/// How a kind of rig uses one of the optional keys.
 enum class Use { none, optional, required };
 
 struct Parameter {
@@ -156,7 +156,7 @@ double axis_radius(const Rig& rig, double diameter) {
   const double given = rig.kind == RigKind::two_pulley ? *rig.pulley_diameter / 2
                        : rig.radius                    ? *rig.radius
                                                        : *rig.radius_diameters * diameter;
-  // A chain's radius is that of its cables' axes; mandrel, pulley and clip are measured where the cable lies.
+  // A chain's radius is measured at the cables' axes; those of mandrel, pulley and clip at the cable's surface.
   return rig.kind == RigKind::rolling_flex ? given : given + diameter / 2;
 }
 
@@ -164,7 +164,7 @@ BendWay bend_way(const Rig& rig, double diameter) {
   constexpr double followed = 1.25;
   BendWay way;
   switch (rig.kind) {
-    case RigKind::rolling_flex:  // where the bend is moves by half of what its moving end does
+    case RigKind::rolling_flex:  // the bend moves by half the travel of the moving end
       way.bend = std::numbers::pi * axis_radius(rig, diameter);
       way.sweep = std::min(*rig.travel / 2, followed * way.bend);
       way.lead = way.bend / 4;
@@ -176,7 +176,7 @@ BendWay bend_way(const Rig& rig, double diameter) {
       break;
     case RigKind::tick_tock:
       way.bend = *rig.angle * axis_radius(rig, diameter);
-      way.lead = 2.5 * way.bend;  // into which conductors slide
+      way.lead = 2.5 * way.bend;  // conductors slide into this length
       break;
     case RigKind::torsion:
     case RigKind::swivel:
@@ -187,7 +187,7 @@ BendWay bend_way(const Rig& rig, double diameter) {
 }
 
 double rig_length(const Rig& rig, double diameter) {
-  constexpr double any = 0.1;  // of a cable that deforms alike all along it
+  constexpr double any = 0.1;  // the cable deforms equally along its whole length, so any length gives the same result
   if (rig.kind == RigKind::torsion) return *rig.length;
   const double way = bend_way(rig, diameter).length();
   return way > 0 ? way : any;

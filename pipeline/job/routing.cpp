@@ -11,7 +11,7 @@
 namespace dresslife::pipeline {
 
 void describe(Fields& f, BendRelief& relief) {
-  constexpr double stiffest = 1e6;  // [N m2] a bar of steel 100 mm thick
+  constexpr double stiffest = 1e6;  // [N m2] a steel bar of 100 mm diameter
   f.number("length_mm", relief.length, Need::required, at_least(0),
            "The length of the relief from the clamp. At most half the dresspack between two clamps.");
   f.number("bending_stiffness_Nm2", relief.stiffness, Need::required, between(0, stiffest),
@@ -105,7 +105,7 @@ void describe(Fields& f, Routing& routing) {
 
 namespace {
 
-/// A clamp at a mounting point becomes one with link, position and direction.
+/// Replaces a mounting point by its link, position and direction.
 void place_clamp(Clamp& clamp, const Robot& robot) {
   if (clamp.mounting_point.empty()) return;
   if (!clamp.link.empty())
@@ -115,7 +115,8 @@ void place_clamp(Clamp& clamp, const Robot& robot) {
     names.push_back(point.name);
     if (point.name != clamp.mounting_point) continue;
     clamp.link = point.link;
-    // What improve, route and a mounting tolerance set beside the point counts; else a search would change nothing, silently.
+    // A position or direction beside the point was set by improve, route or a mounting tolerance. It has priority, so that a
+    // search has an effect.
     if (clamp.position == Clamp{}.position) clamp.position = point.position;
     if (clamp.direction == Clamp{}.direction) clamp.direction = point.direction;
     clamp.mounting_point.clear();
@@ -126,10 +127,10 @@ void place_clamp(Clamp& clamp, const Robot& robot) {
                                  : fmt::format("one of: {}", joined(names, ", ")));
 }
 
-/// Of a clamp or a ring.
+/// Checks the place of a clamp or a ring.
 template <class Place>
 void check_place(const Place& place, const std::string& name, const Robot& robot) {
-  constexpr double farthest = 30;  // [m] from a link's frame: farther than across a cell, where millimetres lie
+  constexpr double farthest = 30;  // [m] from a link's frame: more than the size of a cell, so the value was in millimetres
   if (!(place.direction.norm() > 1e-9))
     throw InputError(place.where, fmt::format("routing.{}.direction is zero", name),
                      "give where the dresspack points");
@@ -154,7 +155,7 @@ void check_clamp(const std::optional<Clamp>& clamp, const std::string& name, con
   check_place(*clamp, name, robot);
 }
 
-/// What the robot's links carry cannot go with recorded poses.
+/// Refuses keys that need a robot if the motion is recorded poses.
 void check_robot_only(const Routing& routing) {
   const auto refuse = [&](bool given, const char* key, const Where& where) {
     if (given)
@@ -215,7 +216,7 @@ void check_intermediate_clamps(const Routing& routing, const Robot& robot, Probl
   }
 }
 
-/// Each relief ends within its half of the piece between two clamps.
+/// Checks that each relief ends within its half of the piece between two clamps.
 void check_bend_reliefs(const Routing& routing, Problems& problems) {
   double begin = 0;
   const Clamp* before = routing.base_clamp ? &*routing.base_clamp : nullptr;

@@ -1,5 +1,5 @@
-// What moves and how: all of a job that dresslife-sim needs. A file that includes only this header is not compiled
-// again after a change of the keys of strain or fatigue.
+// Setup: the parts of a job that dresslife-sim needs. A file that includes only this header is not compiled again after a change
+// of keys of strain or fatigue.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace dresslife::pipeline {
 
-/// One of the robot's dresspacks as it is clamped.
+/// One dresspack of the robot with its routing.
 struct MountedDresspack {
   std::string name;  ///< empty: the only one, given by the job's own keys `dresspack` and `routing`
   Dresspack dresspack;
@@ -26,20 +26,20 @@ struct MountedDresspack {
 void describe(Fields& f, MountedDresspack& mounted);
 
 struct Setup {
-  Robot robot;  ///< no joints where the motion needs none
+  Robot robot;  ///< without joints if the motion needs no robot
   Motion motion;
   std::vector<MountedDresspack> dresspacks = std::vector<MountedDresspack>(1);  ///< at least one
   Cell cell;
   SimulationSettings simulation;
 };
 
-/// (dresspack) what lies between its clamps, unstretched [m].
+/// Returns the unstretched length between the end clamps of each dresspack [m], (dresspack).
 std::vector<double> free_lengths(const Setup& setup);
-/// Of a rig's cable from clamp to clamp (rig.h) [m]; 0: no rig.
+/// Returns the length of a rig's cable from clamp to clamp (rig.h) [m]; 0 without a rig.
 double clamped_length(const Setup& setup);
 
-/// The words for one of several dresspacks: its name, or nothing where it is the only one; and the same as the
-/// subject of a sentence: "dresspack 'main hose'", "dresspack".
+/// name_among returns the name of a dresspack; empty if it is the only one. dresspack_words returns the subject of a sentence:
+/// "dresspack 'main hose'" or "dresspack".
 std::string name_among(const Setup& setup, std::size_t dresspack);
 std::string dresspack_words(const Setup& setup, std::size_t dresspack);
 

@@ -31,7 +31,7 @@ void describe(Fields& f, MeshFile& mesh) {
 }
 
 void describe(Fields& f, Cell& cell) {
-  std::optional<double> other;  // so that files of jobs at the usual one do not change
+  std::optional<double> other;  // absent at the usual temperature, so that the files of such jobs do not change
   if (cell.temperature != Cell::usual_temperature) other = cell.temperature;
   f.maybe_number("temperature_C", other, between(Cell::coldest, Cell::warmest),
                  "The temperature of the dresspack. Polymers soften and wear faster when it rises; metals stay the same. Other "

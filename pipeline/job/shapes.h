@@ -1,4 +1,4 @@
-// Shapes that a dresspack can touch: of robot links, and of the cell around the robot.
+// Shapes that a dresspack can touch: robot links and the cell around the robot.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ class Fields;
 
 using Eigen::Vector3d;
 
-/// Of roll, pitch, yaw about the fixed axes x, y, z [rad]: yaw after pitch after roll.
+/// Returns the rotation of roll, pitch, yaw about the fixed axes x, y, z [rad]: roll first, then pitch, then yaw.
 Eigen::Quaterniond from_roll_pitch_yaw(const Vector3d& angles);
 
 struct Capsule {
@@ -35,10 +35,10 @@ struct MeshFile {
   Vector3d orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
 };
 
-/// What stands still around the robot, in the world's frame, and its air.
+/// Fixed objects around the robot, in the world's frame, and the air temperature.
 struct Cell {
-  static constexpr double usual_temperature = 23;  ///< [C], of most tests of polymers (ISO 291)
-  static constexpr double coldest = 10, warmest = 60;  ///< [C], of the law in pipeline/cable/warmth.h
+  static constexpr double usual_temperature = 23;  ///< [C], temperature of most tests of polymers (ISO 291)
+  static constexpr double coldest = 10, warmest = 60;  ///< [C], range of the law in pipeline/cable/warmth.h
   double temperature = usual_temperature;          ///< [C]
   std::vector<Capsule> capsules;
   std::vector<Box> boxes;

@@ -34,7 +34,7 @@ void describe(Fields& f, SimulationSettings& simulation) {
 }
 
 void check_simulation(const SimulationSettings& simulation, const Where& where) {
-  if (simulation.choose_time_step) return;  // the choice fits the rate
+  if (simulation.choose_time_step) return;  // the chosen step fits the sample rate
   const double steps = 1 / (simulation.sample_rate * simulation.time_step);
   if (steps < 0.999 || std::abs(steps - std::round(steps)) > 1e-6 * steps)
     throw InputError(where,

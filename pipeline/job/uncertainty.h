@@ -1,11 +1,10 @@
-// What is not known of a dresspack, as the one list that draws, fits and reports share.
+// The list of uncertain parameters of a dresspack, which sampling, fitting and reports share.
 //
-// Every parameter has a standardised variable z, before anything is measured standard normal and independent
-// of the others. It acts on a job through one ordinary key, whose default changes nothing:
+// Each parameter has a standardised variable z. Without measurements, z is standard normal and independent of the others. It
+// changes one key of the job, whose default has no effect:
 //     logarithmic   key = step^z, a factor;   else   key = step z, an addend.
-// So `--set strain.friction_factor=2.5` is friction at z = 1. A job's own spread (section `uncertainty`)
-// makes the prior of z narrower or wider and leaves what z means alone: z of a calibration holds for every
-// job.
+// For example, `--set strain.friction_factor=2.5` is friction at z = 1. The spread in a job (section `uncertainty`) changes the
+// width of the prior of z, but not the meaning of z. So z of a calibration is valid for every job.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +22,7 @@ class Fields;
 struct Fatigue;
 struct Material;
 
-/// In the order of uncertain_parameters().
+/// The order is that of uncertain_parameters().
 enum class Uncertain {
   friction_inside,
   friction_hose,
@@ -40,26 +39,26 @@ enum class Uncertain {
 };
 constexpr std::size_t uncertain_count = 12;
 
-/// Which jobs share one value of a parameter.
+/// Scope of a parameter: jobs in one scope share its value.
 enum class SharedBy {
-  construction,  ///< dresspacks of one name: of the same make
+  construction,  ///< dresspacks with one name, which are of one make
   material,      ///< wires of one material
-  everything,    ///< all jobs: it belongs to the model
-  installation   ///< none: each dresspack as it was installed
+  everything,    ///< all jobs: it is a parameter of the model
+  installation   ///< no jobs: each installed dresspack has its own value
 };
 
 struct UncertainParameter {
-  std::string_view name;  ///< as in calibrations and tables: "friction_inside"
-  std::string_view key;   ///< of the job: "strain.friction_factor"
-  bool logarithmic;       ///< the key is a factor; else an addend
-  double step;            ///< the key at z = 1: a factor, or an addend
-  bool of_strain;         ///< moves what dresslife-strain works out; else only what dresslife-fatigue does
+  std::string_view name;  ///< name in calibrations and tables: "friction_inside"
+  std::string_view key;   ///< key of the job: "strain.friction_factor"
+  bool logarithmic;       ///< the key is a factor; otherwise an addend
+  double step;            ///< the key at z = 1: a factor or an addend
+  bool of_strain;         ///< affects dresslife-strain; otherwise only dresslife-fatigue
   SharedBy shared;
   std::string_view source;   ///< of the deviation
-  std::string_view measure;  ///< what a user would measure to know it better
+  std::string_view measure;  ///< quantity that a user can measure to know it better
   std::string_view cause;    ///< as the subject of a sentence: "the friction inside the cables"
-  std::string_view test;     ///< that would tell it, and how long that takes: "One bending test of a cable (one hour)"
-  double test_deviation;     ///< error of that test: one deviation of ln(key), or of the key. ESTIMATE
+  std::string_view test;     ///< measurement that determines it, and its duration: "One bending test of a cable (one hour)"
+  double test_deviation;     ///< error of that measurement: one standard deviation of ln(key), or of the key. ESTIMATE
 
   double deviation() const;      ///< of ln(key), or of the key
   double value(double z) const;  ///< of the key
@@ -68,15 +67,14 @@ struct UncertainParameter {
 
 const std::array<UncertainParameter, uncertain_count>& uncertain_parameters();
 constexpr std::size_t index_of(Uncertain parameter) { return static_cast<std::size_t>(parameter); }
-/// Of the parameter of this name; uncertain_count: there is none.
+/// Returns the index of the parameter of this name; uncertain_count if the name is unknown.
 std::size_t index_of(std::string_view name);
 
-/// "strain.friction_factor=2.5" and so on, as `--set` takes them, of all parameters whose z is not 0.
-/// Precondition: (parameter).
+/// Returns the arguments of `--set`, such as "strain.friction_factor=2.5", for all parameters whose z is not 0. z: (parameter).
 std::vector<std::string> sets_at(std::span<const double> z);
 
-/// What is known of cables for which a job names no calibration. typical: what makers promise of their cables
-/// (config/observations/ratings.yaml), where the job is enabled; none: the spreads alone.
+/// Knowledge about the cables of a job without calibration. typical: from makers' ratings of cables
+/// (config/observations/ratings.yaml), if the job can use them; none: only the spreads.
 enum class KnownRatings { typical, none };
 constexpr std::string_view word(KnownRatings value) { return word_at({"typical", "none"}, value); }
 
@@ -85,32 +83,30 @@ struct Uncertainty {
   bool enabled = true;
   KnownRatings ratings = KnownRatings::typical;
   std::array<double, uncertain_count> spread =
-      default_spread();  ///< of the key at one deviation: a factor, or an addend
+      default_spread();  ///< of the key at one standard deviation: a factor or an addend
 
   static std::array<double, uncertain_count> default_spread();
 };
 void describe(Fields& f, Uncertainty& uncertainty);
 
-/// What is known of all parameters together: a normal distribution of z. The prior of a job, or a
-/// calibration's posterior.
+/// Joint knowledge about all parameters: a normal distribution of z. It is the prior of a job or the posterior of a calibration.
 struct ParameterKnowledge {
   Eigen::VectorXd mean;        ///< (parameter), in the order of uncertain_parameters()
   Eigen::MatrixXd covariance;  ///< (parameter, parameter)
 };
-/// z of the two other stiffnesses that dresslife-sim and dresslife-strain evaluate, -z and z: by default 0.4 and 2.5 times the
-/// hose's. 0: none, where the stiffness is known or moves nothing.
+/// Returns z of the two other hose stiffnesses that dresslife-sim and dresslife-strain evaluate: -z and z, by default 0.4 and 2.5
+/// times the hose's stiffness. 0: there are none, because the stiffness is known or has no effect.
 double other_stiffness(const Uncertainty& uncertainty);
-/// Independent, mean 0, of the spreads that the job gives.
+/// Returns the prior: independent parameters with mean 0 and the spreads of the job.
 ParameterKnowledge prior_of(const Uncertainty& uncertainty);
 
-/// A wire's material as fatigue.strength_factor, slope_change, model_factor and motion_factor make it: strains and stresses
-/// of the strain-life curve times the first; b moved by the second about reversals_of_slope, where its stress
-/// stays; lives times the other two. K' and n' follow, so that (8) and the cyclic curve stay compatible as they
-/// were.
+/// Returns a wire's material after the factors of `fatigue`. strength_factor multiplies strains and stresses of the strain-life
+/// curve. slope_change is added to b; the stress at reversals_of_slope stays the same. model_factor and motion_factor multiply
+/// the lives. K' and n' change too, so that (8) and the cyclic curve stay as compatible as before.
 Material changed(Material material, const Fatigue& fatigue);
-constexpr double reversals_of_slope = 2e5;  ///< in the middle of what wires are tested at
+constexpr double reversals_of_slope = 2e5;  ///< in the middle of the tested range of wires
 
-/// How parts inside the cables slip: as in the job, not at all, or without friction.
+/// Slip of parts inside the cables: as in the job, no slip, or slip without friction.
 enum class Inside { as_is, glued, free };
 constexpr std::size_t inside_count = 3;
 

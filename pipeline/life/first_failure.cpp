@@ -22,14 +22,14 @@ constexpr std::size_t of_wires = uncertain_count;
 
 // ---- samples ----------------------------------------------------------------------------------------------
 
-/// FNV-1a: it must never change, because seeds depend on it.
+/// FNV-1a. It must never change, because all seeds depend on it.
 std::uint64_t seed_of(const std::string& name) {
   std::uint64_t seed = 0xcbf29ce484222325;
   for (const char letter : name) seed = (seed ^ static_cast<unsigned char>(letter)) * 0x100000001b3;
   return seed;
 }
 
-/// What a dresspack of a job has for itself.
+/// Returns the name of the parameters that only this dresspack of a job has.
 std::string own_name(const LifeResponse& response, const std::string& job) {
   return "job " + job + (response.dresspack.empty() ? "" : "/" + response.dresspack);
 }
@@ -54,9 +54,8 @@ std::string stream_of(const LifeResponse& response, std::size_t parameter, const
   return std::string(of.name) + "/" + shared;
 }
 
-/// Lower triangle L with L L^T = covariance; a parameter that is known has a row of zeros. What jobs share
-/// comes before what each has for itself, so that nothing shared depends on a job's own numbers. order: (row)
-/// parameter.
+/// Returns the lower triangle L with L L^T = covariance; a known parameter has a row of zeros. Shared parameters come before
+/// those of one job, so that shared values do not depend on the job's own numbers. order: parameter of each row.
 Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance, const std::vector<std::size_t>& order) {
   const auto n = static_cast<Eigen::Index>(order.size());
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n);
@@ -76,8 +75,9 @@ Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance, const std::vector<s
   return factor;
 }
 
-/// (row, column) W with W C = numbers, for a covariance C and rows of numbers that C can give. A column that follows from
-/// those before it has weight 0. (Eigen's pseudo-inverse takes nine seconds to compile.)
+/// Returns the weights W, (row, column), with W C = numbers for a covariance C. Precondition: each row of `numbers` is a
+/// combination of rows of C. A column that depends on preceding ones has weight 0. (Eigen's pseudo-inverse takes nine seconds to
+/// compile.)
 Eigen::MatrixXd divided(const Eigen::MatrixXd& numbers, const Eigen::MatrixXd& covariance) {
   const Eigen::MatrixXd factor = factor_of(covariance, indices_of(static_cast<std::size_t>(covariance.rows())));
   const Eigen::Index n = factor.rows();
@@ -93,13 +93,13 @@ Eigen::MatrixXd divided(const Eigen::MatrixXd& numbers, const Eigen::MatrixXd& c
   return weights;
 }
 
-/// All that one mode's lives are computed from.
+/// The samples for one mode's lives.
 struct Samples {
   std::vector<ParameterPoint> z;
   std::vector<double> u;
 };
 
-/// again: another, independent set of samples.
+/// again: returns another, independent set of samples.
 Samples samples_of(const LifeResponse& response, const std::string& job, std::size_t count, bool again = false) {
   const auto normals = [&](const std::string& name) { return standard_normals(again ? name + " again" : name, count); };
   std::vector<std::size_t> order = indices_of(uncertain_count);
@@ -108,7 +108,7 @@ Samples samples_of(const LifeResponse& response, const std::string& job, std::si
   });
   const Eigen::MatrixXd factor = factor_of(response.knowledge.covariance, order);
   Samples samples{std::vector<ParameterPoint>(count), normals("scatter of wires/" + own_name(response, job))};
-  if (response.scatter_shared < 1) {  // modes of one dresspack have a part of their scatter in common
+  if (response.scatter_shared < 1) {  // modes of one dresspack share a part of their scatter
     const std::vector<double> own = normals("scatter of wires/" + own_name(response, job) + "/" + response.mode);
     const double common = std::sqrt(response.scatter_shared), alone = std::sqrt(1 - response.scatter_shared);
     for (std::size_t s = 0; s < count; ++s) samples.u[s] = common * samples.u[s] + alone * own[s];
@@ -141,7 +141,7 @@ std::vector<LifeSurface> surfaces_of(const FailureModes& modes) {
   return surfaces;
 }
 
-/// (sample) of the mode that fails first; first: counts those, (mode).
+/// Returns the life of the first failing mode, (sample). first: number of samples in which each mode is the first, (mode).
 std::vector<double> lives_of(const std::vector<LifeSurface>& surfaces, const std::vector<Samples>& samples,
                              Inside inside, std::vector<double>* first = nullptr) {
   std::vector<double> lives(samples.front().u.size(), infinity);
@@ -159,7 +159,7 @@ std::vector<double> lives_of(const std::vector<LifeSurface>& surfaces, const std
 
 // ---- shares of the uncertainty ----------------------------------------------------------------------------
 
-/// Whether a cause is uncertain and moves any mode.
+/// Returns whether a cause is uncertain and affects any mode.
 bool is_active(const FailureModes& modes, const std::vector<LifeSurface>& surfaces, std::size_t cause) {
   if (cause == of_wires)
     return std::any_of(modes.begin(), modes.end(), [](const LifeResponse& mode) {
@@ -172,8 +172,8 @@ bool is_active(const FailureModes& modes, const std::vector<LifeSurface>& surfac
                      [&](const LifeSurface& surface) { return surface.depends_on(cause); });
 }
 
-/// Samples that have the causes in `kept` in common with `one` and are else distributed as they are given
-/// those: z' + C(rest, kept) C(kept, kept)^+ (z - z')(kept), z' of an independent set (Matheron).
+/// Samples that have the causes in `kept` in common with `one`, and otherwise the distribution under this condition: z' + C(rest,
+/// kept) C(kept, kept)^+ (z - z')(kept), with z' from an independent set (Matheron).
 class Mixed {
  public:
   Mixed(const std::vector<Samples>& one, const std::vector<Samples>& other, const Eigen::MatrixXd& covariance)
@@ -225,7 +225,7 @@ class Mixed {
   bool independent_ = true;
 };
 
-/// Lives without end count as `endless`: a variance must be finite.
+/// Limits lives to `endless`, because a variance must be finite.
 std::vector<double> capped(std::vector<double> lives) {
   for (double& life : lives) life = std::min(life, LifeResponse::endless);
   return lives;
@@ -246,14 +246,14 @@ std::array<double, cause_count> shares_of(const FailureModes& modes, const std::
     if (is_active(modes, surfaces, cause)) causes.push_back(cause);
   std::array<double, cause_count> share{};
   if (causes.empty()) return share;
-  // Half a million lives take about a tenth of a second; 4000 samples leave 1 to 2 % of the variance to chance.
+  // Half a million lives take about 0.1 s. With 4000 samples, 1 to 2 % of the variance is random.
   constexpr std::size_t lives_in_all = 500'000, most_samples = 4000, fewest_samples = 500;
   const std::size_t sets = std::size_t{1} << causes.size();
   const std::size_t count = std::clamp(lives_in_all / sets, fewest_samples, most_samples);
   const std::vector<Samples> one = samples_of(modes, job, count), other = samples_of(modes, job, count, true);
   const Mixed mixture(one, other, modes.front().knowledge.covariance);
   const std::vector<double> lives = capped(lives_of(surfaces, one, Inside::as_is));
-  std::vector<double> explained(sets, 0.0);  // V(S), (set of causes as bits)
+  std::vector<double> explained(sets, 0.0);  // V(S), index: set of causes as bits
   for (std::size_t set = 1; set < sets; ++set) {
     std::vector<std::size_t> kept;
     for (std::size_t c = 0; c < causes.size(); ++c)
@@ -276,7 +276,7 @@ std::array<double, cause_count> shares_of(const FailureModes& modes, const std::
 
 // ---- the test that narrows most ---------------------------------------------------------------------------
 
-/// The knowledge after a test has measured one parameter, if the result is its present median.
+/// Returns the knowledge after a test of one parameter, if the result is its present median.
 ParameterKnowledge tested(const ParameterKnowledge& known, std::size_t parameter) {
   const UncertainParameter& of = uncertain_parameters()[parameter];
   const auto at = static_cast<Eigen::Index>(parameter);
@@ -313,7 +313,7 @@ void find_best_test(const FailureModes& modes, const std::vector<LifeSurface>& s
 constexpr std::size_t of_friction = index_of(Uncertain::friction_inside), of_slack = index_of(Uncertain::slack),
                       rest_parameter = index_of(Uncertain::rest);
 
-/// The response without the points that `drops`.
+/// Returns the response without the points for which `drops` returns true.
 template <class Drops>
 LifeResponse without_points(const LifeResponse& response, const Drops& drops) {
   LifeResponse left = response;
@@ -341,14 +341,14 @@ LifeResponse without_strength(const LifeResponse& response, double z) {
   return left;
 }
 
-/// Each once, rising.
+/// Returns the different nodes, increasing.
 std::vector<double> once(std::vector<double> nodes) {
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 
-/// Nodes between the outermost ones but 0.
+/// Returns the nodes between the outermost ones, without 0.
 std::vector<double> inner(std::vector<double> nodes) {
   nodes = once(std::move(nodes));
   if (nodes.size() < 3) return {};
@@ -364,7 +364,7 @@ std::vector<double> nodes_of(const FailureModes& modes, std::size_t parameter) {
   return nodes;
 }
 
-/// The modes with a coarser response, in each way that error_factors() names.
+/// Returns the modes with a coarser response, once for each item of error_factors().
 std::vector<FailureModes> coarser(const FailureModes& modes) {
   std::vector<FailureModes> all;
   const auto add = [&](const auto& change) {
@@ -477,8 +477,8 @@ const std::vector<double>& standard_strata(std::size_t samples) {
 }
 
 std::vector<double> in_order_of(const std::string& name, std::vector<double> values) {
-  // Remainders by multiplication, since the plan of a large plant takes 1e8 of them and a division takes three times as long:
-  // floor(x floor((2^64 - 1)/k) / 2^64) is the quotient or less by one.
+  // Computes remainders by multiplication, because the plan of a large plant needs 1e8 of them and a division takes three times
+  // as long. floor(x floor((2^64 - 1)/k) / 2^64) is the quotient, or smaller by one.
   __extension__ using Wide = unsigned __int128;
   thread_local std::vector<std::uint64_t> inverse;  // (k)
   for (std::uint64_t k = inverse.size(); k <= values.size(); ++k) inverse.push_back(~std::uint64_t{0} / std::max<std::uint64_t>(k, 1));
@@ -519,7 +519,7 @@ double share_outliving(const std::vector<double>& one, const std::vector<double>
   return count / double(one.size());
 }
 
-// Whole per cents by largest remainders.
+// The integers are rounded by largest remainders.
 std::string share_words(const std::array<double, uncertain_count + 1>& share) {
   std::vector<std::pair<std::string, double>> parts;
   double other = 0, all = 0;

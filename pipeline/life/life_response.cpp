@@ -16,13 +16,13 @@ namespace {
 
 using StrainPoint = std::array<double, strain_parameters>;
 
-constexpr double farthest = 3.5;  // deviations: nothing is known of what lies beyond
+constexpr double farthest = 3.5;  // standard deviations; beyond this z, no knowledge exists
 constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = index_of(Uncertain::slack),
                       of_rest = index_of(Uncertain::rest);
 
 std::size_t number_of(Inside inside) { return static_cast<std::size_t>(inside); }
 
-/// Whether all of a point but some parameters is 0.
+/// Returns whether all z of a point, except those in `free`, are 0.
 bool is_zero_but(const StrainPoint& point, std::initializer_list<std::size_t> free) {
   for (std::size_t p = 0; p < point.size(); ++p)
     if (point[p] != 0 && std::find(free.begin(), free.end(), p) == free.end()) return false;
@@ -73,7 +73,7 @@ LifeSurface::LifeSurface(const LifeResponse& response) : response_(response) {
   }
 }
 
-/// A bound that was not computed anywhere is as_is, shifted.
+/// Returns the core of a bound. A bound without computed points is as_is, shifted.
 LifeSurface::Core LifeSurface::core_of(Inside inside) const {
   Core of;
   std::map<std::pair<double, double>, std::size_t> index;
@@ -97,8 +97,8 @@ LifeSurface::Core LifeSurface::core_of(Inside inside) const {
   return of;
 }
 
-/// Where z lies among rising nodes: between `below` and the next, at `share` of the way, which lies outside
-/// [0, 1] beyond the ends.
+/// Returns the place of z among increasing nodes: between node `below` and the next one, at `share` of their distance. `share` is
+/// outside of [0, 1] for z beyond the end nodes.
 LifeSurface::Place LifeSurface::place_among(const std::vector<double>& nodes, double z) {
   if (nodes.size() < 2) return {};
   std::size_t below = 0;
@@ -108,7 +108,7 @@ LifeSurface::Place LifeSurface::place_among(const std::vector<double>& nodes, do
 
 namespace {
 
-/// Straight between values at nodes.
+/// Interpolates linearly between the values of two nodes.
 template <class Place, class ValueAt>
 double between(const Place& place, const ValueAt& value_at) {
   const double first = value_at(place.below);
@@ -139,7 +139,7 @@ double LifeSurface::core(const Core& of, const ParameterPoint& z, const Place& s
 
 double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& strength,
                           const Place& slope) const {
-  // Rests beyond those of the starts are not known.
+  // Rest positions beyond those of the computed starts are unknown.
   const double at = p == of_rest ? std::clamp(z[p], nodes_[p].front(), nodes_[p].back()) : z[p];
   return between(place_among(nodes_[p], at),
                  [&](std::size_t k) { return worst(alone_[p][k], strength, slope); });
@@ -192,7 +192,7 @@ bool LifeSurface::depends_on(std::size_t parameter) const {
                      [&](const auto& lives) { return lives != response_.planned.front(); });
 }
 
-/// Whether W differs between two points of the job's own slip that differ in this parameter alone.
+/// Returns whether W differs between two points with as_is that differ in this parameter only.
 bool LifeSurface::depends_on_strain(std::size_t parameter) const {
   const auto of_point = static_cast<std::ptrdiff_t>(response_.strength.size() * response_.slope.size());
   const auto begin_of = [&](std::size_t point) {
@@ -255,27 +255,27 @@ void check(const LifeResponse& response) {
   if (!whole) throw std::invalid_argument("lists of other lengths");
 }
 
-/// How many of the last parameters of the strain side an older list lacks: first there was no `rest`, then no
-/// `hose_stiffness`. 0: the list is whole, or none of these.
+/// Returns how many of the last parameters of the strain side are missing in an older list: versions lacked `hose_stiffness`, or
+/// `rest` and `hose_stiffness`. 0: none is missing, or the list has another length.
 std::size_t later_parameters(std::size_t size, std::size_t whole) {
   return size < whole && whole - size <= strain_parameters - of_rest ? whole - size : 0;
 }
 
-/// A list of the uncertain parameters, or of the first of them, with a 0 for each that it lacks.
+/// Returns a list of the uncertain parameters, or of the first of them, with 0 for each missing one.
 std::vector<double> completed(std::vector<double> numbers, std::size_t whole) {
   const std::size_t lacks = later_parameters(numbers.size(), whole);
   numbers.insert(numbers.begin() + static_cast<std::ptrdiff_t>(lacks > 0 ? strain_parameters - lacks : 0), lacks, 0.0);
   return numbers;
 }
 
-/// One of each, or std::invalid_argument.
+/// Copies numbers into an array; throws std::invalid_argument for another length.
 template <std::size_t size>
 void fix(std::array<double, size>& array, const std::vector<double>& numbers) {
   if (numbers.size() != array.size()) throw std::invalid_argument("a list of another length");
   std::copy(numbers.begin(), numbers.end(), array.begin());
 }
 
-/// A line that begins with a name and is text from there; whether it is one.
+/// Reads a line that consists of a name and a text; returns whether it is one.
 bool read_name(LifeResponse& response, const std::string& name, const std::string& rest) {
   std::string* const to = name == "mode"           ? &response.mode
                           : name == "dresspack"    ? &response.dresspack

@@ -9,7 +9,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Program lines may hold anything.
+/// Replaces tabs and line feeds, which a program line may contain.
 std::string in_a_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char letter) { return letter == '\t' || letter == '\n'; }, ' ');
@@ -48,7 +48,7 @@ std::vector<UnvalidatedMode> unvalidated_from(const std::string& text) {
     std::vector<std::string> words;
     std::istringstream values(line);
     for (std::string word; std::getline(values, word, '\t');) words.push_back(word);
-    if (words.size() == 11) words.emplace_back();  // no program line
+    if (words.size() == 11) words.emplace_back();  // without a program line
     if (words.size() < 12) throw std::invalid_argument("a mode without all of its values");
     UnvalidatedMode& mode = modes.emplace_back();
     mode.mode = words[0], mode.dresspack = words[1];

@@ -16,7 +16,8 @@ namespace dresslife::pipeline {
 
 namespace {
 
-/// Whether a job's tree says another value than the one that changes nothing, which resolved jobs write out.
+/// Returns whether a job's tree contains a value of the parameter's key that differs from the neutral value, which resolved jobs
+/// contain.
 bool gives(const Node& job, const UncertainParameter& parameter) {
   const std::size_t dot = parameter.key.find('.');
   const Node* section = job.find(parameter.key.substr(0, dot));
@@ -24,7 +25,7 @@ bool gives(const Node& job, const UncertainParameter& parameter) {
   return value && value->text != shortest_text(parameter.value(0));
 }
 
-/// Names of parameters that the job itself states: their keys or their deviations.
+/// Returns the names of parameters that the job itself sets, by their keys or their standard deviations.
 std::set<std::string> stated_by(const Node& tree, const Job& job) {
   const std::array<double, uncertain_count> usual = Uncertainty::default_spread();
   std::set<std::string> names;
@@ -35,11 +36,11 @@ std::set<std::string> stated_by(const Node& tree, const Job& job) {
   return names;
 }
 
-/// Puts the medians into the keys that stand at their defaults.
+/// Writes the medians into the keys with default values.
 void put_medians(Node& tree, Job& job) {
   job.calibration->applied = true;
   for (const LearnedParameter& learned : job.calibration->parameters) {
-    if (is_wall_strength(learned.name)) continue;  // it has no key
+    if (is_wall_strength(learned.name)) continue;  // this parameter has no key
     const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
     if (gives(tree, parameter)) continue;
     Node value = scalar(shortest_text(parameter.value(learned.median)));
@@ -71,7 +72,7 @@ void apply_calibration(Node& tree, Job& job) {
   if (!job.calibration) return;
   const bool applied = job.calibration->applied;
   if (!applied || !job.calibration->under.settings.empty())
-    check_learned_settings(job);  // older resolved jobs have none
+    check_learned_settings(job);  // older resolved jobs contain no settings
   if (applied) return;
   leave_out_foreign_parameters(job);
   put_medians(tree, job);
@@ -84,20 +85,20 @@ void apply_ratings(Node& tree, Job& job) {
     job.uncertainty.ratings = KnownRatings::none;
   };
   const std::filesystem::path file = shipped_catalogue() / typical_ratings_file;
-  if (!std::filesystem::exists(file)) return without();  // a catalogue of the user's own
+  if (!std::filesystem::exists(file)) return without();  // a catalogue of the user
   Node written = read_document(file);
   Calibration& calibration = job.calibration.emplace();
   read_fields(written, calibration);
   check_calibration(calibration);
   try {
     check_learned_settings(job);
-  } catch (const InputError&) {  // what was learned under other settings says nothing of this job
+  } catch (const InputError&) {  // a calibration with other settings is not valid for this job
     return without();
   }
   leave_out_foreign_parameters(job);
   leave_out(calibration, stated_by(tree, job));
   if (calibration.parameters.empty()) return without();
-  calibration.under = {};  // checked; a job that names no calibration is not refused later
+  calibration.under = {};  // it was checked; a job that names no calibration is not refused later
   calibration.within = {};
   calibration.observations.clear();
   put_medians(tree, job);

@@ -1,4 +1,4 @@
-// What observations have taught, put into the job that names them.
+// Applies a calibration to the job that names it.
 #pragma once
 
 #include "pipeline/settings/document.h"
@@ -7,21 +7,21 @@ namespace dresslife::pipeline {
 
 struct Job;
 
-/// In a job's tree that is not read yet: the calibration's file in place of its name. Errors: InputError.
+/// Replaces the calibration's name by the content of its file, in a job's tree that was not read yet. Errors: InputError.
 void read_calibration(Node& job);
 
-/// Checks that the calibration was learned under the job's settings, leaves out what does not hold for the job
-/// (pipeline/job/learned_settings.h) and puts its medians into the keys that stand at their defaults.
-/// tree: that the job was read from. Errors: InputError.
+/// Checks that the calibration was learned with the job's settings, removes parameters that are not valid for the job
+/// (pipeline/job/learned_settings.h) and writes its medians into the keys with default values. tree: from which the job was read.
+/// Errors: InputError.
 void apply_calibration(Node& tree, Job& job);
 
-/// In the catalogue: the evidence of makers' ratings for a cable without a calibration, as dresslife calibrate wrote it.
+/// File of the catalogue with a calibration for cables without one: it was learned from makers' ratings by dresslife calibrate.
 inline constexpr const char* typical_ratings_file = "observations/typical_cables.yaml";
 
-/// The same with typical_ratings_file for a job that names no calibration, unless uncertainty.ratings is none or
-/// uncertainty.enabled false. Without effect on a job with other settings than the tests, and on parameters that the job
-/// states itself. Where it has none, ratings becomes none: a resolved job is the same with any catalogue. Errors:
-/// InputError where the file is no calibration.
+/// Applies typical_ratings_file to a job that names no calibration, unless uncertainty.ratings is none or uncertainty.enabled is
+/// false. It has no effect on a job with other settings than the tests, and on parameters that the job sets itself. If nothing of
+/// it applies, `ratings` becomes none, so that a resolved job is the same with any catalogue. Errors: InputError if the file is
+/// no calibration.
 void apply_ratings(Node& tree, Job& job);
 
 }  // namespace dresslife::pipeline

@@ -16,7 +16,7 @@ std::string name_of(const Node& node) {
   return name ? name->text : std::string();
 }
 
-/// Of a component, what says where it lies among others.
+/// Returns whether a key of a component describes its place among others.
 bool is_place(const std::string& key) {
   for (const char* word :
        {"count", "layer", "helix_radius_mm", "lay_angle_deg", "hand", "phase_deg", "position",
@@ -29,7 +29,7 @@ void copy(const Node& from, const char* key, Node& to) {
   if (const Node* value = from.find(key)) to[key] = *value;
 }
 
-/// A dresspack of this cable, whose diameter is twice its radius.
+/// Returns a dresspack of this cable. Its diameter is twice the cable's radius.
 Node around(Node cable) {
   std::erase_if(cable.entries, [](const Entry& entry) { return is_place(entry.key); });
   cable["helix_radius_mm"] = scalar("0");
@@ -43,14 +43,14 @@ Node around(Node cable) {
   dresspack["cable_alone"] = scalar("true");
   char* end = nullptr;
   const double millimetres =
-      std::strtod(radius->text.c_str(), &end);  // what is no number is refused as radius_mm
+      std::strtod(radius->text.c_str(), &end);  // a text that is no number is refused as radius_mm
   dresspack["diameter_mm"] = scalar(*end == '\0' ? shortest_text(2 * millimetres) : radius->text);
   dresspack["diameter_mm"].where = radius->where;
   dresspack["components"] = list_of({std::move(cable)});
   return dresspack;
 }
 
-/// The jacket and all in it, as one part.
+/// Returns the jacket and its content as one part.
 Node cable_of(const Node& dresspack) {
   Node cable;
   cable.kind = Node::Kind::map;
@@ -60,7 +60,7 @@ Node cable_of(const Node& dresspack) {
     cable["radius_mm"] = scalar(shortest_text(std::strtod(diameter->text.c_str(), nullptr) / 2));
     cable["radius_mm"].where = diameter->where;
   }
-  // Friction between a jacket and a hose that is not there.
+  // A jacket without a hose has no friction with a hose.
   cable["friction_coefficient"] = scalar("0");
   cable["radial_line_load_N_per_m"] = scalar("0");
   copy(dresspack, "components", cable);
@@ -81,7 +81,7 @@ std::vector<const Node*> parts_with_parts(const Node& dresspack) {
   return parts;
 }
 
-/// The cable on the axis of a dresspack that holds nothing else; null: its parts are those of the cable.
+/// Returns the cable on the axis of a dresspack without other parts; null: the dresspack's parts are those of the cable.
 const Node* lone_cable(const Node& dresspack) {
   const Node* components = parts_of(dresspack);
   if (!components || components->items.size() != 1 || !parts_of(components->items.front())) return nullptr;
@@ -90,7 +90,7 @@ const Node* lone_cable(const Node& dresspack) {
   return off_axis && std::strtod(off_axis->text.c_str(), nullptr) != 0 ? nullptr : &only;
 }
 
-/// What the data sheet of one cable leaves out, of dresspack.estimates; empty: nothing.
+/// Returns the entry of dresspack.estimates for the data sheet of one cable; empty: none.
 std::string left_out_of(const Node& dresspack, const std::string& cable) {
   const Node* const estimates = dresspack.find("estimates");
   if (!estimates) return "";

@@ -1,13 +1,13 @@
-// A cable by itself, as it lies in a test rig: a dresspack that is nothing but one cable.
+// A single cable, as in a test rig: a dresspack that consists of one cable.
 //
 //   dresspack:
 //     cable: {from: spot_welding, part: signal cable}     a cable of a dresspack of the catalogue
-//     cable: sensor_cable                                 the same where it has but one, or is itself a cable
+//     cable: sensor_cable                                 for a dresspack with one cable, or one that is a cable
 //     cable: {name: .., radius_mm: .., components: ..}    the cable itself; keys as in dresspack.components
 //
-// It lies on the axis, straight, so that its levels are those that it has in its dresspack: first the cable,
-// then conductors, then wires. Where it lay among others, its slack, play and grips are left out. Stiffness,
-// mass and damping may be absent: only a simulation needs them.
+// The cable is straight on the axis, so its levels are the same as in its dresspack: cable, conductors, wires. Its keys for a
+// place among other cables (slack, play, grips) are removed. Stiffness, mass and damping may be absent, because only a simulation
+// needs them.
 #pragma once
 
 #include <string>
@@ -17,17 +17,17 @@
 
 namespace dresslife::pipeline {
 
-/// Whether a dresspack holds cables in a hose; else its parts are held by a jacket, and it is a cable itself.
+/// Returns whether a dresspack has cables in a hose; otherwise a jacket holds its parts, and it is a cable itself.
 bool is_hose(const Node& dresspack);
 
-/// Names of the cables that a dresspack holds: its parts with parts, or its own name where it is a cable.
+/// Returns the names of a dresspack's cables: its parts that have parts, or its own name if it is a cable.
 std::vector<std::string> cables_of(const Node& dresspack);
 
-/// The dresspack that is one of those cables alone. part: its name; empty: the only one. asked: who wants it.
-/// Errors: InputError with the names of the cables.
+/// Returns a dresspack that consists of one of these cables. part: name of the cable; empty: the only one. asked: place of the
+/// request. Errors: InputError with the names of the cables.
 Node cable_alone(const Node& dresspack, const std::string& part, const Where& asked);
 
-/// The same of the cable itself, keys as of a component.
+/// Returns a dresspack that consists of this cable, which has the keys of a component.
 Node cable_alone(const Node& cable);
 
 }  // namespace dresslife::pipeline

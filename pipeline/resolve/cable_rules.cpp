@@ -6,7 +6,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Up to this section [mm2] this length [mm].
+/// Length [mm] up to this section [mm2].
 struct Step {
   double section, length;
 };
@@ -16,9 +16,9 @@ constexpr Step wires_of_class_6[] = {{0.499, 0.11}, {4, 0.16}, {35, 0.21}, {150,
 constexpr Step insulations[] = {{0.499, 0.3}, {1, 0.6},  {1.5, 0.7}, {6, 0.8},   {16, 1.0},  {35, 1.2},
                                  {70, 1.4},    {120, 1.6}, {150, 1.8}, {185, 2.0}, {240, 2.2}, {300, 2.4},
                                  {400, 2.6}};
-constexpr double below_the_limit = 0.01;             // [mm], of strands as they are drawn
+constexpr double below_the_limit = 0.01;             // [mm], of real strands
 constexpr double jacket_slope = 0.035, jacket_base = 1e-3;  // [1], [m]
-constexpr double rounding = 1e-6;                    // of a section
+constexpr double rounding = 1e-6;                    // relative, of a section
 
 template <class Table>
 double length_at(const Table& table, double section) {

@@ -30,7 +30,7 @@ struct Shelf {
 };
 constexpr Shelf shelves[] = {{"robot", "robots"}, {"motion", "programs"}, {"dresspack", "dresspacks"}};
 
-/// Beside who names an entry and beside the job, and in their parents.
+/// Returns the folders beside the naming file and beside the job, and their parent folders.
 std::vector<fs::path> folders_beside(const std::string& folder, const Where& named_at, const Where& job) {
   std::vector<fs::path> folders;
   std::error_code failure;
@@ -59,7 +59,7 @@ void merge(Node& base, const Node& over) {
   }
 }
 
-/// Items of the same `name` are merged, others added.
+/// Merges items of equal `name` and adds the others.
 void merge_by_name(Node& base, const Node& over) {
   if (!base.is_list() || !over.is_list()) return merge(base, over);
   const auto name = [](const Node& item) {
@@ -77,7 +77,8 @@ void merge_by_name(Node& base, const Node& over) {
   }
 }
 
-/// Accelerations are in no URDF: without this check the URDF's lines would be reported as incomplete.
+/// Checks that a URDF's robot gets its accelerations, which no URDF has. Without this check the lines of the URDF would be
+/// reported as incomplete.
 void check_accelerations(const Node& robot, const UrdfRequest& request, const Where& asked) {
   std::vector<std::string> without;
   std::size_t driven = 0;
@@ -103,7 +104,7 @@ void check_accelerations(const Node& robot, const UrdfRequest& request, const Wh
           driven, shipped_accelerations));
 }
 
-/// `urdf: FILE` and what else says how to read it; all other keys of the entry go over the robot in it.
+/// Reads `urdf: FILE` with the keys that belong to it. All other keys of the entry replace those of the robot.
 void read_urdf(Node& entry) {
   Node about = entry, over = entry;
   const auto is_about = [](const Entry& e) {
@@ -128,7 +129,7 @@ void read_urdf(Node& entry) {
   entry = std::move(robot);
 }
 
-/// A robot's program in its own language, or joints as columns.
+/// Returns whether a file is a program in a robot's language, or a table of joint angles.
 bool is_program_file(const fs::path& file) {
   const std::string end = lower_case(file.extension().string());
   static const std::set<std::string> ends{".mod", ".modx", ".prg",    ".pgf",      ".src",
@@ -138,7 +139,7 @@ bool is_program_file(const fs::path& file) {
 
 void resolve(Node& entry, const std::string& folder, const Where& job, int depth = 0);
 
-/// `cable: ...` of a dresspack (cable.h); the entry's other keys go over what becomes of it.
+/// Reads `cable: ...` of a dresspack (cable_alone.h). The other keys of the entry replace those of the result.
 void read_cable(Node& entry, const Where& job, int depth) {
   const Node cable = *entry.find("cable");
   const Node* from = cable.is_scalar() ? &cable : cable.find("from");
@@ -186,7 +187,7 @@ void resolve(Node& entry, const std::string& folder, const Where& job, int depth
   entry = std::move(base);
 }
 
-/// Of a key path: "dresspack", "dresspacks.2.dresspack"; null: no catalogue entry stands there.
+/// Returns the catalogue folder of a key path: "dresspack", "dresspacks.2.dresspack"; null: the path is no catalogue entry.
 const char* shelf_of(std::string_view path) {
   constexpr std::string_view list = "dresspacks.";
   if (path.starts_with(list)) {
@@ -209,7 +210,7 @@ void collect_materials(const Node& components, std::vector<const Node*>& names) 
   }
 }
 
-/// The catalogue's material of this name, which may stand for several.
+/// Returns the catalogue's material of this name. One entry may contain several materials.
 Node material_entry(const Node& name, const Node& job) {
   Node material = catalogue_entry("materials", name.text, name.where, job.where);
   resolve(material, "materials", job.where);
@@ -229,11 +230,11 @@ void add_materials(Node& dresspack, const Node& job, const std::string& path, Pr
   if (const Node* fatigue = job.find("fatigue"))
     if (const Node* material = fatigue->find("material")) names.push_back(material);
   std::vector<Node> wanted;
-  for (const Node* name : names) wanted.push_back(*name);  // the tree changes below
+  for (const Node* name : names) wanted.push_back(*name);  // copies, because the tree changes below
 
   Node& materials = dresspack["materials"];
   if (materials.kind == Node::Kind::null) materials.kind = Node::Kind::list;
-  std::set<std::string> unknown;  // each is reported where it is named first
+  std::set<std::string> unknown;  // each is reported at its first place
   for (const Node& name : wanted) {
     const bool there = std::any_of(materials.items.begin(), materials.items.end(), [&](const Node& material) {
       const Node* known = material.find("name");
@@ -248,8 +249,7 @@ void add_materials(Node& dresspack, const Node& job, const std::string& path, Pr
     std::erase_if(dresspack.entries, [](const Entry& e) { return e.key == "materials"; });
 }
 
-/// A catalogue entry where a job has one: written out, of a dresspack with the layers of cables that are
-/// given by data sheets and the materials that its wires name.
+/// Resolves a catalogue entry of a job. For a dresspack, also expands data sheets of cables and adds the materials of its wires.
 void resolve_entry(Node* entry, const std::string& path, const std::string& folder, const Node& job,
                    Problems& problems) {
   if (!entry || !problems.attempt(path, entry->where, [&] { resolve(*entry, folder, job.where); })) return;
@@ -261,14 +261,15 @@ void resolve_entry(Node* entry, const std::string& path, const std::string& fold
   add_materials(*entry, job, path, problems);
 }
 
-/// Which item of a list a word of a key path names: there they count from 1. Nothing: none.
+/// Returns the index of a list's item for a word of a key path, which counts from 1; std::nullopt: there is no such item.
 std::optional<std::size_t> item_of(const Node& list, const std::string& word) {
   const auto number = whole_number_in<std::size_t>(word);
   const bool is_item = number && *number >= 1 && *number <= list.items.size();
   return is_item ? std::optional(*number - 1) : std::nullopt;
 }
 
-/// The word of a key path at `begin`, which goes on to the next; beyond the path's end: that was the last.
+/// Returns the word of a key path at `begin` and moves `begin` to the next word, or beyond the end of the path after the last
+/// one.
 std::string next_word(const std::string& path, std::size_t& begin) {
   const std::size_t dot = std::min(path.find('.', begin), path.size());
   std::string word = path.substr(begin, dot - begin);
@@ -301,7 +302,7 @@ std::string nearest_entry(const std::string& name, const std::vector<std::string
     return letters;
   };
   const std::string wanted = bare(name);
-  constexpr std::size_t telling = 4;  // shorter pieces are in many names
+  constexpr std::size_t telling = 4;  // shorter pieces occur in many names
   for (const std::string& entry : entries)
     if (wanted.size() >= telling && bare(entry).find(wanted) != std::string::npos) return entry;
   return nearest_word(name, entries);
@@ -315,13 +316,13 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   if (folder != "programs" && is_program_file(folder_of(named_at) / name))
     throw InputError(named_at, fmt::format("'{}' is a robot program or a table", name),
                      "write a program after 'motion:'");
-  if (name.ends_with(".urdf")) {  // alone: its entry is the file itself
+  if (name.ends_with(".urdf")) {  // without other keys: the entry is the file itself
     Node entry;
     entry["urdf"] = scalar(name);
     place_at(entry, named_at);
     return entry;
   }
-  if (folder == "programs" && is_program_file(folder_of(named_at) / name)) {  // likewise
+  if (folder == "programs" && is_program_file(folder_of(named_at) / name)) {  // the entry is the file itself
     Node entry;
     entry["program"] = scalar(name);
     place_at(entry, named_at);
@@ -335,7 +336,7 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
     throw InputError(named_at, fmt::format("there is no file '{}'", beside.string()),
                      "check the path; it counts from the folder of the file that names it");
   std::vector<std::string> names;
-  std::string program;  // of this name, in the language of a robot
+  std::string program;  // with this name, in a robot's language
   const auto found_in = [&](const fs::path& place) {
     const fs::path file = place / (name + ".yaml");
     if (is_file(file))
@@ -355,7 +356,7 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   const std::string near = nearest_entry(name, names);
   const bool may_be_file = folder == "programs" && fs::path(name).has_extension();
   if (may_be_file && kind_of(beside) != FileKind::absent) {
-    PlainFile{beside};  // refuses what cannot be read
+    PlainFile{beside};  // refuses a file that cannot be read
     throw InputError(
         named_at,
         fmt::format("the file '{}' is no robot program by its name ('{}')", beside.string(),
@@ -395,7 +396,7 @@ void set_value(Node& job, const std::string& path, Node value, const Where& wher
     const std::size_t here = begin;
     const std::string word = next_word(path, begin);
     if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
-    // A catalogue entry is looked up as soon as a path leads into it.
+    // A catalogue entry is resolved as soon as a path leads into it.
     if (here > 0 && word != "from" && word != "cable")
       if (const char* folder = shelf_of(path.substr(0, here - 1))) resolve(*node, folder, job.where);
     node = step_into(*node, word, where, path);
@@ -423,7 +424,7 @@ void apply_set(Node& job, const std::string& set) {
   if (equals == std::string::npos || equals == 0)
     throw InputError(where, "is not key.path=value", "write for example --set simulation.segments=80");
   Node value = parse_yaml(set.substr(equals + 1), where.file);
-  place_at(value, where);  // a command line has no lines to point at
+  place_at(value, where);  // a command line has no line numbers
   set_value(job, set.substr(0, equals), std::move(value), where);
 }
 

@@ -23,7 +23,7 @@ void check_names(const std::vector<MountedDresspack>& dresspacks) {
   }
 }
 
-/// What all dresspacks of a robot share: one pose in which they are clamped, one material of each name.
+/// Checks common properties of a robot's dresspacks: one pose in which they are clamped, one material of each name.
 void check_shared(const std::vector<MountedDresspack>& dresspacks) {
   Problems problems;
   const MountedDresspack* posed = nullptr;
@@ -52,8 +52,8 @@ void check_shared(const std::vector<MountedDresspack>& dresspacks) {
   problems.finish();
 }
 
-/// A prescribed deformation is that of one dresspack of known length; nobody reads what would carry, touch or
-/// hold it.
+/// Checks a prescribed deformation: it needs one dresspack of known length, and keys of things that carry, touch or hold the
+/// dresspack are refused because they would have no effect.
 void check_prescribed(const Job& job, const Node& document) {
   const char* key = job.motion.rig ? "motion.rig" : "motion.deformation";
   Problems problems;
@@ -81,7 +81,7 @@ void check_prescribed(const Job& job, const Node& document) {
   problems.finish(document.where.file);
 }
 
-/// A simulated cable has the mass and the stiffness that a rig does without.
+/// Checks that a simulated cable has a mass and a stiffness, which a rig does not need.
 void check_simulated(const Dresspack& dresspack) {
   Problems problems;
   const std::pair<const char*, double> needed[] = {{"mass_kg_per_m", dresspack.mass_per_length},
@@ -99,7 +99,7 @@ void check_simulated(const Dresspack& dresspack) {
   problems.finish();
 }
 
-/// Wires and the hose's wall need a life of cycles, a sleeve needs wear rates.
+/// Checks that materials of wires and of the hose's wall have a life of cycles, and that of a sleeve has wear rates.
 void check_uses(const Component& part, const Dresspack& dresspack) {
   const auto lives = [&](const std::string& name) {
     const Material* const material = find_material(dresspack, name);
@@ -142,8 +142,8 @@ void check_uses(const Dresspack& dresspack) {
   if (dresspack.sleeve) check_wear(*dresspack.sleeve, "sleeve", dresspack);
 }
 
-/// Of one dresspack. path: of what holds its keys, "" or "dresspacks[2].". Returns how many levels of parts
-/// it has, where that is known.
+/// Checks one dresspack. path: prefix of its keys, "" or "dresspacks[2].". Returns the number of levels of its parts;
+/// std::nullopt: unknown.
 std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted, const std::string& path,
                                  Problems& problems) {
   const std::string dresspack = path + "dresspack", routing = path + "routing";
@@ -168,7 +168,7 @@ std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted
           check_uses(mounted.dresspack);
         });
   judge(dresspack + ".components", mounted.dresspack.where,
-        [&] { refuse_gross_overlap(mounted.dresspack); });  // dresslife-strain warns of less
+        [&] { refuse_gross_overlap(mounted.dresspack); });  // dresslife-strain warns of smaller overlaps
   return depth;
 }
 
@@ -182,7 +182,7 @@ void check_dresspacks(const Job& job, const Where& strain, Problems& problems) {
                              job.dresspacks.size()),
                  "describe the motion by a robot, or keep one dresspack", "motion");
   int depth = 0;
-  bool known = true;  // how deep each is
+  bool known = true;  // whether the depth of every dresspack is known
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     const std::string path = forms.one ? "" : fmt::format("dresspacks[{}].", d + 1);
     const std::optional<int> levels = check_mounted(job, job.dresspacks[d], path, problems);
@@ -197,7 +197,7 @@ void check_dresspacks(const Job& job, const Where& strain, Problems& problems) {
         "give one word, or one per level, outermost first");
 }
 
-/// A curve whose lives do not rise with falling strain is none.
+/// Checks that lives increase with decreasing strain.
 void check_slopes(const Job& job, const Where& where) {
   for (const MountedDresspack& mounted : job.dresspacks)
     for (const Material& material : mounted.dresspack.materials)

@@ -1,4 +1,4 @@
-// Whether the parts of a job fit together.
+// Checks that the parts of a job fit together.
 #pragma once
 
 #include "pipeline/job/job.h"
@@ -6,7 +6,7 @@
 
 namespace dresslife::pipeline {
 
-/// Adds what does not fit to the problems. Parts that have problems already are not checked. document: from
+/// Adds contradictions between parts of the job to `problems`. Parts that have problems already are not checked. document: from
 /// which the job was read.
 void check_job(const Job& job, const Node& document, Problems& problems);
 

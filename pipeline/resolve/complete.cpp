@@ -9,7 +9,7 @@ namespace dresslife::pipeline {
 
 namespace {
 
-/// Once what they are taken from is known to be sound.
+/// Computes stiffnesses from the construction, after a check of the construction.
 void take_stiffnesses(Dresspack& dresspack, const std::vector<Slip>& slip) {
   if (!is_from_construction(dresspack)) return;
   check_dresspack(dresspack, slip);
@@ -24,7 +24,7 @@ void soften(std::vector<Component>& parts, double factor) {
   }
 }
 
-/// strain.gate of a job with a rig that names none: above the rounding of strains in single precision (W26).
+/// strain.gate of a job with a rig, if the key is missing: above the rounding of strains in single precision (W26).
 constexpr double gate_of_rigs = 1e-6;
 
 }  // namespace
@@ -48,7 +48,7 @@ void complete_job(Job& job, const Node& document, Problems& problems) {
   if (!job.motion.rig) return;
   problems.attempt("motion", job.motion.where, [&] { check_rig(*job.motion.rig); });
   const Node* strain = document.find("strain");
-  // Millions of cycles below the usual gate are what a rig is for, and its few samples cost nothing.
+  // A rig tests millions of cycles below the usual gate, and its few samples need little time.
   if (!strain || !strain->find("gate")) job.strain.gate = gate_of_rigs;
 }
 

@@ -1,4 +1,4 @@
-// The second step of reading a job: what follows from what its user wrote.
+// The second step of reading a job: values that follow from the written ones.
 #pragma once
 
 #include "pipeline/job/job.h"
@@ -6,9 +6,9 @@
 
 namespace dresslife::pipeline {
 
-/// Places clamps at mounting points, takes stiffnesses and mass from the construction of the cables
-/// (pipeline/cable/stiffness.h), and sets what a rig implies. Parts that have problems already stay as they
-/// are. document: from which the job was read. What cannot be completed is added to the problems.
+/// Places clamps at mounting points, computes stiffnesses and mass from the construction of the cables
+/// (pipeline/cable/stiffness.h), and sets consequences of a rig. Parts that have problems already are not changed. document: from
+/// which the job was read. Errors are added to `problems`.
 void complete_job(Job& job, const Node& document, Problems& problems);
 
 }  // namespace dresslife::pipeline

@@ -22,17 +22,17 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double touching = 1e-9;      // of the diameter: six around one of their size
-constexpr double steepest = pi / 3;    // lay angle that a component may have
-constexpr int closed_ring = 5;         // six parts that touch leave room for a seventh in their middle
-constexpr int filled_ring = 9;         // ten for two
-constexpr double wire_lay_ratio = 16;  // lay length over the conductor's width: stranding has 10 to 20
-constexpr double core_lay_ratio = 12;  // over the width of the cores: flexible cables have 8 to 16
+constexpr double touching = 1e-9;      // relative to the diameter: six parts around one of equal diameter touch
+constexpr double steepest = pi / 3;    // largest lay angle of a component
+constexpr int closed_ring = 5;         // six parts that touch have space for a seventh in the middle
+constexpr int filled_ring = 9;         // ten parts have space for two
+constexpr double wire_lay_ratio = 16;  // lay length / width of the conductor: stranding has 10 to 20
+constexpr double core_lay_ratio = 12;  // lay length / width of the cores: flexible cables have 8 to 16
 constexpr int fewest_wires = 7;         // of a flexible conductor; IEC 60228 has solid ones (class 1) and 7 thick wires (class 2) for fixed laying
-constexpr double section_tolerance = 0.25;  // a standard's nominal section is a rounded one: 0.22 for 7 x 0.2 mm
-constexpr double thickest_insulation = 5;  // core over conductor: control cables have 1.5 to 3, those for 1 kV up to 4
+constexpr double section_tolerance = 0.25;  // a standard's nominal section is rounded: 0.22 for 7 x 0.2 mm
+constexpr double thickest_insulation = 5;  // core / conductor: control cables have 1.5 to 3, those for 1 kV up to 4
 constexpr double thinnest_insulation = 50e-6;  // [m]: signal cables have 0.15 mm and more
-constexpr int rounds = 60;             // of the search for the cores' diameter
+constexpr int rounds = 60;             // of the bisection for the cores' diameter
 
 double first_radius(int count, double diameter) {
   return count == 1 ? 0 : diameter / (2 * std::sin(pi / count));
@@ -42,7 +42,7 @@ int room_in(double radius, double diameter) {
   return static_cast<int>(std::floor(pi / std::asin(diameter / (2 * radius)) + touching));
 }
 
-/// Straight, around nothing, a filler, or one part of their own size in the `middle`.
+/// Returns straight rings around nothing, around a filler, or around one part of equal size in the `middle`.
 std::vector<CoreRing> straight_rings(int count, double diameter, int middle, int first) {
   std::vector<CoreRing> rings;
   if (middle > 0) rings.push_back({1, 0, 0});
@@ -60,7 +60,7 @@ double fullness(const CoreRing& outer, double diameter) {
 
 double lay_angle_at(double radius, double lay_length) { return std::atan(2 * pi * radius / lay_length); }
 
-/// Widens a ring until its parts lie beside each other on their lay.
+/// Widens a ring until its parts fit beside each other with their lay.
 void lay(CoreRing& ring, double diameter, double lay_length, const Where& where) {
   ring.lay_angle = lay_angle_at(ring.radius, lay_length);
   const auto fits = [&](double radius) {
@@ -86,7 +86,7 @@ void lay(CoreRing& ring, double diameter, double lay_length, const Where& where)
         "give a longer lay");
 }
 
-/// What a sheet stands for, from the wire outwards.
+/// Builds the layers of a sheet, from the wire outwards.
 class Expansion {
  public:
   explicit Expansion(const DataSheet& given) : sheet_(with_class(given)), wire_(wire_of(sheet_)), has_class_(given.conductor_class > 0) {
@@ -117,13 +117,13 @@ class Expansion {
   }
 
   double radius() const { return outer_ / 2; }
-  /// Whose wear is known; nothing: no material is given.
+  /// Returns the jacket whose wear is known; std::nullopt if the sheet has no material for it.
   std::optional<Sleeve> jacket() const {
     if (sheet_.jacket_material.empty() || jacket_ <= 0) return {};
     return Sleeve{jacket_, sheet_.jacket_material, {}};
   }
 
-  /// What a rule stands in for: "wire 0.15 mm, jacket 1.21 mm"; empty: nothing.
+  /// Returns the lengths that come from rules: "wire 0.15 mm, jacket 1.21 mm"; empty: none.
   std::string estimates() const {
     std::vector<std::string> parts;
     if (!has_class_ && sheet_.conductor_class > 0) parts.push_back(fmt::format("conductor class {}", sheet_.conductor_class));
@@ -137,7 +137,7 @@ class Expansion {
     return fmt::format("{}", fmt::join(parts, ", "));
   }
 
-  /// All keys that the sheet leaves out and that a life depends on, with their values: "conductor_class 6, wire_diameter_mm 0.15".
+  /// Returns all missing keys that a life depends on, with their values: "conductor_class 6, wire_diameter_mm 0.15".
   std::string estimated_keys() const {
     std::vector<std::string> keys;
     if (!has_class_ && sheet_.conductor_class > 0) keys.push_back(fmt::format("conductor_class {}", sheet_.conductor_class));
@@ -158,7 +158,7 @@ class Expansion {
     const std::vector<CoreRing> rings = cabled(core_diameter_);
     const double part = group_diameter(core_diameter_);
     std::vector<Component> layers;
-    for (std::size_t k = rings.size(); k-- > 0;) {  // the outermost is layer 1
+    for (std::size_t k = rings.size(); k-- > 0;) {  // the outermost ring is layer 1
       const Hand hand = (rings.size() - 1 - k) % 2 == 0 ? Hand::left : Hand::right;
       Component layer =
           part_of(grouped() ? group_name() : "core", rings, k, part, hand, line_load(part));
@@ -171,12 +171,13 @@ class Expansion {
  private:
   static constexpr int most_wires = 5000;  // 400 mm2 of class 6
 
-  /// Cables that move have the finest class: the one that counts where neither the class nor the wire is given.
+  /// Sets the finest class, which is usual for moving cables, if the sheet has neither class nor wire.
   static DataSheet with_class(DataSheet sheet) {
     if (!sheet.conductor_class && !sheet.wire_diameter) sheet.conductor_class = fine_class;
     return sheet;
   }
-  /// Given, else by the class. Errors: InputError for a class without it, or a wire that is too thick for it.
+  /// Returns the diameter of a wire: given, otherwise from the class. Errors: InputError for a class without this section, or a
+  /// wire that is too thick for its class.
   static double wire_of(const DataSheet& sheet) {
     if (!sheet.conductor_class) return *sheet.wire_diameter;
     if (sheet.conductor_class < flexible_class)
@@ -200,7 +201,7 @@ class Expansion {
   }
 
   static Hand opposite(Hand hand) { return hand == Hand::left ? Hand::right : Hand::left; }
-  /// Of a jacket's pressure on this width [N/m]; absent: the sheet gives no pressure (estimates.h).
+  /// Returns the line load of a jacket's pressure on this width [N/m]; std::nullopt: the sheet has no pressure (estimates.h).
   std::optional<double> line_load(double width) const {
     return sheet_.jacket_pressure ? std::optional(*sheet_.jacket_pressure * width) : std::nullopt;
   }
@@ -274,7 +275,7 @@ class Expansion {
       throw InputError(sheet_.where, "data_sheet has neither core_diameter_mm nor jacket_thickness_mm",
                        "give one of the two: it says how thick the insulation is; or conductor_class (IEC 60228), by which "
                        "the jacket is estimated");
-    if (!sheet_.outer_diameter) {  // from the inside outwards
+    if (!sheet_.outer_diameter) {  // computed from the inside outwards
       core_diameter_ = sheet_.core_diameter.value_or(conductor_ + 2 * usual_insulation(sheet_.cross_section));
       const double bundle = cabled_width(core_diameter_);
       jacket_ = sheet_.jacket_thickness.value_or(usual_jacket(bundle));
@@ -321,8 +322,8 @@ class Expansion {
               fitting_diameter(), 1e3 * outer_));
   }
 
-  /// "give outer_diameter_mm: 8.2 if the decimal point was lost; " for 82 or 0.82, and for 0.0082 in metres: the diameter times a
-  /// power of ten that fits the cores; else nothing.
+  /// Returns "give outer_diameter_mm: 8.2 if the decimal point was lost; " for 82 or 0.82, and for 0.0082 in metres: the diameter
+  /// times the power of ten that fits the cores; otherwise an empty text.
   std::string fitting_diameter() const {
     if (!sheet_.outer_diameter || sheet_.core_diameter) return "";
     struct Slip {
@@ -338,17 +339,18 @@ class Expansion {
     return "";
   }
 
-  /// Whether cores that fill this width have a usual insulation.
+  /// Returns whether cores that fill this width have a usual insulation.
   bool holds_cores(double inside) const {
     try {
       const double core = core_in(inside);
       return core > conductor_ && core <= thickest_insulation * conductor_;
-    } catch (const InputError&) {  // they do not lie beside each other on their lay
+    } catch (const InputError&) {  // the cores do not fit with their lay
       return false;
     }
   }
 
-  /// "give cross_section_mm2: 0.519 if 20 is an AWG; " where the section of that gauge fits the core; else nothing.
+  /// Returns "give cross_section_mm2: 0.519 if 20 is an AWG; " if the section of that gauge fits the core; otherwise an empty
+  /// text.
   std::string fitting_gauge() const {
     const double number = 1e6 * sheet_.cross_section;  // [mm2]
     constexpr double coarsest = 4, finest = 36;        // gauges of cables
@@ -360,7 +362,7 @@ class Expansion {
                : "";
   }
 
-  /// The bundle's width grows with that of a core, almost in proportion.
+  /// Returns the largest diameter of a core in this width. The bundle's width increases with it, almost in proportion.
   double widest_core(double inside) const {
     if (!(inside > 0))
       throw InputError(
@@ -382,11 +384,11 @@ class Expansion {
   }
 
   static constexpr double infinite = std::numeric_limits<double>::infinity();
-  static constexpr double slack_of_a_caliper = 0.02;  // as in a fit of a part into its parent
+  static constexpr double slack_of_a_caliper = 0.02;  // tolerance of a fit of a part into its parent
 
   DataSheet sheet_;
   double wire_, outer_ = 0, jacket_ = 0;  // [m]
-  bool has_class_;                        // of its own
+  bool has_class_;                        // given by the sheet itself
   std::vector<CoreRing> wire_rings_;
   double conductor_ = 0, core_diameter_ = 0, wire_lay_ = 0;  // [m]
 };
@@ -400,7 +402,7 @@ void describe(Fields& f, Layers& layers) {
   f.maybe_group("jacket", layers.jacket, "");
 }
 
-/// What the sheets of a dresspack leave out.
+/// Missing values in the sheets of a dresspack.
 struct LeftOut {
   std::vector<std::string> by_rules;  ///< for the source of the dresspack
   std::vector<std::string> keys;      ///< for dresspack.estimates
@@ -433,13 +435,14 @@ void expand(Node& component, LeftOut& left_out) {
   component.entries.insert(component.entries.end(), made.entries.begin(), made.entries.end());
 }
 
-/// In lower case, without space around it.
+/// Returns a text in lower case without spaces at both ends.
 std::string plain(const std::string& text) { return lower_case(trimmed(text)); }
 
 constexpr const char* example_line =
     "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket PUR 1.1 mm";
 
-/// "write '7 x 0.518 mm2' for AWG 20" for 7 x AWG 20, "write '4 x 2.5 mm2'" for 2.5 x 4 mm2 and 4 x 2.5 mm; else empty.
+/// Returns "write '7 x 0.518 mm2' for AWG 20" for 7 x AWG 20, "write '4 x 2.5 mm2'" for 2.5 x 4 mm2 and 4 x 2.5 mm; otherwise an
+/// empty text.
 std::string meant_section(const std::string& phrase) {
   static const std::regex gauge(R"((\d+) *[x*g]? *(?:awg *(\d+)|(\d+) *awg))"),
       other_unit(R"((\d+) *[x*g] *([\d.]+) *(?:mm)?)"),
@@ -461,7 +464,7 @@ std::string meant_section(const std::string& phrase) {
               : "");
 }
 
-/// Of "jacket pur 1.1 mm", a name of config/materials; empty: none is known.
+/// Returns the name of config/materials for "jacket pur 1.1 mm"; empty: unknown.
 std::string jacket_material(const std::string& phrase) {
   static const std::vector<std::pair<std::regex, const char*>> materials{
       {std::regex(R"(\b(pur|tpu|polyurethane)\b)"), "polyurethane"},
@@ -472,7 +475,7 @@ std::string jacket_material(const std::string& phrase) {
   return "";
 }
 
-/// Of "outer jacket purr", the words that name neither the jacket, nor its place, nor a usual material; empty: none.
+/// Returns the words of "outer jacket purr" that name neither the jacket, nor its place, nor a known material; empty: none.
 std::string unknown_material(const std::string& words) {
   static const std::regex own(R"(\b(outer|outside|inner|jacket|sheath|material|wall|thickness|thick|of|the)\b)"), space(" +"),
       without_wear_rate(R"(\b(pe|hdpe|ldpe|xlpe|pp|pa|nylon|polyamide|silicone?|rubber|neoprene|cr|nbr|epr|epdm|hypalon|csm|)"
@@ -482,20 +485,21 @@ std::string unknown_material(const std::string& words) {
   return rest.substr(0, rest.find_last_not_of(" -") + 1);
 }
 
-/// A misspelt material would take the wear of the jacket out of the result. Errors: InputError.
+/// Refuses an unknown material, because without it the wear of the jacket would not be evaluated. Errors: InputError.
 void refuse_unknown_material(const std::string& words, const Where& where) {
   if (const std::string unknown = unknown_material(words); !unknown.empty())
     throw InputError(where, fmt::format("the jacket's material '{}' of a data sheet is not known", unknown),
                      "write PUR, PVC or TPE; of another material the thickness alone, and its wear is not evaluated");
 }
 
-/// Decimal commas as points: "12 x 0,25 mm2, OD 9,5 mm". A comma behind a unit, or before a number of cores, separates.
+/// Replaces decimal commas by points: "12 x 0,25 mm2, OD 9,5 mm". A comma behind a unit, or before a number of cores, is a
+/// separator.
 std::string with_points(const std::string& text) {
   static const std::regex comma(R"((^|[^a-zA-Z0-9.²^]|\d[gGxX])(\d+),(\d+)(?![\d.]* *[xX*]))");
   return std::regex_replace(text, comma, "$1$2.$3");
 }
 
-/// Whether a phrase of shops and standards says nothing that a life here depends on. A screen's thickness belongs to the jacket's.
+/// Returns whether a phrase of shops and standards has no effect on a life. The thickness of a screen is part of the jacket's.
 bool changes_nothing(const std::string& phrase) {
   static const std::vector<std::regex> words{
       std::regex(R"((un)?(shielded|screened)|(braid|braided|copper|cu|overall|foil|tinned|aluminium|al)?[ -]*(shield|screen|braid)(ed|ing)?.*)"),
@@ -508,7 +512,8 @@ bool changes_nothing(const std::string& phrase) {
   return std::any_of(words.begin(), words.end(), [&](const std::regex& of) { return std::regex_match(phrase, of); });
 }
 
-/// The key outside a data sheet that a phrase belongs to: "leave it out and give least_bend_radius_mm: 80 of the dresspack"; else empty.
+/// Returns a remedy for a phrase that belongs to a key outside of the data sheet: "leave it out and give least_bend_radius_mm: 80
+/// of the dresspack"; otherwise an empty text.
 std::string other_key(const std::string& phrase) {
   static const std::regex bend(R"((min(imum)?\.? *)?bend(ing)? *radius.*)"),
       number(R"((\d[\d.]*) *mm)"), mass(R"((mass|weight) *:? *([\d.]+) *kg */ *km|([\d.]+) *kg */ *km)"),
@@ -526,10 +531,10 @@ std::string other_key(const std::string& phrase) {
   return "";
 }
 
-/// The keys that one phrase of a sheet's line stands for.
+/// Returns the keys and values of one phrase of a sheet's line.
 std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase,
                                                                 const Where& where) {
-  // 4 x 2.5 mm2, 4 x (2 x 0.25) mm2, and as shops write it: 3x1.5 qmm, and 4G2.5 with the protective conductor among the four.
+  // 4 x 2.5 mm2 and 4 x (2 x 0.25) mm2; in shops also 3x1.5 qmm, and 4G2.5 with the protective conductor as one of the four.
   static const std::regex section(
       R"((\d+) *[x*] *(?:\(? *(\d+) *[x*] *)?([\d.]+) *\)? *(?:mm2|mm\^2|mm²|qmm|sqmm))"),
       with_earth(R"((\d+) *g *([\d.]+) *(?:mm2|mm\^2|mm²|qmm|sqmm)?)"), word_class("(?:(?:extra |super )?fine(?:ly)?[ -]strand(?:s|ed)? )?class *([1-6])"),
@@ -698,14 +703,14 @@ void expand_data_sheets(Node& dresspack) {
 
 namespace {
 
-/// A cable that no hose of this bore [mm] holds: its own description matters no more. 0: the bore is not known.
+/// Refuses a cable that is thicker than the bore [mm] of its hose, before its other errors. 0: unknown bore.
 void refuse_thicker_than(double bore, const Node& component) {
   const Node* const written = component.find("data_sheet");
   if (!(bore > 0) || !written) return;
   Node keys;
   try {
     keys = written->is_scalar() ? sheet_from_line(*written) : *written;
-  } catch (const InputError&) {  // expand() says so
+  } catch (const InputError&) {  // expand() reports the error
     return;
   }
   const Node* const outer = keys.find("outer_diameter_mm");

@@ -7,7 +7,7 @@ namespace {
 
 struct KeyOfKind {
   DocumentKind kind;
-  std::string_view key;  ///< that only this kind has at its top
+  std::string_view key;  ///< top-level key that only this kind has
   const char *name, *use;
 };
 

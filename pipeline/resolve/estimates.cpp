@@ -36,7 +36,7 @@ Node& add(Node& to, const char* key, const std::string& text) {
   return value;
 }
 
-/// What was estimated: keys in the order in which they were added, their values, and the parts that have them.
+/// List of the estimates: keys in the order of their addition, their values, and the parts that have them.
 class List {
  public:
   void note(const std::string& key, const std::string& value, const std::string& part) {
@@ -79,11 +79,11 @@ class List {
 
 std::string rounded(double value) { return fmt::format("{:.4g}", value); }
 
-/// What encloses a component.
+/// Surroundings of a component.
 enum class Inside {
-  hose,     ///< parts lie beside each other, nothing presses them
-  jacket,   ///< of a cable, or of a core that no jacket presses itself
-  core      ///< which a jacket presses
+  hose,     ///< parts are beside each other without pressure
+  jacket,   ///< the jacket of a cable, or of a core without pressure from outside
+  core      ///< a core under the pressure of a jacket
 };
 
 class Estimates {
@@ -121,7 +121,7 @@ class Estimates {
     const bool on_axis = inside == Inside::jacket && !wire && number_at(component, "helix_radius_mm") == 0.0;
     const bool pressed = inside != Inside::hose && !on_axis;
     estimate(component, "radial_line_load_N_per_m", pressed ? pressure * width : 0);
-    Node* const parts = component.find("components");  // what is added moves the entries
+    Node* const parts = component.find("components");  // an addition moves the entries
     if (!parts || !parts->is_list()) return;
     const double load = number_at(component, "radial_line_load_N_per_m").value_or(0);
     const double inner = pressed && width > 0 ? load / width : pressure;
@@ -129,7 +129,7 @@ class Estimates {
       if (part.is_map()) add_friction(part, pressed ? Inside::core : Inside::jacket, inner);
   }
 
-  /// Of a part that lies loose (lies_loose()).
+  /// Adds the slack of a loose part (lies_loose()).
   void add_slack(Node& component) {
     const bool room = dresspack_.find("inner_diameter_mm") || dresspack_.find("hose_corrugation");
     const std::string position = text_at(component, "position");
@@ -140,16 +140,16 @@ class Estimates {
       estimate(component, "slack_percent", estimated_slack);
   }
 
-  /// A dresspack that is one cable on its axis and nothing else is as wide as that.
+  /// Sets the diameter of a dresspack that consists of one cable on its axis: it is that of the cable.
   void add_width(const std::vector<Node>& components) {
     if (dresspack_.find("diameter_mm") || is_hose(dresspack_) || components.size() != 1) return;
     const auto radius = number_at(components.front(), "radius_mm");
     if (!radius || !(*radius > 0) || number_at(components.front(), "helix_radius_mm") != 0.0) return;
-    const Where where = components.front().find("radius_mm")->where;  // what is added moves the entries
+    const Where where = components.front().find("radius_mm")->where;  // an addition moves the entries
     add(dresspack_, "diameter_mm", shortest_text(2 * *radius)).where = where;
   }
 
-  /// Whether anything holds the dresspack's length: cables with slack do not.
+  /// Returns whether any part limits the dresspack's length; cables with slack do not.
   bool is_held(const std::vector<Node>& components) const {
     return dresspack_.find("hose_material") || dresspack_.find("core_axial_stiffness_N") || !is_hose(dresspack_) ||
            std::any_of(components.begin(), components.end(), [](const Node& component) {
@@ -159,7 +159,7 @@ class Estimates {
 
   void add_to_hose(const std::vector<Node>& components) {
     const bool held = is_held(components);
-    add_width(components);  // what is added moves the components
+    add_width(components);  // an addition moves the components
     if (!held) estimate(dresspack_, "axial_stiffness_N", estimated_axial_stiffness);
     for (const char* key :
          {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N"})

@@ -11,8 +11,8 @@ namespace dresslife::pipeline {
 
 namespace {
 
-/// The keys of a wire's material that decide strains: its stiffness, and, where a grip bounds the force of a cable,
-/// its cyclic curve, given or as it follows from the strain-life constants.
+/// Keys of a wire's material that affect strains: its stiffness and, if a grip limits the force of a cable, its cyclic curve
+/// (given, or computed from the strain-life constants).
 struct MetalKeys {
   Material material;
   bool pulls_at_grips = false;
@@ -22,7 +22,7 @@ void describe(Fields& echo, MetalKeys& keys) {
   Material& m = keys.material;
   echo.text("name", m.name, Need::required, "");
   echo.number("youngs_modulus_GPa", m.youngs_modulus, Need::required, any_number(), "");
-  if (!keys.pulls_at_grips || !m.strain_life_table.empty()) return;  // a polymer is taken as elastic
+  if (!keys.pulls_at_grips || !m.strain_life_table.empty()) return;  // a polymer is elastic
   m.cyclic_hardening_exponent = hardening_exponent(m);
   m.cyclic_strength = cyclic_strength(m);
   echo.maybe_number("cyclic_strength_MPa", m.cyclic_strength, any_number(), "");
@@ -35,7 +35,7 @@ bool has_wires_of(const std::vector<Component>& components, const std::string& m
   });
 }
 
-/// The keys of a dresspack that decide the strain of its parts.
+/// Keys of a dresspack that affect the strain of its parts.
 struct StrainKeys {
   MountedDresspack mounted;
   std::vector<MetalKeys> materials{};
@@ -72,7 +72,7 @@ void describe(Fields& echo, StrainKeys& keys) {
   echo.number("diameter_mm", dresspack.diameter, Need::optional, any_number(), "");
 }
 
-/// Of a cable without described wires.
+/// Keys of a cable without described wires.
 struct RatedKeys {
   std::string name;
   double radius = 0;
@@ -87,7 +87,7 @@ void describe(Fields& echo, RatedKeys& keys) {
   echo.list("ratings", keys.ratings, Need::required, "");
 }
 
-/// Of a hose that may kink.
+/// Keys of a hose that may kink.
 struct KinkKeys {
   std::string name;
   double radius = 0, helix_radius = 0;
@@ -102,7 +102,7 @@ void describe(Fields& echo, KinkKeys& keys) {
   echo.maybe_number("least_bend_radius_mm", keys.plain.least_bend_radius, any_number(), "");
 }
 
-/// Of a cable whose jacket may wear.
+/// Keys of a cable whose jacket may wear.
 struct JacketKeys {
   std::string name;
   Sleeve jacket;
@@ -113,13 +113,13 @@ void describe(Fields& echo, JacketKeys& keys) {
   echo.group("jacket", keys.jacket, Need::required, "");
 }
 
-/// Takes out what only the fatigue stage reads.
+/// Removes the keys that only dresslife-fatigue uses.
 void drop_fatigue_keys(Dresspack& dresspack) {
   drop_ratings(dresspack);
   for (Component& component : dresspack.components) component.jacket.reset();
 }
 
-/// The keys of a dresspack that decide its lives.
+/// Keys of a dresspack that affect its lives.
 struct FatigueKeys {
   MountedDresspack mounted;
 };
@@ -145,7 +145,7 @@ void describe(Fields& echo, FatigueKeys& keys) {
   if (!dresspack.core_components.empty()) echo.list("core_components", dresspack.core_components, Need::optional, "");
 }
 
-/// As in the job: the only one's keys stand alone, those of several in a list.
+/// Describes the dresspacks in the form of the job: keys of a single one, or a list.
 template <class Keys>
 void describe_each(Fields& echo, const JobForms& forms, std::vector<Keys> keys) {
   if (forms.one)
@@ -154,7 +154,7 @@ void describe_each(Fields& echo, const JobForms& forms, std::vector<Keys> keys) 
     echo.list("dresspacks", keys, Need::required, "");
 }
 
-/// The motion depends on how stiff the dresspack is, not on why.
+/// Removes the origin of stiffnesses: the motion depends on their values only.
 void count_as_numbers(Dresspack& dresspack) {
   const Dresspack untold;
   dresspack.mass_from_construction = false;
@@ -165,7 +165,7 @@ void count_as_numbers(Dresspack& dresspack) {
   dresspack.core_bending_stiffness = dresspack.core_torsional_stiffness = dresspack.core_axial_stiffness = {};
 }
 
-/// Of strain and fatigue; the usual one leaves their texts as they were.
+/// Temperature for strain and fatigue. The usual temperature is left out, so that the texts of older jobs do not change.
 void describe_temperature(Fields& echo, Cell& cell) {
   if (cell.temperature != Cell::usual_temperature) echo.number("temperature_C", cell.temperature, Need::optional, any_number(), "");
 }
@@ -178,7 +178,7 @@ void describe_sim(Fields& echo, Job copy) {
     Dresspack& dresspack = mounted.dresspack;
     dresspack.estimates.clear();
     count_as_numbers(dresspack);
-    if (copy.motion.is_prescribed()) break;  // its wires say how a pull stretches the cable
+    if (copy.motion.is_prescribed()) break;  // the wires determine how a pull stretches the cable
     dresspack.components.clear();
     dresspack.materials.clear();
     dresspack.hose_material.clear();
@@ -197,7 +197,7 @@ void describe_sim(Fields& echo, Job copy) {
   } else {
     echo.list("dresspacks", copy.dresspacks, Need::required, "");
   }
-  copy.cell.temperature = Cell::usual_temperature;  // the stiffnesses contain it
+  copy.cell.temperature = Cell::usual_temperature;  // the stiffnesses contain its effect
   echo.group("cell", copy.cell, Need::optional, "");
   echo.group("simulation", copy.simulation, Need::optional, "");
   double other = copy.motion.is_prescribed() ? 0 : other_stiffness(copy.uncertainty);
@@ -213,7 +213,7 @@ void describe_strain(Fields& echo, Job copy) {
   describe_each(echo, forms_of(copy), keys);
   describe_temperature(echo, copy.cell);
   echo.group("strain", copy.strain, Need::optional, "");
-  double clamped = clamped_length(copy);  // of the rig
+  double clamped = clamped_length(copy);  // of the cable in a rig
   echo.number("clamped_length_m", clamped, Need::optional, any_number(), "");
   echo.boolean("uncertain", copy.uncertainty.enabled, Need::optional, "");
 }
@@ -235,7 +235,7 @@ std::string part_text(const Job& job, JobPart part) {
   const auto described = part == JobPart::sim      ? describe_sim
                          : part == JobPart::strain ? describe_strain
                                                    : describe_fatigue;
-  // What a file holds counts, and its digest is compared beside this text; where it lies does not.
+  // The content of a file matters, and its digest is compared in addition to this text; its folder does not matter.
   const PathText name = [](const std::filesystem::path& file) { return file.filename().string(); };
   return to_yaml(echo_fields(Describe([&](Fields& f) { described(f, job); }), name));
 }

@@ -21,7 +21,7 @@ namespace dresslife::pipeline {
 
 namespace {
 
-/// Exactly one of the two forms in which a job gives its dresspacks; of both, the list is kept.
+/// Checks that a job has exactly one of the two forms of dresspacks; if it has both, keeps the list.
 void check_forms(Node& document, Problems& problems) {
   const Node* list = document.find("dresspacks");
   for (const char* key : {"dresspack", "routing"}) {

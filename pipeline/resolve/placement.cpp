@@ -13,10 +13,10 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double touching_of_radius = 1e-9;  // of a radius
+constexpr double touching_of_radius = 1e-9;  // relative to a radius
 constexpr int halvings = 60;
 
-/// Sum of the angles that parts ask for on a circle [rad]; infinite: two of them meet across it.
+/// Returns the sum of the angles that parts need on a circle [rad]; infinite: two of them touch across the circle.
 double asked(const std::vector<double>& radii, double circle) {
   double sum = 0;
   for (std::size_t k = 0; k < radii.size(); ++k) {
@@ -27,7 +27,7 @@ double asked(const std::vector<double>& radii, double circle) {
   return sum;
 }
 
-/// Thick and thin ones in turn, so that the weight is spread.
+/// Returns thick and thin parts in turn, which distributes the weight.
 std::vector<std::size_t> spread(const std::vector<double>& radii, std::vector<std::size_t> parts) {
   std::stable_sort(parts.begin(), parts.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
   if (radii[parts.front()] == radii[parts.back()]) return parts;
@@ -39,12 +39,13 @@ std::vector<std::size_t> spread(const std::vector<double>& radii, std::vector<st
   return order;
 }
 
-/// Of a ring against the wall; nothing: they do not fit, or the ring would reach into the core. Two or more parts.
+/// Returns the circle of a ring in a bore; std::nullopt: the parts do not fit, or would reach into the core. Precondition: two or
+/// more parts.
 std::optional<double> circle_of(const std::vector<double>& radii, double bore, double core) {
   const double thickest = *std::max_element(radii.begin(), radii.end());
   const double widest = bore - thickest;
   if (widest <= 0 || asked(radii, widest) > 2 * pi * (1 + touching_of_radius)) return std::nullopt;
-  double low = 0, high = widest;  // least circle
+  double low = 0, high = widest;  // bisection for the smallest circle
   for (int k = 0; k < halvings; ++k) {
     const double middle = (low + high) / 2;
     (asked(radii, middle) > 2 * pi ? low : high) = middle;
@@ -77,7 +78,7 @@ void place_on(double circle, const std::vector<double>& radii, const std::vector
   }
 }
 
-/// Fills the bore with these parts: in one ring, around the thickest, or around further rings.
+/// Fills the bore with parts: in one ring, around the thickest part, or around further rings.
 bool fill(const std::vector<double>& radii, std::vector<std::size_t> parts, double bore, double core,
           std::vector<PlacedPart>& places) {
   if (parts.empty()) return true;
@@ -91,7 +92,7 @@ bool fill(const std::vector<double>& radii, std::vector<std::size_t> parts, doub
     return 2 * radius <= (bore - core) * (1 + touching_of_radius);
   }
   std::stable_sort(parts.begin(), parts.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
-  // The thickest first in the middle, then more and more parts within the ring.
+  // First the thickest part is put into the middle, then more and more parts inside of the ring.
   for (std::size_t inside = 0; inside < parts.size(); ++inside) {
     const std::vector<std::size_t> within(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(inside)),
         order = spread(radii, {parts.begin() + static_cast<std::ptrdiff_t>(inside), parts.end()});
@@ -102,7 +103,7 @@ bool fill(const std::vector<double>& radii, std::vector<std::size_t> parts, doub
       if (const auto circle = circle_of(ring, bore, core)) return place_on(*circle, radii, order, places), true;
       continue;
     }
-    // The ring against the wall leaves the most room inside; then it goes to where its own parts have theirs.
+    // A ring at the wall leaves the largest space inside. Afterwards the ring moves to the circle that its own parts need.
     if (asked(ring, bore - thickest) > 2 * pi * (1 + touching_of_radius)) continue;
     if (!fill(radii, within, bore - 2 * thickest, core, places)) continue;
     double taken = core;
@@ -121,10 +122,10 @@ std::string millimetres(double metres) { return shortest_text(std::round(1e6 * m
 
 struct AutoPart {
   std::size_t component;
-  int number;  ///< of the component's parts, 0 first
+  int number;  ///< number of the part in its component, 0 first
 };
 
-/// Of the components that ask for it, in their order; problems of their keys are added.
+/// Returns the parts with `place: auto`, in the order of the components. Adds problems of their keys.
 std::vector<AutoPart> auto_parts(const Node& components, const std::string& path, double& core, Problems& problems) {
   std::vector<AutoPart> parts;
   for (std::size_t i = 0; i < components.items.size(); ++i) {
@@ -148,11 +149,11 @@ std::vector<AutoPart> auto_parts(const Node& components, const std::string& path
         problems.add(given->where, fmt::format("both place and {} are given", other), "keep one of the two",
                      key);
     if (!(number_of(component, "radius_mm") > 0) &&
-        !component.find("data_sheet"))  // one that is left is refused itself
+        !component.find("data_sheet"))  // a remaining data sheet was refused already
       problems.add(component.where, "has place: auto and no radius_mm", "give radius_mm, or a data_sheet",
                    key);
     const Node* const given_count = component.find("count");
-    // Parts of a split component lose the key: it is checked here.
+    // Parts of a split component lose the key, so it is checked here.
     if (given_count && given_count->text.find_first_not_of("0123456789") != std::string::npos)
       problems.add(given_count->where, fmt::format("count is '{}' (must be a whole number)", given_count->text),
                    "give the number of equal parts", key);
@@ -169,14 +170,14 @@ void set_place(Node& component, const PlacedPart& place) {
   for (const char* key : {"helix_radius_mm", "phase_deg"}) component[key].where = component.where;
 }
 
-/// "a", "b", .. "z", "aa", ..
+/// Returns "a", "b", .. "z", "aa", ..
 std::string letter(int number) {
   std::string text;
   for (; number >= 0; number = number / 26 - 1) text.insert(text.begin(), static_cast<char>('a' + number % 26));
   return text;
 }
 
-/// Whether they lie on one circle, evenly around it, in their order.
+/// Returns whether places are evenly spaced on one circle, in their order.
 bool even(const std::vector<PlacedPart>& places) {
   for (std::size_t k = 0; k < places.size(); ++k) {
     const double off = std::remainder(places[k].phase - places[0].phase - 2 * pi * static_cast<double>(k) / static_cast<double>(places.size()), 2 * pi);
@@ -220,7 +221,7 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
                   [](const Node& of) { return of.is_map() && of.find("data_sheet"); })) {
     for (Node& component : components->items)
       if (asks(component))
-        set_place(component, {});  // their places follow from the cable whose data sheet was refused
+        set_place(component, {});  // their places depend on the cable whose data sheet was refused
     return;
   }
   std::vector<double> radii;

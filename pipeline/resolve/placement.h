@@ -1,10 +1,10 @@
-// Cables and hoses packed into the bore of a hose: the key `place: auto` of a dresspack's components.
+// Arranges cables and hoses in the bore of a hose: the key `place: auto` of a dresspack's components.
 //
-// Parts lie in rings around the axis. Parts i and j that are neighbours on a circle of radius R ask for the angle
+// Parts lie in rings around the axis. Neighbours i and j on a circle of radius R need the angle
 //     2 asin((r_i + r_j) / (2 R)),
-// and what is left of the whole turn is shared equally by all gaps. A ring lies where its parts have as much room to the
-// wall as half of a gap to each other, and no nearer to the core than they fit. If they do not fit into one ring, the
-// thickest part goes to the middle, then as many as needed go to rings inside. One part alone lies in the middle.
+// and all gaps share the rest of the turn equally. The circle is chosen so that the parts have a gap to the wall of half of the
+// gap to each other, but it is at least so large that they fit beside the core. If the parts do not fit into one ring, the
+// thickest part goes to the middle, then as many as needed into inner rings. A single part lies in the middle.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace dresslife::pipeline {
 
-/// Of a dresspack as it is written [mm]; 0: not known.
+/// Returns the bore of a dresspack as written [mm]; 0: unknown.
 double bore_of(const Node& dresspack);
 
 struct PlacedPart {
@@ -24,13 +24,13 @@ struct PlacedPart {
   double phase = 0;         ///< [rad]
 };
 
-/// (part) places in a bore around a core, radii [m]; nothing where they do not fit.
+/// Returns the places of parts in a bore around a core, (part); radii [m]. std::nullopt: the parts do not fit.
 std::optional<std::vector<PlacedPart>> pack_in_bore(const std::vector<double>& radii, double bore, double core);
 
-/// Replaces `place: auto` of a dresspack's components by helix_radius_mm and phase_deg; a component of several parts
-/// becomes one component for each part where they do not lie evenly on one circle ("signal cable a", "signal cable b").
-/// Precondition: data sheets are expanded. Problems, under `path`: the bore is not known, the parts do not fit (with the
-/// bore that would do), other keys of the place are given, or parts without the key lie off the axis.
+/// Replaces `place: auto` of a dresspack's components by helix_radius_mm and phase_deg. A component of several parts that are not
+/// evenly spaced on one circle becomes one component for each part ("signal cable a", "signal cable b"). Precondition: data
+/// sheets are expanded. Problems, under `path`: an unknown bore, parts that do not fit (with a bore that is large enough), other
+/// keys of the place, or parts off the axis without `place: auto`.
 void expand_places(Node& dresspack, const std::string& path, Problems& problems);
 
 }  // namespace dresslife::pipeline

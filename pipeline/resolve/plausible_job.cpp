@@ -18,70 +18,72 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double most_radians = 2 * std::numbers::pi;  // of an axis, if the numbers were radians
-constexpr double moves = 0.1;  // an axis' way in one of these numbers: less is a robot that stands
-// One target in radians: half a turn in radians, no adjustment of a robot at its zero pose; the others reach farther than that.
-constexpr double half_turn = 3.15, small_turn = 0.35;  // [deg] that were rad
+constexpr double most_radians = 2 * std::numbers::pi;  // of an axis, if the numbers are radians
+constexpr double moves = 0.1;  // range of an axis in one of these numbers; with less, the robot does not move
+// A single target in radians: at most half a turn in radians, and more than an adjustment at the zero pose, while other targets
+// have larger angles.
+constexpr double half_turn = 3.15, small_turn = 0.35;  // [deg], numbers that are probably rad
 constexpr double wide_targets = 15 * degree;
-// One place in metres: 50 mm to 5 m. Places at the origin of a work object are 0 or rounded to 0.01 mm.
+// A single position in metres: 50 mm to 5 m. Positions at the origin of a work object are 0 or rounded to 0.01 mm.
 constexpr double least_metres = 0.05e-3, most_metres = 5e-3, far_place = 0.05;  // [m]
-// A place beside the one before: 20 mm to 1 m in metres. Robots repeat a place within 0.05 mm, and no program of a plant steps so little.
+// A position beside the preceding one: 20 mm to 1 m in metres. Robots repeat a position within 0.05 mm, and no program of a plant
+// has such small steps.
 constexpr double least_step = 0.02e-3, most_step = 1e-3;  // [m]
-constexpr double least_percent = 1;    // a hundredth of an axis' speed: no program of a plant runs so
+constexpr double least_percent = 1;    // a hundredth of an axis' speed: no program of a plant is so slow
 constexpr double fastest_tool = 10;     // [m/s]: the fastest controllers allow 5 to 7
-constexpr double longest_dwell = 100;  // [s]: the cycles of lines are shorter
+constexpr double longest_dwell = 100;  // [s]: cycles of production lines are shorter
 
-constexpr double least_rate = 5;       // [Hz]: of a hose's swing at 1.8 Hz fewer than three samples
-constexpr double largest_gate = 5e-4;  // 29 MPa of amplitude in copper, half of what annealed copper endures
+constexpr double least_rate = 5;       // [Hz]: fewer than three samples of a hose's swing at 1.8 Hz
+constexpr double largest_gate = 5e-4;  // an amplitude of 29 MPa in copper, half of the endurance limit of annealed copper
 
-constexpr double least_speed = 0.5 * degree;  // [rad/s] of the fastest axis: robots of plants reach 100 deg/s
+constexpr double least_speed = 0.5 * degree;  // [rad/s] of the fastest axis: robots in plants reach 100 deg/s
 
 constexpr double standard_gravity = 9.80665;
-constexpr double gravity_spread = 0.01;    // of it: it varies by 0.5 % over the earth
-constexpr double down = 0.999;             // cosine of 2.6 deg, more than floors slope
+constexpr double gravity_spread = 0.01;    // relative: gravity varies by 0.5 % over the earth
+constexpr double down = 0.999;             // cosine of 2.6 deg, more than the slope of floors
 constexpr double least_robot_life = 1000;  // [h]: half a year of one shift
 constexpr double least_week = 5;           // [h]: an hour per working day
-constexpr double hours_of_day = 24;        // robots of plants move 40 h a week and more
-constexpr double largest_endurance = 5e-3;  // of polymers 9e-3 at ten million cycles, of metals a fifth of this
-constexpr double largest_factor = 30;      // 100 is per cent; trials take 0.1 to 10
-constexpr double largest_tolerance = 0.05;  // [m] between the starts of two repeats: a hose's width
+constexpr double hours_of_day = 24;        // robots in plants move 40 h a week or more
+constexpr double largest_endurance = 5e-3;  // polymers have 9e-3 at ten million cycles, metals a fifth of this limit
+constexpr double largest_factor = 30;      // 100 is a percentage; trials have 0.1 to 10
+constexpr double largest_tolerance = 0.05;  // [m] between the starts of two repeats: the width of a hose
 constexpr double longest_spot = 10;        // [s]: a weld takes 0.3 to 2
 constexpr double widest_zone = 30 * degree;
 constexpr int repeats_to_steady = 100;         // of the motion: the default is 8
-constexpr int least_targets = 30;              // of a recording: programs with so near targets are shorter
+constexpr int least_targets = 30;              // of a recording: programs with targets so near to each other are shorter
 constexpr double near_targets = 3 * degree;    // of the fastest axis from target to target
-constexpr int most_repeats = 1000;             // of steps within a program: a pallet has some hundred places
-constexpr double slowest_tool = 3e-3;          // [m/s]: arc welding moves at 5 to 20 mm/s
-constexpr double widest_path_zone = 0.5;       // [m]: controllers' own zones end at 0.2
-constexpr double tool_behind = 0.02;           // [m]: a flange is thicker than a tool's centre may lie below its face
+constexpr int most_repeats = 1000;             // of steps in a program: a pallet has some hundred places
+constexpr double slowest_tool = 3e-3;          // [m/s]: arc welding has 5 to 20 mm/s
+constexpr double widest_path_zone = 0.5;       // [m]: zones of controllers are at most 0.2
+constexpr double tool_behind = 0.02;           // [m]: a flange is thicker than the distance of a tool's centre behind its face
 constexpr double slowest_move = 0.2 * degree;  // [rad/s] of the fastest axis in one move
 constexpr double slowest_axis = 5 * degree,
-                 fastest_axis = 3000 * degree;  // [rad/s]: positioners 30, wrists of small robots 1000 deg/s
+                 fastest_axis = 3000 * degree;  // [rad/s]: positioners have 30, wrists of small robots 1000 deg/s
 constexpr double longest_ramp = 5,
-                 quickest_robot = 0.05, shortest_ramp = 0.005;  // [s] from rest to full speed: robots take 0.1 to 1
+                 quickest_robot = 0.05, shortest_ramp = 0.005;  // [s] from rest to full speed: robots need 0.1 to 1
 constexpr double most_turns = 4 * 360,
-                 twice_around = 2 * 360;  // [deg]: wrists turn up to two turns either way
+                 twice_around = 2 * 360;  // [deg]: wrists turn up to two turns in each direction
 constexpr double endless_axis = 36000;    // of a continuous joint of a URDF [deg]
-constexpr double longest_box = 60;  // [m]: a hall's floor
-constexpr double farthest = 20;           // [m] from the origin: a cell
-constexpr double widest_spread = 20;  // a factor in one deviation: friction of seven published cables has 2.2
+constexpr double longest_box = 60;  // [m]: the floor of a hall
+constexpr double farthest = 20;           // [m] from the origin: the size of a cell
+constexpr double widest_spread = 20;  // factor of one standard deviation: friction of seven published cables has 2.2
 constexpr double least_pre_twist = 6.2832 * degree, largest_pre_twist = 3600 * degree;
-constexpr double longest_hose = 20;  // [m]: as long as a cell; hoses on robots are 0.5 to 6 m long
-constexpr double shortest_in_mm = 300;  // a number below is centimetres: no hose on a robot is 0.3 m long
+constexpr double longest_hose = 20;  // [m]: the size of a cell; hoses on robots are 0.5 to 6 m long
+constexpr double shortest_in_mm = 300;  // a smaller number is in centimetres: no hose on a robot is 0.3 m long
 constexpr double farthest_clamp =
     3;  // [m] from its link's frame: arms of large robots are 1.5 m long, brackets 0.3
 constexpr double longest_tool = 0.5,
                  near_link = 0.25;     // [m]: clamps on welding guns; usual brackets and small tools
-constexpr double near_bracket = 0.15;    // [m]: as route tries brackets; beyond it another order of the coordinates must lie at a quarter of it
-constexpr int few_segments = 16;         // with more, a hose whose segments are too long is too long itself
+constexpr double near_bracket = 0.15;    // [m]: bracket length that route tries; beyond it, exchanged coordinates must be 4 times nearer
+constexpr int few_segments = 16;         // with more segments, a hose whose segments are too long is itself too long
 constexpr double longest_segment = 0.5;  // of the least bend radius: chords of 0.5 rad are 1 % shorter than their arcs
 constexpr double inside_robot = 0.01;  // [m] below a box's surface: floors and tables end at the base
 constexpr double shortest_bracket = 1e-3, longest_built = 2;  // [m]
-constexpr double widest_ring = 10;                            // of the dresspack's diameter
+constexpr double widest_ring = 10;                            // in diameters of the dresspack
 constexpr double longest_stroke = 5, largest_pull = 2000, stiffest_spring = 1e4,
                  heaviest_slider = 50;  // [m], [N], [N/m], [kg]
 
-/// Steps with one fault: the first, and how many more.
+/// Steps with one fault: the first one, and the number of further ones.
 struct Doubted {
   const MotionStep* first = nullptr;
   int more = 0;
@@ -99,16 +101,16 @@ struct Doubted {
 
 struct Seen {
   const MotionStep* first = nullptr;
-  std::vector<double> low, high;  ///< (axis) of all joint targets
+  std::vector<double> low, high;  ///< (axis) over all joint targets
   Doubted slow, fast, waits, creeping, turning, repeats, lazy, wide;
-  std::vector<double> last;  ///< (axis) of the latest joint target
-  double fastest = 0;        ///< of any axis, where moves have durations [rad/s]
+  std::vector<double> last;  ///< (axis) of the last joint target
+  double fastest = 0;        ///< of any axis, for moves with durations [rad/s]
   double farthest = 0;       ///< between joint targets without durations [rad]
   int untimed = 0;           ///< joint targets without durations
   int moves = 0;
   bool all_joints = true;
-  bool default_speed = false;  ///< a move has none of its own
-  bool only_timed = true;    ///< all moves by joints, and all but the first with durations
+  bool default_speed = false;  ///< a move has no speed of its own
+  bool only_timed = true;    ///< all moves are joint moves, and all except the first have durations
 };
 
 void look_at(const std::vector<MotionStep>& steps, Seen& seen) {
@@ -142,7 +144,7 @@ void look_at(const std::vector<MotionStep>& steps, Seen& seen) {
   }
 }
 
-/// Targets one by one, beside all others: of joint moves without durations, and places of the tool.
+/// Collects targets without their blocks: those of joint moves without durations, and positions of the tool.
 void gather(const std::vector<MotionStep>& steps, std::vector<const MotionStep*>& joints,
             std::vector<const MotionStep*>& places) {
   for (const MotionStep& step : steps) {
@@ -161,7 +163,7 @@ std::ptrdiff_t nonzero(const std::vector<double>& numbers) {
   return std::ranges::count_if(numbers, [](double x) { return x != 0; });
 }
 
-/// Few targets in radians among others in degrees, and few places in metres among others in millimetres.
+/// Warns of few targets in radians among others in degrees, and of few positions in metres among others in millimetres.
 void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warning>& warnings) {
   std::vector<const MotionStep*> joints, places;
   gather(steps, joints, places);
@@ -192,7 +194,7 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
   if (reaches.empty()) return;
   const double farthest_place = *std::max_element(reaches.begin(), reaches.end());
   for (std::size_t k = 0; k < places.size(); ++k)
-    // The same object: the origin of another may be its only place.
+    // Only positions in one work object are compared: the origin of another one may be its only position.
     if (const double reach = reaches[k];
         reach >= least_metres && reach <= most_metres && farthest_place >= far_place &&
         nonzero(places[k]->position) >= 2 &&
@@ -213,7 +215,8 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
   }
 }
 
-/// Few places that lie beside the one before, turned alike, as by Offs in RAPID with an offset in metres.
+/// Warns of few positions beside the preceding one in the same orientation, for example by Offs in RAPID with an offset in
+/// metres.
 void doubt_small_steps(const std::vector<MotionStep>& steps, std::vector<Warning>& warnings) {
   std::vector<const MotionStep*> joints, places;
   gather(steps, joints, places);
@@ -235,7 +238,7 @@ void doubt_small_steps(const std::vector<MotionStep>& steps, std::vector<Warning
       "an offset in metres instead of millimetres", fmt::format("{:.4g} mm in the program if that was metres", 1e6 * way)));
 }
 
-/// Tools and work objects that lie nearly, but not, where they count from.
+/// Warns of tools and work objects that are close to their reference frame, but not equal to it.
 void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Where& where, std::vector<Warning>& warnings) {
   for (const MotionFrame& frame : frames) {
     const Vector3d& at = frame.position;
@@ -361,10 +364,10 @@ namespace {
 using AddDoubt = std::function<void(const Where&, const std::string& what, const std::string& cause,
                                     const std::string& remedy)>;
 
-/// Of a URDF, whose lengths and angles are in m and rad.
+/// Returns whether a place is in a URDF, whose lengths and angles are in m and rad.
 bool is_urdf(const Where& where) { return where.file.ends_with(".urdf") || where.file.ends_with(".xml"); }
 
-/// Whether the accelerations are one list in the job, beside the name of a URDF.
+/// Returns whether the accelerations are a list in the job, beside the name of a URDF.
 bool has_list(const Joint& joint) { return is_urdf(joint.where) && !is_urdf(joint.acceleration_where); }
 
 void doubt_limits(const Joint& joint, const AddDoubt& add) {
@@ -384,7 +387,7 @@ void doubt_limits(const Joint& joint, const AddDoubt& add) {
         fmt::format("lower_deg: {:.5g} and upper_deg: {:.5g} if so{}", lower * degree, upper * degree, last));
 }
 
-/// Axes that all turn by less than a turn in radians.
+/// Warns if all axes have ranges that are less than a turn in radians.
 void doubt_ranges(const std::vector<const Joint*>& driven, const AddDoubt& add) {
   double largest = 0;  // [deg]
   for (const Joint* joint : driven)
@@ -403,8 +406,8 @@ void doubt_ranges(const std::vector<const Joint*>& driven, const AddDoubt& add) 
                 first.lower / degree / degree, first.upper / degree / degree, first.name));
 }
 
-/// The arm has more inertia than the wrist: in config/robots axes 1 to 3 accelerate by
-/// at most 0.4 times what axes 4 to 6 do.
+/// Warns of accelerations in the wrong order. The arm has more inertia than the wrist: in config/robots, axes 1 to 3 accelerate
+/// at most 0.4 times as fast as axes 4 to 6.
 void doubt_order(const std::vector<const Joint*>& driven, const AddDoubt& add) {
   constexpr std::size_t arm = 3, axes = 6;
   if (driven.size() != axes) return;
@@ -450,7 +453,7 @@ void doubt_speed(const Joint& joint, const AddDoubt& add) {
            : fmt::format("velocity=\"{:.4g}\" if that was deg/s", joint.speed * degree));
 }
 
-/// True: there is a doubt, and it is of all axes.
+/// Returns whether there is a warning that applies to all axes.
 bool doubt_ramp(const Joint& joint, const std::vector<const Joint*>& driven, const AddDoubt& add) {
   const double speed = joint.speed / degree, ramp = joint.speed / joint.acceleration;
   if (ramp >= shortest_ramp && ramp <= longest_ramp) return false;
@@ -475,7 +478,7 @@ bool doubt_ramp(const Joint& joint, const std::vector<const Joint*>& driven, con
   return true;
 }
 
-/// Accelerations with an extra digit: in config/robots arms take 0.15 s and more to their full speed, wrists 0.066 s.
+/// Warns of accelerations with an extra digit: in config/robots, arms need 0.15 s or more to their full speed, wrists 0.066 s.
 void doubt_quick(const std::vector<const Joint*>& driven, const AddDoubt& add) {
   double longest = 0;
   std::vector<std::string> numbers;
@@ -515,7 +518,7 @@ void doubt_robot(const Robot& robot, const AddDoubt& add) {
     if (ramps(joint) && doubt_ramp(*joint, driven, add)) return;
 }
 
-/// Origins of the frames that a robot's stand and its first two joints have in the zero pose: inside the robot.
+/// Returns the origins of the frames of a robot's base and of its first two joints in the zero pose: points inside of the robot.
 std::vector<std::pair<std::string, Eigen::Vector3d>> points_in(const Robot& robot) {
   const auto turn = [](const Eigen::Vector3d& angles) {  // roll, pitch, yaw about fixed axes x, y, z
     return Eigen::Quaterniond(Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
@@ -533,9 +536,10 @@ std::vector<std::pair<std::string, Eigen::Vector3d>> points_in(const Robot& robo
   return points;
 }
 
-/// Contact of robot and cell is not evaluated, so that such a box changes no result until the dresspack lies in it, too.
+/// Warns of a box around the robot. Contact of robot and cell is not evaluated, so such a box has no effect until the dresspack
+/// is in it too.
 void doubt_boxes(const Cell& cell, const Robot& robot, const AddDoubt& add) {
-  if (!robot.external_axes.empty()) return;  // they carry the robot elsewhere
+  if (!robot.external_axes.empty()) return;  // external axes carry the robot to another place
   for (std::size_t k = 0; k < cell.boxes.size(); ++k) {
     const Box& box = cell.boxes[k];
     if (!box.orientation.isZero()) continue;
@@ -574,7 +578,7 @@ void doubt_cell(const Cell& cell, const SimulationSettings& simulation, const Ad
           fmt::format("radius_mm: {:g} if that was metres", 1e6 * cell.capsules[k].radius));
 }
 
-/// Radians as a controller shows them, rounded: no axis beyond a turn, and parts of a degree.
+/// Warns of radians in the rounded form of controllers: no axis beyond a turn, and fractions of a degree.
 void doubt_mounting(const Routing& routing, const AddDoubt& add) {
   std::vector<std::string> written, meant;
   double largest = 0;
@@ -595,8 +599,8 @@ void doubt_mounting(const Routing& routing, const AddDoubt& add) {
                   fmt::join(meant, ", ")));
 }
 
-/// From a point in the frame of a link to its capsules and boxes, and to the flange on the last link [m]; nothing: it has meshes
-/// or no shapes.
+/// Returns the distance from a point in the frame of a link to its capsules and boxes, on the last link also to the flange [m];
+/// std::nullopt: the link has meshes or no shapes.
 std::optional<double> distance_to(const Robot& robot, const std::string& name, const Vector3d& point) {
   const auto link = std::ranges::find(robot.links, name, &Link::name);
   if (link == robot.links.end() || !link->meshes.empty()) return {};
@@ -614,7 +618,7 @@ std::optional<double> distance_to(const Robot& robot, const std::string& name, c
   return std::isfinite(nearest) ? std::optional(std::max(0.0, nearest)) : std::nullopt;
 }
 
-/// A clamp in the air, farther from its link than a bracket or a tool is long.
+/// Warns of a clamp that is farther from its link than a bracket or a tool is long.
 void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, const Robot& robot,
                  const AddDoubt& add) {
   const double bracket = routing.longest_bracket.value_or(0), limit = std::max(longest_tool, bracket);
@@ -624,7 +628,7 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, co
     Vector3d exchanged = clamp.position;
     std::swap(exchanged[one], exchanged[other]);
     const double then = *distance_to(robot, clamp.link, exchanged);
-    if (*away <= std::max(near_bracket, bracket) || then > *away / (*away > near_link ? 2 : 4) || then == 0) continue;  // within the link is no clamp
+    if (*away <= std::max(near_bracket, bracket) || then > *away / (*away > near_link ? 2 : 4) || then == 0) continue;  // inside of the link
     return add(clamp.where,
                fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g})", key, *away, clamp.link, std::max(near_bracket, bracket)),
                "exchanged coordinates",
@@ -632,7 +636,7 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, co
                            exchanged.y(), exchanged.z(), std::ceil(1e2 * *away) * 10));
   }
   if (*away <= limit) return;
-  // Slips of the decimal point in one, then two, then three numbers: the first that leads near to the link.
+  // Tries wrong decimal points in one, then two, then three numbers: the first combination near to the link is proposed.
   Vector3d best = clamp.position;
   double nearest = *away;
   for (const int which : {1, 2, 4, 3, 5, 6, 7}) {
@@ -657,7 +661,7 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, co
                                  std::ceil(1e2 * *away) * 10)));
 }
 
-/// Angles about the axes, as a controller shows them.
+/// Warns of angles about the axes, in the form of controllers, instead of a direction.
 void doubt_direction(const char* key, const Clamp& clamp, const AddDoubt& add) {
   constexpr double round_angle = 5, most = 360;
   const Vector3d& to = clamp.direction;
@@ -697,7 +701,7 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
         fmt::format("simulation.segments is {}: a segment is {:.3g} m long (limit {:.3g} m: {:g} of the least bend radius)", segments,
                     segment, longest_segment * limit, longest_segment),
         "a number for a trial: the shape, the bends and the lives are wrong", "simulation.segments: 64");
-  // Small angles in radians or turns are eighths or halves of a turn; a search proposes any angle.
+  // Small angles in radians or turns are multiples of an eighth or a half of a turn; a search proposes any angle.
   constexpr double rounded = 0.005;
   const double number = routing.pre_twist / degree;
   const bool simple = std::abs(std::remainder(number, pi / 4)) < rounded || std::abs(std::remainder(number, 0.5)) < 1e-9;
@@ -751,7 +755,7 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
         "grams instead of kilograms", fmt::format("mass_kg: {:g} if that was grams", unit.mass / 1e3));
 }
 
-/// Factors of one deviation, but for the slope, which is an addend.
+/// Warns of spreads that are too large. Each is a factor of one standard deviation, except that of the slope, which is an addend.
 void doubt_spreads(const Job& job, const AddDoubt& add) {
   for (std::size_t p = 0; p < uncertain_count; ++p)
     if (job.uncertainty.spread[p] > widest_spread)
@@ -849,8 +853,9 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
   return warnings;
 }
 
-/// Up to the fourth segment the parabola that gives the bend at a clamp (W39) contains links outside the relief.
-/// In a relief of ten times the dresspack's stiffness the dresspack bends less than a tenth as much as beside it: it is a longer clamp.
+/// Warns of short or rigid reliefs. With less than four segments, the parabola for the bend at a clamp (W39) contains links
+/// outside of the relief. A relief of ten times the dresspack's stiffness acts as a longer clamp: the dresspack in it bends less
+/// than a tenth as much as beside it.
 void doubt_bend_reliefs(const MountedDresspack& mounted, int segments, std::vector<Warning>& warnings) {
   constexpr int fewest = fewest_relief_segments;
   constexpr double rigid = 10;

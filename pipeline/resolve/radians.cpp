@@ -20,7 +20,7 @@ bool is_multiple(double value, double part, double tolerance) {
 }
 
 bool may_be_radians(double value) {
-  constexpr double typed = 2e-3, exact = 5e-5;  // 3.14; four decimals
+  constexpr double typed = 2e-3, exact = 5e-5;  // two decimals (3.14); four decimals
   const double size = std::abs(value);
   return size <= 2 * pi + typed && (is_multiple(size, pi / 4, typed) || is_multiple(size, pi / 12, exact));
 }

@@ -1,4 +1,4 @@
-// Angles of a job that are probably radians: keys in degrees whose values are small multiples of pi.
+// Detects angles of a job that are probably radians: keys in degrees whose values are small multiples of pi.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace dresslife::pipeline {
 
-/// Warnings of the keys *_deg of a map whose values other than 0 are all k pi/4 (to 0.002: typed as 1.57) or k pi/12 (to 0.00005), up to
-/// 2 pi. path: of the map, "routing". pre_twist_deg has a limit of its own (plausible_job.cpp).
+/// Returns warnings about the keys *_deg of a map whose values other than 0 are all k pi/4 (to 0.002: typed as 1.57) or k pi/12
+/// (to 0.00005), up to 2 pi. path: of the map, "routing". pre_twist_deg has its own limit (plausible_job.cpp).
 std::vector<Warning> radians_in(const Node& map, const std::string& path);
 
 }  // namespace dresslife::pipeline

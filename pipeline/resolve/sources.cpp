@@ -9,7 +9,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Those of this thread. Looks lie deep below who asks for jobs, and most of who ask want no notes.
+/// The Sources of this thread. It is global because look-ups are many calls below the reading of a job, and most callers do not
+/// need a record.
 thread_local Sources* current = nullptr;
 
 const char* word(bool yes) { return yes ? "yes" : "no"; }
@@ -54,7 +55,7 @@ void note_source(Sources::Kind kind, const fs::path& path, const std::string& fo
   if (current) current->found_.try_emplace({kind, path.string()}, found);
 }
 
-/// The first look counts: all jobs of a study are made from the same.
+/// Returns the result of the first look-up, so that all jobs of a study are built from the same files.
 bool look(Sources::Kind kind, const fs::path& path, bool (*now)(const fs::path&)) {
   if (!current) return now(path);
   const auto [entry, fresh] = current->found_.try_emplace({kind, path.string()});

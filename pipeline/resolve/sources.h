@@ -1,8 +1,8 @@
-// What the reading of jobs finds in the file system. Who has expanded a study and finds all of it as it was
-// needs not expand it again (pipeline/study/known_study.h).
+// Records the files that the reading of jobs looks up. A program that has expanded a study does not expand it again if all of
+// them are unchanged (pipeline/study/known_study.h).
 //
-// While a Sources lives, whatever its thread looks up through the functions below is noted, and a document is
-// read from the disk and parsed once, however many jobs name it.
+// While a Sources exists, all look-ups of its thread through the functions below are recorded, and a document is read and parsed
+// once for any number of jobs that name it.
 #pragma once
 
 #include <filesystem>
@@ -24,10 +24,10 @@ class Sources {
   Sources& operator=(const Sources&) = delete;
 
   enum class Kind { text, file, folder, program };
-  /// What a look found: the text, or "yes" and "no", or the names of a program's files, line by line. The
-  /// same look without a Sources. A text that cannot be read: "no".
+  /// Returns the result of a look-up: the text, or "yes" and "no", or the names of a program's files, line by line. The look-up
+  /// is done without a Sources. "no": a text that cannot be read.
   static std::string found_at(Kind kind, const std::filesystem::path& path);
-  /// Looks by what they were for and where, and what each found first.
+  /// Look-ups by kind and path, with the first result of each.
   using Looks = std::map<std::pair<Kind, std::string>, std::string>;
   Looks take() { return std::move(found_); }
 
@@ -41,13 +41,13 @@ class Sources {
   Sources* outer_;
 };
 
-/// As read_yaml(). Errors: InputError.
+/// Like read_yaml(). Errors: InputError.
 Node read_document(const std::filesystem::path& file);
-/// As read_text(). Errors: InputError.
+/// Like read_text(). Errors: InputError.
 std::string read_source(const std::filesystem::path& file);
 bool is_file(const std::filesystem::path& path);    ///< or a link to one
 bool is_folder(const std::filesystem::path& path);  ///< or a link to one
-/// As program_files().
+/// Like program_files().
 std::vector<std::filesystem::path> files_of_program(const std::filesystem::path& program);
 
 }  // namespace dresslife::pipeline

@@ -1,4 +1,4 @@
-// Which URDF a robot's entry is made from.
+// Names the URDF of a robot's entry.
 #pragma once
 
 #include <filesystem>
@@ -10,26 +10,26 @@
 
 namespace dresslife::pipeline {
 
-/// Keys of a robot entry that say which URDF it is made from.
+/// Keys of a robot entry for its URDF.
 struct UrdfRequest {
   std::filesystem::path urdf;
   std::string tip;                       ///< link at the flange; empty: tool0, else flange, else the only end
-  std::filesystem::path package_folder;  ///< holds the packages of package://; empty: found above the URDF
+  std::filesystem::path package_folder;  ///< contains the packages of package://; empty: searched above the URDF
   enum class Collision { keep, drop } collision = Collision::keep;
   std::vector<double> accelerations;  ///< of the axes, in their order [rad/s2]
   Where accelerations_where;
 };
 constexpr std::string_view word(UrdfRequest::Collision value) { return word_at({"keep", "drop"}, value); }
 
-/// Of the axes of config/robots, where a URDF lacks them: the least and the largest.
+/// Accelerations in config/robots, the smallest and the largest, for robots whose URDF has none.
 inline constexpr const char* shipped_accelerations = "260 to 9,400 deg/s2, the wrist more than the arm";
 
 class Fields;
 void describe(Fields& f, UrdfRequest& request);
 
-/// The robot of a URDF as the tree of a catalogue entry (pipeline/urdf/urdf.h). A program links one of two
-/// definitions: that of dresslife_urdf reads the file, that of dresslife_without_urdf refuses it. Stages that
-/// need no robot link the second, and no parser. Errors: InputError.
+/// Returns the robot of a URDF as the tree of a catalogue entry (pipeline/urdf/urdf.h). A program links one of two definitions:
+/// that of dresslife_urdf reads the file, that of dresslife_without_urdf refuses it. Stages that need no robot link the second
+/// one and no parser. Errors: InputError.
 Node robot_from_urdf(const UrdfRequest& request);
 
 }  // namespace dresslife::pipeline

@@ -12,12 +12,12 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr int most_nodes = 1'000'000;  // far above any job: the library takes 10 s and 600 MB for so many
-constexpr std::size_t most_bytes = 16 << 20;  // likewise: 4 s for so much comment
+constexpr int most_nodes = 1'000'000;  // far more than in any job; the library takes 10 s and 600 MB for this number
+constexpr std::size_t most_bytes = 16 << 20;  // far more than in any job; the library takes 4 s for comments of this size
 constexpr int deepest_level = 64;
 
 Where place(const YAML::Mark& mark, const std::string& file) {
-  // The library counts from 0, and a node without a place has -1.
+  // The library counts from 0; -1: the node has no place.
   return {file, mark.line + 1, mark.line >= 0 ? mark.column + 1 : 0};
 }
 
@@ -47,7 +47,7 @@ class Converter {
   }
 
  private:
-  /// A value with a tag of its own (`!uniform [1, 2]`) as a map with the tag as its one key.
+  /// Returns a value with a tag (`!uniform [1, 2]`) as a map whose only key is the tag.
   static Node under_its_tag(const std::string& tag, Node node) {
     if (tag.size() < 2 || tag[0] != '!') return node;
     Node map;
@@ -67,7 +67,7 @@ class Converter {
     if (!keys.insert(key.Scalar()).second)
       throw InputError(where, fmt::format("duplicate key '{}'", key.Scalar()), "keep one of the two");
     Node converted = convert(value, depth + 1);
-    // A value that is not there lies, for the library, where the next line begins.
+    // The library gives a missing value the place of the next line.
     if (converted.where.line <= 0 || converted.kind == Node::Kind::null) converted.where = where;
     map.entries.push_back({key.Scalar(), where, std::move(converted)});
   }
@@ -76,11 +76,11 @@ class Converter {
   int nodes_ = 0;
 };
 
-/// Walks a stream of documents and keeps only where it is.
+/// Walks a stream of documents and keeps only the current place.
 class Walker : public YAML::EventHandler {
  public:
   YAML::Mark begin;                           ///< of the document
-  YAML::Mark last = YAML::Mark::null_mark();  ///< of the latest key or value
+  YAML::Mark last = YAML::Mark::null_mark();  ///< of the last key or value
 
   void OnDocumentStart(const YAML::Mark& mark) override { begin = mark; }
   void OnDocumentEnd() override {}
@@ -101,7 +101,7 @@ class Walker : public YAML::EventHandler {
   void OnMapEnd() override {}
 };
 
-/// Refuses what the library would read for longer than anybody waits. No value is without a sign before or behind it.
+/// Refuses a text that the library would read for too long. Its number of values is estimated from the signs between values.
 void check_size(const std::string& text, const std::string& file) {
   if (text.size() > most_bytes)
     throw InputError({file}, fmt::format("has {} bytes (at most {} are read as YAML)", text.size(), most_bytes),
@@ -114,9 +114,8 @@ void check_size(const std::string& text, const std::string& file) {
                      "leave out what is not needed, or keep poses in a CSV file");
 }
 
-/// Refuses what the library lets pass: further documents, a stray ',' (to it an endless stream of empty
-/// documents) and a quote that is never closed, which it only notices in text that does not end in a line
-/// feed.
+/// Refuses errors that the library accepts: further documents, a stray ',' (the library reads an endless stream of empty
+/// documents), and a quote that is never closed (the library detects it only in a text that does not end with a line feed).
 void check_stream(const std::string& text, const std::string& file) {
   std::istringstream stream(text.substr(0, text.find_last_not_of(" \t\r\n") + 1));
   YAML::Parser parser(stream);
@@ -141,8 +140,8 @@ bool all_scalars(const Node& list) {
   return std::all_of(list.items.begin(), list.items.end(), [](const Node& item) { return item.is_scalar(); });
 }
 
-/// Text that needs no quotes at first sight: numbers, names, paths, sentences. The library looks at every
-/// letter with regular expressions.
+/// Returns whether a text certainly needs no quotes: numbers, names, paths, sentences. This is a fast test; the library tests
+/// every letter with regular expressions.
 bool plain_at_sight(std::string_view text, bool in_brackets) {
   const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
   const auto is_letter = [](char letter) { return (letter | 0x20) >= 'a' && (letter | 0x20) <= 'z'; };
@@ -155,7 +154,7 @@ bool plain_at_sight(std::string_view text, bool in_brackets) {
          });
 }
 
-/// A scalar with the quotes and escapes that the library finds it to need, as itself or as an item of [].
+/// Returns a scalar with the quotes and escapes that the library adds, for a line of its own or an item of [].
 std::string quoted_text(const std::string& text, bool quoted, bool in_brackets) {
   const bool printed_as_it_is = std::all_of(text.begin(), text.end(), [](char letter) {
     return letter >= ' ' && letter <= '~' && letter != '"' && letter != '\\';
@@ -170,13 +169,12 @@ std::string quoted_text(const std::string& text, bool quoted, bool in_brackets) 
   return in_brackets ? written.substr(1, written.size() - 2) : written;
 }
 
-/// Writes the tree as the library's emitter does, whose layout takes it ten times as long: jobs are written
-/// several times for each of a study.
+/// Writes a tree as the emitter of the library does, in a tenth of its time. Jobs are written several times in a study.
 class Emitter {
  public:
   explicit Emitter(std::string& out) : out_(out) {}
 
-  /// What stands alone, or behind "- ": its first line goes on where the text is.
+  /// Writes a node as the whole document, or behind "- ". Its first line continues the current line.
   void emit(const Node& node, std::size_t indent) {
     switch (node.kind) {
       case Node::Kind::null:

@@ -1,5 +1,5 @@
-// A YAML document as a tree in which every key and value knows its file, line and column. The YAML library
-// stays behind this header; duplicate keys, merge keys and oversized documents are refused while reading.
+// A YAML document as a tree in which every key and value has its file, line and column. Only document.cpp uses the YAML library.
+// Duplicate keys, merge keys and oversized documents are refused.
 #pragma once
 
 #include <filesystem>
@@ -39,17 +39,17 @@ struct Entry {
 Node scalar(std::string text);
 Node list_of(std::vector<Node> items);
 
-/// Gives a whole tree one place: of what was not written where errors could point at.
+/// Gives one place to a whole tree that was not read from a file, so that errors can point to it.
 void place_at(Node& node, const Where& where);
 
-/// Reads a document. Errors: InputError at the place that is not YAML, or not allowed here.
+/// Reads a document. Errors: InputError at the place that is not YAML or is not allowed.
 Node parse_yaml(const std::string& text, const std::string& file);
 Node read_yaml(const std::filesystem::path& file);
 
-/// The document as text that parse_yaml() reads back to the same tree.
+/// Returns the document as text. parse_yaml() reads it back to the same tree.
 std::string to_yaml(const Node& node);
 
-/// The folder that file names written at a place are relative to: the file's, or the current one for `--set`.
+/// Returns the folder to which file names at a place are relative: the folder of its file, or the current folder for `--set`.
 std::filesystem::path folder_of(const Where& where);
 
 }  // namespace dresslife::pipeline

@@ -31,13 +31,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// ", or 1200 if the comma separates thousands" for 1.200, written 1,200; else nothing.
+/// Returns ", or 1200 if the comma separates thousands" if 1.200 was written as 1,200; else an empty text.
 std::string thousands_words(const std::string& decimal, const std::string& whole) {
   const bool may_be = decimal.size() - decimal.find('.') == 4 && decimal[0] != '0' && decimal.substr(0, 2) != "-0";
   return may_be ? fmt::format(", or {} if the comma separates thousands", whole) : "";
 }
 
-/// "write 2.03 with a point; " for 2,03; else nothing.
+/// Returns "write 2.03 with a point; " for 2,03; else an empty text.
 std::string decimal_comma_words(std::string text) {
   const std::size_t comma = text.find(',');
   if (comma == std::string::npos) return "";
@@ -46,7 +46,7 @@ std::string decimal_comma_words(std::string text) {
   return parse_number(text) ? fmt::format("write {} with a point{}; ", text, thousands_words(text, whole)) : "";
 }
 
-/// "write 0.5189 for AWG 20; " where a section is a wire gauge; else nothing.
+/// Returns "write 0.5189 for AWG 20; " if the value is a wire gauge instead of a section; else an empty text.
 std::string gauge_words(const std::string& text, Fields::Key key) {
   const bool is_gauge =
       unit_of_key(key).suffix == "mm2" && (text.starts_with("AWG") || text.starts_with("awg"));
@@ -95,7 +95,7 @@ class FieldReader final : public Fields {
     levels_.emplace_back().map = &root;
   }
 
-  /// Unknown or missing keys of the root.
+  /// Adds a problem for each unknown or missing key of the root.
   void finish() { close(levels_.back()); }
 
   void text(Key key, std::string& value, Need need, std::string_view meaning) override {
@@ -164,8 +164,8 @@ class FieldReader final : public Fields {
     std::string written;
     text(key, written, need, meaning);
     if (written.empty()) return;
-    // Absolute, because a job may be used from another folder. What is stored relative to a folder was seen from
-    // where that is behind links.
+    // The path is absolute, because a job may be used from another folder. A relative path is relative to the folder behind all
+    // links.
     std::filesystem::path folder = folder_of(levels_.back().map->find(key)->where);
     if (!folder.empty()) folder = std::filesystem::weakly_canonical(folder);
     value = std::filesystem::absolute(folder / written).lexically_normal();
@@ -245,9 +245,9 @@ class FieldReader final : public Fields {
   struct Level {
     const Node* map = nullptr;
     const Node* list = nullptr;
-    bool passed_over = false;        ///< it was refused as a whole
-    std::string path;                ///< of the map, for messages: "dresspack.components[2]"
-    std::vector<std::string> known;  ///< keys described so far
+    bool passed_over = false;        ///< the map was refused as a whole
+    std::string path;                ///< path of the map, for messages: "dresspack.components[2]"
+    std::vector<std::string> known;  ///< keys that were described up to now
     struct MissingKey {
       std::string key, meaning;
     };
@@ -258,18 +258,18 @@ class FieldReader final : public Fields {
     throw InputError(node.where, what, "give " + named(meaning));
   }
 
-  /// The first sentence, within another one: "the outer diameter of the hose".
+  /// Returns the first sentence of a meaning for use in another sentence: "the outer diameter of the hose".
   static std::string named(std::string_view meaning) {
     const std::size_t end = meaning.find(". ");
     std::string first(meaning.substr(0, end));
     if (first.ends_with('.')) first.pop_back();
-    if (first.size() > 1 && std::islower(static_cast<unsigned char>(first[1])))  // else a symbol, such as E
+    if (first.size() > 1 && std::islower(static_cast<unsigned char>(first[1])))  // not for a symbol, such as E
       first[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(first[0])));
     return first;
   }
 
-  /// Calls `take` with the key's value, if the map has one that was not refused. An exception of take is a problem of
-  /// this key.
+  /// Calls `take` with the value of the key if the map has it and it was not refused. An exception of `take` is a problem of this
+  /// key.
   template <class Take>
   void read(Key key, Need need, std::string_view meaning, const Take& take) {
     Level& level = levels_.back();
@@ -290,7 +290,7 @@ class FieldReader final : public Fields {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
   }
 
-  /// word: that may stand instead; empty: none.
+  /// Returns the number in a node. word: the word that is allowed instead; empty: none.
   double number_of(const Node& node, Key key, Range range, std::string_view meaning,
                    std::string_view word = "") const {
     const std::optional<double> value =
@@ -322,7 +322,7 @@ class FieldReader final : public Fields {
     return *value;
   }
 
-  /// ", or 1.34 if 1340 is in millimetres": of lengths in metres that are too large; else nothing.
+  /// Returns ", or 1.34 if 1340 is in millimetres" for a length in metres that is too large; else an empty text.
   static std::string in_millimetres(double value, const Unit& unit) {
     constexpr double per_metre = 1e3;
     return unit.name == "m" && std::abs(value) > unit.most && std::abs(value) <= per_metre * unit.most
@@ -339,7 +339,7 @@ class FieldReader final : public Fields {
                      "give " + named(meaning));
   }
 
-  /// The key that is meant by an unknown one; empty: none is near.
+  /// Returns the key that an unknown key probably means; empty if none is near.
   std::string likely_key(const Level& level, const Entry& unknown, std::string& remedy) const {
     const std::optional<double> value =
         unknown.value.is_scalar() ? parse_number(unknown.value.text) : std::nullopt;
@@ -356,7 +356,7 @@ class FieldReader final : public Fields {
                             : fmt::format("its unit is {}, write '{}'", unit, known);
       return known;
     }
-    // Another kind of unit: mass_g for mass_kg_per_m.
+    // The unit is of another kind: mass_g for mass_kg_per_m.
     for (const std::string& known : level.known)
       if (const std::string stem(stem_of_key(known));
           stem.size() < known.size() && unknown.key.starts_with(stem + "_")) {
@@ -369,7 +369,7 @@ class FieldReader final : public Fields {
     return nearest;
   }
 
-  /// A key that is there under a wrong name is not missing.
+  /// Adds a problem for each unknown or missing key. A key with a wrong name does not count as missing.
   void close(const Level& level) {
     if (level.passed_over) return;
     const auto path_of = [&](const std::string& key) {
@@ -380,7 +380,7 @@ class FieldReader final : public Fields {
       if (std::find(level.known.begin(), level.known.end(), entry.key) != level.known.end()) continue;
       std::string remedy;
       std::string likely = likely_key(level, entry, remedy);
-      // "{percent_of_time: 12,5}": YAML takes the comma for the end of the value.
+      // In "{percent_of_time: 12,5}", YAML takes the comma as the end of the value.
       if (const Entry* const before = &entry == &level.map->entries.front() ? nullptr : &entry - 1;
           before && entry.value.kind == Node::Kind::null && entry.key.find_first_not_of("0123456789") == std::string::npos &&
           !before->value.text.empty() && before->value.text.find_first_not_of("-0123456789") == std::string::npos)
@@ -511,7 +511,7 @@ class FieldEcho final : public Fields {
   void put(Key key, Node value) { levels_.back()[key] = std::move(value); }
   const PathText& path_text_;
   std::vector<Node> levels_;       ///< open maps and lists, outermost first
-  std::vector<std::string> keys_;  ///< under which each of them goes into the one before
+  std::vector<std::string> keys_;  ///< key of each open map or list in the map around it
 };
 // ---- manual -----------------------------------------------------------------------------------------------
 
@@ -581,7 +581,7 @@ class KeyLister final : public Fields {
   }
 
   bool enter(Key key, Need need, bool, std::string_view meaning, const char* type) override {
-    // A written map is a file that a user may name: its key stays in the manual, and its keys do not.
+    // A written map is a file that a user may name. The manual lists the map's own key, but not its keys.
     const bool listed = need != Need::written && map_of(type).empty();
     row(key, need == Need::required ? Need::required : Need::optional, "map", "none",
         std::string(meaning) + reference(type));
@@ -596,7 +596,7 @@ class KeyLister final : public Fields {
     if (listed) open(path_of(key, "[]"), type);
     return listed ? 1 : 0;
   }
-  // The one item of a list leaves the map that enter_list() has opened.
+  // Each enter_list() has one leave(), which closes the map of its only item.
   void enter_item(std::size_t) override {}
   void leave_list() override {}
 
@@ -613,7 +613,7 @@ class KeyLister final : public Fields {
                         need == Need::required ? "required" : fallback, std::string(meaning)});
   }
 
-  /// The map that lists the keys of this type; empty: none yet.
+  /// Returns the path of the map that lists the keys of this type; empty if no map lists them yet.
   std::string map_of(const std::string& type) const {
     const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const Map& map) { return map.type == type; });
     return found == maps_.end() ? "" : found->path;
@@ -634,12 +634,12 @@ class KeyLister final : public Fields {
   }
 
   std::vector<Map> maps_;          ///< in the order of opening
-  std::vector<std::size_t> open_;  ///< their places, outermost first
+  std::vector<std::size_t> open_;  ///< indices of the open maps, outermost first
 };
 
 }  // namespace
 
-// ---- the three walks --------------------------------------------------------------------------------------
+// ---- the three visits -------------------------------------------------------------------------------------
 
 void read_fields(const Node& node, const Describe& described) {
   Problems problems;

@@ -1,14 +1,14 @@
-// Describe a settings struct once; read, check, echo and document it from that.
+// Settings structures: one describe() of a structure is used to read, check, echo and document it.
 //
 //   void describe(Fields& f, Hose& hose) {
 //     f.number("diameter_mm", hose.diameter, Need::required, above(0), "The outer diameter.");
 //   }
 //
-// The unit is the end of the key (units.h). What a struct holds before it is described is its default. Three
-// visitors walk the same describe(): read_fields() from a document, echo_fields() to one, key_rows() to the
-// manual. A meaning is made of whole sentences. Its first sentence names the value, and messages print it after
-// "give". A key without a description, a missing or non-finite value and a value outside its range are problems
-// with place, reason and remedy. A reader continues after a problem and reports all of them.
+// The unit is the end of the key (units.h). The default is the value in the struct before it is described. Three visitors use the
+// same describe(): read_fields() reads a document, echo_fields() writes one, key_rows() makes the manual. A meaning consists of
+// whole sentences. Its first sentence names the value; messages print it after "give". An unknown key, a missing or non-finite
+// value and a value outside its range are problems, with place, reason and remedy. A reader continues after a problem and reports
+// all of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@
 
 namespace dresslife::pipeline {
 
-/// written: optional, and only our programs write it. The manual leaves out the key, or the keys of a map.
+/// written: optional, and only programs of this project write it. The manual omits the key, or the keys of a map.
 enum class Need { required, optional, written };
 
 /// Allowed values, in the unit of the key.
@@ -47,9 +47,9 @@ class Fields {
  public:
   virtual ~Fields() = default;
   using Key = std::string_view;
-  using Words = std::vector<std::string_view>;  ///< of a choice, in the order of the enum's values
+  using Words = std::vector<std::string_view>;  ///< words of a choice, in the order of the enum's values
 
-  /// The words of an enumeration that counts from 0: its word() is empty beyond the last value.
+  /// Returns the words of an enumeration that counts from 0. Its word() is empty beyond the last value.
   template <class Enum>
   static Words words_of() {
     Words words;
@@ -61,7 +61,7 @@ class Fields {
   virtual void text(Key key, std::string& value, Need need, std::string_view meaning) = 0;
   virtual void number(Key key, double& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void maybe_number(Key key, std::optional<double>& value, Range range, std::string_view meaning) = 0;
-  /// A number, or this word: then by_word is set and the value stays.
+  /// Reads a number, or this word. For the word, `by_word` becomes true and the value does not change.
   virtual void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need,
                               Range range, std::string_view meaning) = 0;
   virtual void integer(Key key, int& value, Need need, Range range, std::string_view meaning) = 0;
@@ -70,19 +70,19 @@ class Fields {
   virtual void numbers(Key key, std::vector<double>& values, Need need, std::string_view meaning) = 0;
   /// A file, relative to the folder of the document that names it.
   virtual void path(Key key, std::filesystem::path& value, Need need, std::string_view meaning) = 0;
-  /// Where the map being read begins.
+  /// Gets the place at which the current map begins.
   virtual void place(Where& where) = 0;
-  /// Where the value of this key stands; nothing without the key.
+  /// Gets the place of this key's value; does not change `where` if the key is missing.
   virtual void place_of(Key key, Where& where) = 0;
 
-  /// One of an enumeration that has a word() for each of its values.
+  /// Reads one value of an enumeration that has a word() for each value.
   template <class Enum>
   void choice(Key key, Enum& value, std::string_view meaning) {
     int index = static_cast<int>(value);
     choose(key, index, words_of<Enum>(), meaning);
     value = static_cast<Enum>(index);
   }
-  /// One word, or a list of words.
+  /// Reads one word, or a list of words.
   template <class Enum>
   void choices(Key key, std::vector<Enum>& values, std::string_view meaning) {
     std::vector<int> indices;
@@ -130,24 +130,24 @@ class Fields {
 /// A function that describes a struct: it calls Fields once for each key.
 using Describe = std::function<void(Fields&)>;
 
-/// From a document's map. Errors: see above; all at once.
+/// Reads a struct from a map. Errors: InputErrors with all problems (see the file head).
 void read_fields(const Node& node, const Describe& described);
-/// The same among other problems: keys that they refused are passed over, and its own are added to them. A
-/// value that is refused leaves what it was before.
+/// Reads a struct and adds its problems to `problems`. Skips keys that `problems` has refused already. A refused value does not
+/// change the struct.
 void read_fields(const Node& node, const Describe& described, Problems& problems);
-/// How a file is written into a document; without it by its absolute path.
+/// Returns the text of a file path in a document. Without this function, paths are written as absolute paths.
 using PathText = std::function<std::string(const std::filesystem::path&)>;
-/// To a map, with defaults filled in.
+/// Writes a struct to a map, including defaults.
 Node echo_fields(const Describe& described, const PathText& path_text = {});
-/// One key in the manual.
+/// A key in the manual.
 struct KeyRow {
-  std::string map;  ///< that holds the key: "routing.base_clamp", "motion.steps[]"; of the root its title
+  std::string map;  ///< that contains the key: "routing.base_clamp", "motion.steps[]"; for the root its title
   std::string key, unit, allowed, fallback, meaning;
 };
-/// All keys, map by map in the order of their description; `title` names the root. The keys of a struct that stands in
-/// several places are in the first of them, and the other places refer to it.
+/// Returns all keys, map by map in the order of their description; `title` names the root. If a struct is in several places, its
+/// keys are listed at the first place, and the other places refer to it.
 std::vector<KeyRow> key_rows(const std::string& title, const Describe& described);
-/// A Markdown table per map, each under a heading.
+/// Returns a Markdown table for each map, with a heading.
 std::string key_tables(const std::vector<KeyRow>& rows);
 
 template <class T>
@@ -166,7 +166,7 @@ std::vector<KeyRow> key_rows(const std::string& title) {
   return key_rows(title, Describe([&](Fields& f) { describe(f, value); }));
 }
 
-/// The word nearest to `word` by edit distance; empty when none is near.
+/// Returns the word nearest to `word` by edit distance; empty if none is near.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words);
 
 }  // namespace dresslife::pipeline

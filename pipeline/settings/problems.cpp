@@ -6,7 +6,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Nobody reads more. Those of a million wrong steps would be longer than their file.
+/// More problems are not useful to a reader. The messages for a million wrong steps would be longer than their file.
 constexpr std::size_t most_problems = 100;
 
 std::string lines_of(const std::vector<Problem>& problems) {
@@ -15,7 +15,7 @@ std::string lines_of(const std::vector<Problem>& problems) {
   return text;
 }
 
-/// Whether the path `inner` is `outer` or leads into it: "routing.rings[2]" into "routing".
+/// Returns whether the path `inner` is equal to `outer` or inside of it: "routing.rings[2]" is inside of "routing".
 bool lies_in(std::string_view inner, std::string_view outer) {
   return inner.starts_with(outer) &&
          (inner.size() == outer.size() || inner[outer.size()] == '.' || inner[outer.size()] == '[');
@@ -50,7 +50,7 @@ bool Problems::touch(const std::string& key) const {
 
 void Problems::finish(const std::string& first_file) const {
   if (problems_.empty()) return;
-  std::vector<std::string> files{first_file};  // in the order in which they were met
+  std::vector<std::string> files{first_file};  // in the order of their first problem
   for (const Problem& problem : problems_)
     if (std::find(files.begin(), files.end(), problem.where.file) == files.end())
       files.push_back(problem.where.file);

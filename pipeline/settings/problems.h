@@ -1,9 +1,8 @@
-// All that is wrong with what a user wrote, at once: readers and checks add to it and go on, and the last of
-// them throws the whole as one InputError, a line for each, in the order of the file.
+// Collects all errors in a user's input. Readers and checks add problems and continue. At the end, finish() throws all problems
+// as one InputErrors, one line each, in the order of the file.
 //
-// What follows from a mistake is no mistake: a problem notes the key that it is of ("routing.free_length_m"),
-// a reader passes over a key that was refused before, and a check asks touch() whether what it judges was
-// read.
+// Consequences of an error are not reported: a problem notes its key ("routing.free_length_m"), a reader skips keys that were
+// refused before, and a check calls touch() to find out whether its input was refused.
 #pragma once
 
 #include <set>
@@ -16,11 +15,11 @@ namespace dresslife::pipeline {
 
 struct Problem {
   Where where;
-  std::string key;   ///< path of the key that has no value for it; empty: all keys have theirs
+  std::string key;   ///< path of the key whose value was refused; empty: all keys have values
   std::string line;  ///< "WHERE: error: WHAT; REMEDY"
 };
 
-/// An InputError that may tell of several problems: what() has a line for each.
+/// An InputError with one or several problems: what() has a line for each.
 class InputErrors final : public InputError {
  public:
   explicit InputErrors(std::vector<Problem> problems);
@@ -37,8 +36,8 @@ class Problems {
   void add(const Where& where, const std::string& what, const std::string& remedy,
            const std::string& key = "");
 
-  /// Calls what may throw an InputError; what it throws is noted as of the key, at its own place or, where
-  /// that lies in no line that is known, at this one. Returns whether it threw nothing.
+  /// Calls `act`, which may throw InputError, and adds its problems under `key`. A problem without a known line gets the place
+  /// `where`. Returns whether `act` threw nothing.
   template <class Act>
   bool attempt(const std::string& key, const Where& where, const Act& act) {
     try {
@@ -53,22 +52,22 @@ class Problems {
   }
 
   const std::set<std::string>& keys() const { return keys_; }  ///< that were refused
-  /// Whether a value of this key, at it, in it or around it, was refused: "routing" by
+  /// Returns whether the value of this key, a value in it or a value around it was refused: "routing" is touched by
   /// "routing.free_length_m".
   bool touch(const std::string& key) const;
 
-  /// Throws all of them as InputErrors, those in this file first and each file's by line and column; nothing
-  /// where there are none.
+  /// Throws all problems as InputErrors: those of `first_file` first, those of each file by line and column. Does nothing without
+  /// problems.
   void finish(const std::string& first_file = "") const;
 
  private:
-  void note(Problem problem);  ///< the same line twice is one problem
+  void note(Problem problem);  ///< two equal lines are one problem
   std::vector<Problem> problems_;
   std::set<std::string> keys_;
-  bool more_ = false;  ///< problems than are kept
+  bool more_ = false;  ///< there are more problems than are stored
 };
 
-/// The lines of an InputError's words: one for each problem.
+/// Returns the lines of an InputError's message, one for each problem.
 std::vector<std::string> problem_lines(const std::string& words);
 
 }  // namespace dresslife::pipeline

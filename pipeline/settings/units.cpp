@@ -13,7 +13,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A unit that no key has, and the value of one of it in a unit of keys.
+/// A unit that no key has. One of it is `factor` in the unit `known`.
 struct ForeignUnit {
   std::string_view suffix, known;
   double factor;
@@ -29,7 +29,7 @@ constexpr ForeignUnit foreign_units[] = {
     {"N_per_mm2", "MPa", 1}, {"1_per_mm", "1_per_m", 1e3},
     {"days", "hours", 24},  {"years", "hours", 8760}};
 
-/// Length, time, ...: units of one kind have the same base. Empty: of a kind of its own.
+/// Returns the base unit of a kind, such as length or time. Empty: no other unit is of this kind.
 std::string_view base_of(std::string_view suffix) {
   struct Kind {
     std::string_view suffix, base;
@@ -74,7 +74,7 @@ constexpr std::array units{
     Unit{"MB", "MB", 1e6, 1e7},
     Unit{"percent", "%", 1, 1e6},
     Unit{"hours_per_week", "h/week", 1, 168},
-    Unit{"hours", "h", 1, 1e7},  // as hours everywhere: a thousand years
+    Unit{"hours", "h", 1, 1e7},  // a thousand years; the limit of every time in hours
 };
 
 }  // namespace
@@ -140,12 +140,12 @@ Meant meant_length(std::string_view key, double value, double low, double high) 
 std::string shortest_text(double value) { return fmt::format("{}", value); }
 
 std::string text_in_unit(double si, const Unit& unit) {
-  // A value that came from text is x * to_si for some short x, of which si / to_si is within two
-  // roundings, 2.3e-16. Decimals of up to 15 digits lie 1e-15 and more apart: such an x is the nearest of
-  // them. Of more digits it is one of the roundings of the quotient's neighbours.
+  // A value from a text is x * to_si for a decimal x with few digits. Then si / to_si differs from x by at most two roundings,
+  // 2.3e-16 relative. Decimals of up to 15 digits are at least 1e-15 apart, so x is the nearest one. A longer x is a rounded
+  // value of the quotient or of one of its neighbours.
   using Limits = std::numeric_limits<double>;
   const double near = si / unit.to_si;
-  // Most are the quotient itself, and tell so by being short.
+  // For most values, x is the quotient itself; then its text is short.
   if (std::string text = shortest_text(near);
       near * unit.to_si == si && (unit.to_si == 1 || text.size() <= Limits::digits10))
     return text;

@@ -47,7 +47,7 @@ struct Adder {
   CLI::Option* added(Value& value) const {
     return app.add_option(option.names, value, option.meaning);
   }
-  /// Refuses what is outside the range, and what is not finite.
+  /// Refuses numbers outside of the range, and non-finite ones.
   template <class Number>
   CLI::Option* within(CLI::Option* number) const {
     const auto& range = option.rules.range;
@@ -88,8 +88,8 @@ void add_manual(CLI::App& app, const Command& program, const Option& manual) {
       ->trigger_on_parse();
 }
 
-/// The command whose name is nearest to the first word of a command line; empty: the word is a command, an option, or
-/// like none.
+/// Returns the command whose name is nearest to the first word of a command line. Empty: the word is a command or an option, or
+/// no name is near.
 std::string meant_command(const Command& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return "";
   std::vector<std::string> names;
@@ -98,8 +98,8 @@ std::string meant_command(const Command& program, int argc, char** argv) {
   return nearest_word(argv[1], names);
 }
 
-/// "'--trial' is no option of improve; did you mean '--trials'?" for the first that is like one, or a number behind an option that takes
-/// none; empty: neither.
+/// Returns "'--trial' is no option of improve; did you mean '--trials'?" for the first unknown option with a similar name, or a
+/// message for a number behind a flag. Empty: there is neither.
 std::string meant_option(const Command& program, int argc, char** argv) {
   const auto called =
       std::find_if(program.commands.begin(), program.commands.end(),
@@ -115,7 +115,7 @@ std::string meant_option(const Command& program, int argc, char** argv) {
     if (const std::string near = nearest_word(word, names); !near.empty())
       return fmt::format("'{}' is no option of {}; did you mean '{}'?\n", shown(word), command.name, near);
   }
-  // "run -n 2": a number behind an option that takes none.
+  // In "run -n 2", a number follows a flag.
   for (int k = 2; k < argc; ++k)
     for (const Option& option : command.options)
       if (std::holds_alternative<bool*>(option.target) && number_in(argv[k]) && (',' + option.names + ',').find(fmt::format(",{},", argv[k - 1])) != std::string::npos)

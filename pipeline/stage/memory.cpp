@@ -25,7 +25,7 @@ std::string shown_megabytes(double megabytes) {
 }
 
 double row_bytes(const Dataset& dataset, const std::map<std::string, std::size_t>& axes) {
-  constexpr double text = 64;  // a path of names; few are longer
+  constexpr double text = 64;  // for a path of names; few are longer
   double bytes = dataset.type == Type::text                               ? text
                  : dataset.type == Type::f64 || dataset.type == Type::u64 ? 8
                                                                           : 4;
@@ -41,7 +41,7 @@ double row_bytes(const Dataset& dataset, const std::map<std::string, std::size_t
   return bytes;
 }
 
-/// A number that a line of a file begins with, or that follows `key` in it.
+/// Returns the number at the start of a file's first line, or behind `key` in the first line that starts with `key`.
 std::optional<double> number_in(const std::filesystem::path& file, const std::string& key = "") {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
@@ -53,11 +53,11 @@ std::optional<double> number_in(const std::filesystem::path& file, const std::st
   return std::nullopt;
 }
 
-/// What the control group that a container runs in leaves [bytes]; files that are kept in memory can go.
+/// Returns the rest of the control group of a container [bytes]. Cached files count as free.
 std::optional<double> left_in_group() {
   const std::filesystem::path group = "/sys/fs/cgroup";
   const auto most = number_in(group / "memory.max"), now = number_in(group / "memory.current");
-  if (!most || !now) return std::nullopt;  // "max", or none
+  if (!most || !now) return std::nullopt;  // "max", or no control group
   return *most - *now + number_in(group / "memory.stat", "inactive_file ").value_or(0);
 }
 
@@ -88,8 +88,8 @@ std::string MemoryNeed::largest() const {
 std::string MemoryNeed::remedy() const { return most() ? most()->remedy : ""; }
 
 double file_buffers(const Format& format, const std::map<std::string, std::size_t>& axes) {
-  constexpr double cache = 1 << 20, on_its_way = 2 << 16;  // the library's default, and twice a chunk of ours
-  constexpr double packed = 3 * (4 << 15);                 // a chunk of numbers, packed and on its way
+  constexpr double cache = 1 << 20, on_its_way = 2 << 16;  // the default of the library, and two chunks of this project
+  constexpr double packed = 3 * (4 << 15);                 // a chunk of numbers, packed and unpacked
   double bytes = 0;
   for (const Dataset& dataset : format.datasets) {
     const auto rows = axes.find(dataset.shape[0]);
@@ -122,7 +122,7 @@ namespace {
 }  // namespace
 
 void require_memory(const StageCall& call, const MemoryNeed& need, Progress& progress) {
-  constexpr double worth_a_word = 0.125;  // of the machine's: a person need not hear of less
+  constexpr double worth_a_word = 0.125;  // share of the machine's memory; smaller needs are not printed
   const double megabytes = need.megabytes(), machine = static_cast<double>(installed_memory_mb());
   if (call.limits.megabytes > 0 && megabytes > static_cast<double>(call.limits.megabytes))
     refuse(call, need, fmt::format("--job-memory allows {} MB", call.limits.megabytes), "allow more");
@@ -133,7 +133,7 @@ void require_memory(const StageCall& call, const MemoryNeed& need, Progress& pro
       fmt::format("note: takes about {} of memory{}", shown_megabytes(megabytes),
                   need.largest().empty() ? "" : fmt::format(", {} of it", need.largest()));
   if (call.of_a_study)
-    tell(words + "\n");  // into the stage's log
+    tell(words + "\n");  // into the log of the stage
   else if (megabytes > worth_a_word * machine)
     progress.note(words);
   limit_memory(call.limits.megabytes);

@@ -1,10 +1,10 @@
-// The memory that a stage's job will take, estimated and checked before time is spent on the job.
+// Estimates the memory of a stage's job, and checks it before the stage computes anything.
 //
-// A stage adds up what grows with its job, from sizes that it knows before it begins. The sum is noted, and a
-// job that cannot have it is refused: a program that the kernel kills can give no reason.
+// A stage adds the amounts that grow with its job, from sizes that it knows at its start. The sum is printed, and a job that
+// needs more memory than is available is refused: a program that the kernel kills cannot print a reason.
 //
-// The sum leaves out the allocator's rounding, freed memory that it keeps and the HDF5 library's tables. They
-// are of the size of the rest, so an estimate is good within `memory_factor`, either way.
+// The sum does not contain the allocator's rounding, freed memory that the allocator keeps, and the tables of the HDF5 library.
+// They are of the size of the rest, so the estimate is correct within `memory_factor` in both directions.
 #pragma once
 
 #include <map>
@@ -18,18 +18,18 @@ struct Format;
 struct StageCall;
 class Progress;
 
-/// Of the estimate over the measured peak and of the peak over the estimate, at most.
+/// Largest ratio of the estimate to the measured peak, and of the peak to the estimate.
 inline constexpr double memory_factor = 2;
 
 class MemoryNeed {
  public:
-  /// what: "histories of 12 segments"; remedy: the keys that make it smaller, empty where none does.
+  /// what: "histories of 12 segments"; remedy: the keys that reduce this amount, empty if there are none.
   void add(double bytes, std::string what, std::string remedy = "");
   double bytes() const;
   double megabytes() const { return bytes() / (1 << 20); }
-  /// The largest part that a key makes smaller: "histories of 12 segments 34 MB". Empty: nothing does.
+  /// Returns the largest amount that a key can reduce: "histories of 12 segments 34 MB". Empty: there is none.
   std::string largest() const;
-  std::string remedy() const;  ///< of that part
+  std::string remedy() const;  ///< for that amount
 
  private:
   struct Share {
@@ -40,16 +40,16 @@ class MemoryNeed {
   std::vector<Share> shares_;
 };
 
-/// Held while a file of this format is written or read, whose axes have these lengths: rows on their way, and
-/// the library's cache of chunks. Axes that are not named count as 0.
+/// Returns the memory [bytes] for writing or reading a file of this format with these lengths of axes: buffered rows, and the
+/// library's cache of chunks. Missing axes count as 0.
 double file_buffers(const Format& format, const std::map<std::string, std::size_t>& axes);
 
-/// Memory that programs could still take without another one's being moved out [MB]: the machine's, or what
-/// the control group leaves of it. Nothing where the system does not tell.
+/// Returns the memory that programs can still use without swapping [MB]: that of the machine, or the rest of the control group if
+/// it is less. std::nullopt if the system does not report it.
 std::optional<double> free_memory_mb();
 
-/// Notes what the job needs. Errors: InputError, at the call's input, for a job that needs more than
-/// --job-memory allows or than is free.
+/// Prints the memory that the job needs. Errors: InputError at the call's input for a job that needs more than --job-memory or
+/// the free memory.
 void require_memory(const StageCall& call, const MemoryNeed& need, Progress& progress);
 
 }  // namespace dresslife::pipeline

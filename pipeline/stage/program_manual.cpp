@@ -15,17 +15,17 @@ using Words = std::vector<std::string>;
 
 bool is_argument(const Option& option) { return !option.names.starts_with('-'); }
 
-/// Empty for an argument whose meaning is one word: that word is its name.
+/// Returns the meaning of an option. Empty for an argument whose meaning is one word, because this word is its name.
 std::string meaning_of(const Option& option) {
   return is_argument(option) && option.meaning.find(' ') == std::string::npos ? "" : option.meaning;
 }
 
-/// With those that every program has.
+/// Returns the options, including those that every program has.
 std::vector<Option> all_options(const Command& command, bool is_program) {
   return joined({{help_option()}, command.options, is_program ? last_options(command) : std::vector<Option>{}});
 }
 
-/// "-o,--output" as its two names; of an argument the word that stands for it.
+/// Returns the two names of "-o,--output"; for an argument, the word that names it.
 Words names_of(const Option& option) {
   if (is_argument(option)) return {meaning_of(option).empty() ? option.meaning : option.names};
   const std::size_t comma = option.names.find(',');
@@ -57,7 +57,7 @@ std::string man_synopsis(const std::string& words, const Command& command) {
 std::string man_options(const std::vector<Option>& options) {
   std::string text;
   for (const Option& option : options) {
-    if (is_argument(option) && meaning_of(option).empty()) continue;  // its name is enough
+    if (is_argument(option) && meaning_of(option).empty()) continue;  // the list of arguments shows its name already
     std::string names;
     for (const std::string& name : names_of(option))
       names += fmt::format("{}\\f{}{}\\fR", names.empty() ? "" : ", ", is_argument(option) ? 'I' : 'B',
@@ -94,7 +94,7 @@ seen from the program's folder: the catalogue of robots, programs, dresspacks, m
 seen from there: what every key means, and what every file holds
 )";
 
-/// As a list of programs has it: "simulates how ...", without an end.
+/// Returns a purpose in the form of a list of programs: "simulates how ...", without a full stop.
 std::string in_short(std::string purpose) {
   if (purpose.ends_with('.')) purpose.pop_back();
   if (!purpose.empty()) purpose[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(purpose[0])));
@@ -122,7 +122,7 @@ std::string man_page(const Command& program) {
 
 // ---- bash -------------------------------------------------------------------------------------------------
 
-/// Cases of `case "$level" in` and of `case "$level $before" in` for a program or a command.
+/// Adds the cases of `case "$level" in` and of `case "$level $before" in` for a program or a command.
 void add_bash_cases(const std::string& level, const Command& command, bool is_program, std::string& options,
                     std::string& values) {
   Words names, words;
@@ -154,7 +154,7 @@ std::string bash_completion(const Command& program) {
     [[ ${COMP_WORDS[k]} == -* ]] || { level+=" ${COMP_WORDS[k]}" && break; }
   done
 )";
-  // Where no word is offered, bash completes file names (-o default).
+  // If no word is offered, bash completes file names (-o default).
   return fmt::format(R"(# Completion of {0} for bash, made from its own options.
 {1}() {{
   local k level={0} options= words= word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}}
@@ -172,7 +172,7 @@ complete -o default -F {1} {0}
 
 // ---- zsh --------------------------------------------------------------------------------------------------
 
-/// Inside '...' and inside the [...] or between the : of a specification.
+/// Escapes a text for '...' and for the [...] or the parts between : of a specification.
 std::string zsh_text(const std::string& text) {
   std::string escaped = replaced(text, '\'', "'\\''");
   for (const char special : {'[', ']', ':'})
@@ -187,7 +187,7 @@ std::string zsh_value(const Option& option, const std::string& what) {
   return fmt::format(":{}:{}", zsh_text(what), action);
 }
 
-/// The words after `_arguments`, one line each.
+/// Returns the words behind `_arguments`, one per line.
 std::string zsh_options(const std::vector<Option>& options, const std::string& indent) {
   std::string text;
   for (const Option& option : options) {

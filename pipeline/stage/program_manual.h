@@ -1,4 +1,4 @@
-// The man page and the shell completions of a program, from the tables with which it reads its command line.
+// Man page and shell completions of a program, from the tables of its command line.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace dresslife::pipeline {
 
-/// What program_manual() can write: "man" (troff, section 1), "bash" and "zsh" (completions).
+/// Returns the kinds that program_manual() can write: "man" (troff, section 1), "bash" and "zsh" (completions).
 const std::vector<std::string>& manual_kinds();
 
-/// kind: one of manual_kinds().
+/// Returns the text. kind: one of manual_kinds().
 std::string program_manual(const Command& program, const std::string& kind);
 
 }  // namespace dresslife::pipeline

@@ -37,11 +37,11 @@ const char* part_name(JobPart part) {
   return "";
 }
 
-/// What only the command line of a stage says.
+/// Options that only the command line of a stage has.
 struct StageFlags {
   bool force = false;
   std::filesystem::path receipt;
-  std::filesystem::path likes;  ///< names the folders of jobs to which this output belongs, too, line by line
+  std::filesystem::path likes;  ///< file with the folders of further jobs that this output belongs to, one per line
 };
 
 void check_output(const StageCall& call, const StageFlags& flags) {
@@ -55,7 +55,7 @@ void check_output(const StageCall& call, const StageFlags& flags) {
   check_replaceable(call.output);
 }
 
-/// Of the file behind links: inputs may lie anywhere.
+/// Returns the state of the file behind all links, because inputs may be in any folder.
 FileState input_state(const std::filesystem::path& file) {
   std::error_code failure;
   const std::filesystem::path target = std::filesystem::canonical(file, failure);
@@ -63,8 +63,8 @@ FileState input_state(const std::filesystem::path& file) {
   return failure ? FileState{} : state_of(target);
 }
 
-/// Two changes within one tick of the clock of file times have the same state: of a file that was changed so
-/// lately, or by a clock that ran ahead, the bytes count.
+/// Two changes in one tick of the file system's clock have the same state. So if a file was changed very recently, or in the
+/// future, its bytes are compared.
 StageInput input_as_it_is(const std::filesystem::path& file) {
   if (kind_of(file) == FileKind::other) PlainFile{file};  // refuses it
   note_input(file);
@@ -76,7 +76,7 @@ StageInput input_as_it_is(const std::filesystem::path& file) {
   return {file, state, stored_checksum(file), young};
 }
 
-/// A file that only another name of it was given or taken has other times, and the same bytes.
+/// A file that got or lost another name (hard link) has another change time, but the same bytes.
 bool is_unchanged(const StageInput& input) {
   FileState now = input_state(input.file);
   if (now == input.state) return !input.young || stored_checksum(input.file) == input.checksum;
@@ -119,7 +119,7 @@ Command command_of(const StageInfo& info, StageCall& call, StageFlags& flags) {
   return {.name = info.program, .purpose = info.purpose, .options = options, .example = info.example};
 }
 
-/// The settings that this stage's result depends on, and the files beside them.
+/// The settings on which the stage's result depends, and the files beside the job.
 struct Settings {
   std::string text;
   std::vector<std::filesystem::path> files;
@@ -148,7 +148,7 @@ const Format& format_of_output(JobPart part) {
   return part == JobPart::sim ? motion_format() : part == JobPart::strain ? strain_format() : life_format();
 }
 
-/// A log contains the warnings of its stage, too, where the output is from an earlier run.
+/// Prints the warnings of the stage into the log also if the output is from an earlier run.
 void say_known_warnings(const StageCall& call) {
   std::vector<Warning> before;
   if (*call.info.part != JobPart::sim) {
@@ -162,8 +162,8 @@ void say_known_warnings(const StageCall& call) {
     if (std::find(before.begin(), before.end(), warning) == before.end()) say(call, silent, warning);
 }
 
-/// Jobs of a study that are alike up to here get what one of them made, each under its own name. The names
-/// come before the receipts, as each changes what the file system states of the file.
+/// Gives the output to the jobs of a study that are equal up to this stage, by a second name for each. The names are made before
+/// the receipts, because each new name changes the state of the file.
 void give_to_likes(const StageCall& call, const StageFlags& flags, const Receipt& receipt) {
   if (flags.likes.empty()) return write_receipt(flags.receipt, receipt, call.output);
   const std::filesystem::path name = call.output.filename(),
@@ -172,14 +172,14 @@ void give_to_likes(const StageCall& call, const StageFlags& flags, const Receipt
   std::istringstream lines(read_text(flags.likes));
   for (std::string line; std::getline(lines, line);) folders.push_back(line);
   for (const std::filesystem::path& folder : folders) {
-    remove_ours(folder / note);  // it is of a file that is about to go
+    remove_ours(folder / note);  // it describes a file that will be replaced
     give_second_name(call.output, folder / name);
   }
   write_receipt(flags.receipt, receipt, call.output);
   for (const std::filesystem::path& folder : folders) write_receipt(folder / note, receipt, folder / name);
 }
 
-/// Runs the body unless the receipt says that the output is made already.
+/// Runs the body unless the receipt shows that the output is up to date.
 void run_with_receipt(const StageCall& call, const StageFlags& flags, const Settings& settings,
                       const std::function<void()>& body) {
   Digests digests;
@@ -198,7 +198,7 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
     wanted.output = known->output;
     wanted.results = known->results;
   } else {
-    remove_ours(flags.receipt);  // it is of a file that is about to go
+    remove_ours(flags.receipt);  // it describes a file that will be replaced
     body();
     wanted.output = stored_checksum(call.output).value_or("damaged");
     if (call.info.results) wanted.results = call.info.results(call.output);
@@ -207,7 +207,7 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
   give_to_likes(call, flags, wanted);
 }
 
-/// Until a stage knows what its job takes (pipeline/stage/memory.h): its job and its input are read with this much.
+/// Memory limit until a stage knows the need of its job (pipeline/stage/memory.h). It is enough to read the job and the input.
 constexpr std::uint64_t enough_to_begin_mb = 64;
 
 void run_body(StageCall& call, const StageFlags& flags,
@@ -215,7 +215,7 @@ void run_body(StageCall& call, const StageFlags& flags,
   limit_time(call.info.program, call.limits.seconds);
   limit_memory(call.limits.megabytes > 0 ? std::max(call.limits.megabytes, enough_to_begin_mb) : 0);
   Progress progress(call.info.program, call.quiet);
-  const Sources documents;  // what is read for the receipt is what the stage works with, read once
+  const Sources documents;  // the receipt and the stage use the same text of a file, which is read once
   const auto watch = [&](const std::filesystem::path& file) { call.inputs.push_back(input_as_it_is(file)); };
   watch(call.input);
   if (!call.job_file.empty()) watch(call.job_file);
@@ -224,7 +224,7 @@ void run_body(StageCall& call, const StageFlags& flags,
   if (settings)
     for (const std::filesystem::path& file : settings->files) watch(file);
   check_output(call, flags);
-  if (!call.info.input_is_job)  // jobs are short
+  if (!call.info.input_is_job)  // job files are short
     call.input_sha256 = beside<std::string>([file = call.input] { return sha256_as_checked(file); }).share();
   if (flags.receipt.empty()) return body(call, progress);
   run_with_receipt(call, flags, *settings, [&] { body(call, progress); });
@@ -258,7 +258,7 @@ int finish_output(int status) {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good()) return status;
   if (errno != 0) note_failed_output(errno);
-  // Libraries print without a note of the reason: one more byte fails for the same one.
+  // Libraries do not store the reason of a failed write; writing one more byte fails with the same reason.
   if (output_error == 0 && ::write(STDOUT_FILENO, "\n", 1) < 0) note_failed_output(errno);
   tell(fmt::format("standard output: error: cannot be written{}; free space or name another place\n",
                    output_error == 0 ? "" : fmt::format(" ({})", std::strerror(output_error))));
@@ -295,7 +295,7 @@ int guarded(const std::string& program, const std::function<int()>& body) {
 
 namespace {
 
-/// Lines of a history: the files beside a job that its simulation reads, by their bytes.
+/// Lines of a history: the files beside a job that its simulation reads, with digests of their bytes.
 constexpr std::string_view reads = "\n  reads ";
 std::string files_read(const Job& job) {
   std::string lines;
@@ -305,7 +305,7 @@ std::string files_read(const Job& job) {
   return lines;
 }
 
-/// Those lines of a file's history; nothing of files by older programs.
+/// Returns these lines of a file's history; std::nullopt if it has none, for example in files of older programs.
 std::optional<std::string> files_read(const FileReader& file) {
   std::istringstream history(file.text_attribute("history"));
   std::string lines;
@@ -319,7 +319,7 @@ std::optional<std::string> files_read(const FileReader& file) {
 Job job_of(const StageCall& call, const FileReader& input, const std::vector<JobPart>& before) {
   const std::string own_text = input.text_attribute("job");
   const std::string own_name = input.where().file + " (attribute job)";
-  // In a study it is the same text, which need not be understood twice.
+  // In a study the two texts are equal, and parsing one is enough.
   if (!call.job_file.empty() && call.sets.empty() && without_mark(read_source(call.job_file)) == own_text)
     return read_job(call.job_file);
   const Job own = job_from(parse_yaml(own_text, own_name));
@@ -347,7 +347,7 @@ void note_warnings(FileWriter& file, const StageCall& call, Progress& progress,
 
 void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::string& earlier) {
   check_inputs_unchanged(call);
-  // The output's name stays out of the history: the same input gives the same bytes wherever they go.
+  // The history does not contain the output's name, so that one input gives the same bytes under any name.
   std::string line = fmt::format("{} {}: {} {}", call.info.program, version(), call.info.program,
                                  call.input.filename().string());
   if (!call.job_file.empty()) line += " --job " + call.job_file.filename().string();

@@ -25,15 +25,15 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr double endless = 36000;    // of a continuous joint [deg]
-constexpr double longest_link = 10;  // that moves [m]: arms of the largest robots are 2.5 m long
+constexpr double endless = 36000;    // limit of a continuous joint [deg]
+constexpr double longest_link = 10;  // of a moving link [m]: arms of the largest robots are 2.5 m long
 constexpr std::size_t largest_file = 8u << 20;
-constexpr int most_elements = 2000;  // of links and joints: the tree is walked and given back recursively
-constexpr int deepest = 50;          // elements in each other: urdfdom's XML reader recurses
+constexpr int most_elements = 2000;  // links and joints: the tree is processed recursively
+constexpr int deepest = 50;          // nested elements: urdfdom's XML reader is recursive
 
-// ---- places: urdfdom does not tell where anything stands --------------------------------------------------
+// ---- places: urdfdom does not report lines ------------------------------------------------------------------
 
-/// Lines of the named elements, and whether the tags close in the order in which they open.
+/// Lines of the named elements. Also checks that the tags close in the right order.
 class XmlPlaces {
  public:
   XmlPlaces(const std::string& text, std::string file) : text_(text), file_(std::move(file)) { scan(); }
@@ -42,9 +42,9 @@ class XmlPlaces {
     const auto found = lines_.find(element + " " + name);
     return {file_, found == lines_.end() ? 0 : found->second, 0};
   }
-  /// Whether an <axis> stands in the joint. Without one URDF means x, which urdfdom takes without a word.
+  /// Returns whether a joint has an <axis>. Without one, URDF means x, which urdfdom uses without a message.
   bool gives_axis(const std::string& joint) const { return axes_.contains(of("joint", joint).line); }
-  /// Of whatever element one of these quoted words names.
+  /// Returns the place of the element that the message names in quotes.
   Where mentioned(const std::string& message) const {
     for (const char* element : {"joint", "link"})
       for (const auto& [key, line] : lines_) {
@@ -68,7 +68,7 @@ class XmlPlaces {
     at_ = to;
   }
 
-  /// Behind the next `end`; the text must hold it.
+  /// Moves behind the next `end`. Errors: InputError if there is none.
   void skip_past(const char* end, const char* what) {
     const std::size_t found = text_.find(end, at_);
     if (found == std::string::npos) fail(line_, fmt::format("{} is not closed", what));
@@ -127,7 +127,7 @@ class XmlPlaces {
       fail(line, fmt::format("elements lie more than {} deep in each other", deepest));
   }
 
-  /// Errors: InputError for an angle beyond a turn. urdfdom keeps no angles.
+  /// Errors: InputError for an angle of more than a turn. urdfdom does not store the angles.
   void refuse_degrees(const std::string& rpy, int line) const {
     constexpr double turn = 6.3;  // [rad], rounded up
     std::istringstream words(rpy);
@@ -161,13 +161,13 @@ class XmlPlaces {
   bool any_ = false;
   int elements_ = 0;
   std::vector<std::pair<std::string, int>> open_;
-  std::map<std::string, int> lines_;  // "joint joint_1"
-  std::set<int> axes_;                // lines of the joints with an <axis>
+  std::map<std::string, int> lines_;  // key: "joint joint_1"
+  std::set<int> axes_;                // lines of the joints that have an <axis>
 };
 
 // ---- urdfdom ----------------------------------------------------------------------------------------------
 
-/// Keeps what urdfdom would print.
+/// Stores the messages of urdfdom instead of printing them.
 class Listener final : public console_bridge::OutputHandler {
  public:
   Listener() { console_bridge::useOutputHandler(this); }
@@ -177,7 +177,7 @@ class Listener final : public console_bridge::OutputHandler {
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
     if (level == console_bridge::CONSOLE_BRIDGE_LOG_ERROR) errors.push_back(text);
   }
-  std::vector<std::string> errors;  // the first is the most precise one
+  std::vector<std::string> errors;  // the first error is the most precise one
 };
 
 std::string one_line(std::string text) {
@@ -187,7 +187,7 @@ std::string one_line(std::string text) {
 }
 
 urdf::ModelInterfaceSharedPtr parse(const std::string& text, const XmlPlaces& places) {
-  static std::mutex one_at_a_time;  // the listener is the whole process's
+  static std::mutex one_at_a_time;  // all threads of the process share the listener
   const std::lock_guard lock(one_at_a_time);
   Listener listener;
   urdf::ModelInterfaceSharedPtr model;
@@ -214,15 +214,14 @@ Isometry3d transform(const urdf::Pose& pose) {
   return made;
 }
 
-/// Roll, pitch, yaw about fixed axes; roll from what yaw leaves, so that their sum is exact at pitch +-90
-/// deg.
+/// Returns roll, pitch, yaw about fixed axes. Roll is computed after yaw, so that their sum is exact at a pitch of +-90 deg.
 Vector3d roll_pitch_yaw(const Eigen::Matrix3d& r) {
   const double yaw = std::atan2(r(1, 0), r(0, 0)), c = std::cos(yaw), s = std::sin(yaw);
   return {std::atan2(s * r(0, 2) - c * r(1, 2), c * r(1, 1) - s * r(0, 1)),
           std::atan2(-r(2, 0), c * r(0, 0) + s * r(1, 0)), yaw};
 }
 
-/// Builds maps whose keys and values all stand at one place.
+/// Builds maps whose keys and values all have one place.
 class Tree {
  public:
   explicit Tree(Where where) : where_(std::move(where)) {
@@ -291,13 +290,13 @@ class Chain {
   }
 
  private:
-  /// A link of the robot: a moved link of the URDF and what is fixed to it.
+  /// A link of the robot: a moving link of the URDF and the links that are fixed to it.
   struct Carrier {
     const urdf::Link* link;
   };
   struct MovedLink {
     const urdf::Joint* joint;
-    Isometry3d origin;  // in the moved link before
+    Isometry3d origin;  // in the preceding moving link
     int driver = -1;    // index of the joint that it follows
     double ratio = 1, offset = 0;
     double lower = 0, upper = 0, speed = 0;
@@ -327,7 +326,7 @@ class Chain {
   }
 
   void walk() {
-    std::vector<const urdf::Joint*> joints;  // from the root
+    std::vector<const urdf::Joint*> joints;  // starting at the root
     for (const urdf::Link* link = &tip(); link->parent_joint; link = link->getParent().get())
       joints.push_back(link->parent_joint.get());
     std::reverse(joints.begin(), joints.end());
@@ -352,7 +351,7 @@ class Chain {
     }
   }
 
-  /// A track: the base stands on it, what lies before it stays with the world.
+  /// Adds a track: it carries the base; links before it belong to the world.
   void add_slide(const urdf::Joint& joint, const Isometry3d& origin) {
     external_.push_back(Tree(at(joint))
                             .text("name", joint.name)
@@ -373,13 +372,13 @@ class Chain {
     if (axes < 4 || axes > 7)
       fail(file_, fmt::format("has {} axes between its root and its tip (a robot has 4 to 7)", axes),
            "choose another tip");
-    // The base may be a track, and what lies before the first axis a portal.
+    // The base may be a track, and links before the first axis may be a portal.
     for (std::size_t k = 1; k < moved_.size(); ++k)
       refuse_millimetres(at(*moved_[k].joint), fmt::format("the origin of joint '{}'", moved_[k].joint->name),
                          "origin xyz", moved_[k].joint->parent_to_joint_origin_transform.position);
   }
 
-  /// Errors: InputError for lengths that no moved link of a robot has.
+  /// Errors: InputError for lengths that no moving link of a robot has.
   void refuse_millimetres(const Where& where, const std::string& what, const char* attribute,
                           const urdf::Vector3& lengths) const {
     const double largest = std::max({std::abs(lengths.x), std::abs(lengths.y), std::abs(lengths.z)});
@@ -390,7 +389,7 @@ class Chain {
                        attribute, lengths.x / 1e3, lengths.y / 1e3, lengths.z / 1e3));
   }
 
-  /// Drivers of the joints that follow; a follower's limits narrow its driver's.
+  /// Finds the drivers of following joints. The limits of a follower reduce those of its driver.
   void follow() {
     std::map<std::string, int> index;
     for (std::size_t k = 0; k < moved_.size(); ++k) index[moved_[k].joint->name] = static_cast<int>(k);
@@ -425,8 +424,8 @@ class Chain {
     }
   }
 
-  /// ROS-Industrial calls the frame of the controller's programs `base`. Fixed joints lead to it from the root,
-  /// or from the base that slides.
+  /// Sets the base frame of the programs. ROS-Industrial names this frame `base`. Fixed joints connect it with the root, or with
+  /// the sliding base.
   void add_base(Tree& robot) const {
     const urdf::Link* link = model_.getLink("base").get();
     if (!link) return;
@@ -485,7 +484,7 @@ class Chain {
     return tree.done();
   }
 
-  /// moves: a floor or a fence beside the base may be of any size.
+  /// moves: false for a floor or a fence beside the base, which may be of any size.
   void gather(const urdf::Link& link, const Isometry3d& frame, bool moves, Shapes& shapes) const {
     for (const auto& collision : link.collision_array)
       if (collision && collision->geometry) {
@@ -499,7 +498,7 @@ class Chain {
                frame * transform(joint->parent_to_joint_origin_transform), moves, shapes);
   }
 
-  /// Shapes in millimetres. Meshes show their size when they are read.
+  /// Refuses shapes in millimetres. Meshes are checked when they are read.
   void refuse_large(const urdf::Link& link, const urdf::Collision& collision) const {
     const Where where = places_.of("link", link.name);
     refuse_millimetres(where, fmt::format("the origin of a shape of link '{}'", link.name), "origin xyz",
@@ -542,7 +541,7 @@ class Chain {
         return box(frame, {dim.x, dim.y, dim.z});
       }
       case urdf::Geometry::CYLINDER: {
-        // Rectangles from an octagon's side to the opposite one, turned by 45 deg, together are the octagon.
+        // Four rectangles between opposite sides of the octagon, 45 deg apart, together form the octagon.
         const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
         const double half = cylinder.length / 2, radius = cylinder.radius, eighth = std::numbers::pi / 8;
         if (half > radius) capsule(half - radius, radius);
@@ -603,7 +602,7 @@ class Chain {
   std::vector<Carrier> carriers_;  // link 0 is the base
   std::vector<MovedLink> moved_;
   std::vector<Node> external_;
-  Isometry3d carried_ = Isometry3d::Identity();  // of the link reached, in the last moved one
+  Isometry3d carried_ = Isometry3d::Identity();  // of the current link, in the last moving link
 };
 
 }  // namespace

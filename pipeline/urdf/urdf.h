@@ -1,17 +1,17 @@
-// A robot that its maker or ROS describes as URDF, as the tree of a catalogue entry: the same keys as a robot
-// in YAML, each with its place in the URDF. So one description of keys checks, echoes and documents both, and
-// a resolved job holds the robot written out.
+// Reads a robot from a URDF of its maker or of ROS, as the tree of a catalogue entry. It has the keys of a robot in YAML, each
+// with its place in the URDF. So one description of keys is used to check, echo and document both, and a resolved job contains
+// the whole robot.
 //
-// From the tree of links the chain from its root to `tip` is taken: 4 to 7 axes that turn (revolute,
-// continuous), before them at most sliding ones that carry the whole robot (prismatic: external axes). Links
-// on fixed joints belong to the link that carries them, their shapes too; a joint that mimics another follows
-// it, and its limits become the other's. Links on joints beside the chain are left out.
+// The chain from the root of the links to `tip` becomes the robot: 4 to 7 rotary axes (revolute, continuous), before them only
+// sliding axes that carry the whole robot (prismatic: external axes). Links on fixed joints, and their shapes, become part of the
+// link that carries them. A joint that mimics another one follows it, and its limits are added to those of the other. Links on
+// joints that are not in the chain are left out.
 //
-// Collision shapes: box and mesh as they are (package:// and relative names). A sphere becomes a capsule
-// without length. A cylinder becomes a capsule of the same length, with four boxes that cross in its axis for
-// its ends: an octagon inside it, within 8 % of the radius.
+// Collision shapes: box and mesh are unchanged (package:// and relative names). A sphere becomes a capsule of length 0. A
+// cylinder becomes a capsule of the same length, and for its ends four boxes that cross at its axis: an octagon inside of the
+// cylinder, within 8 % of the radius.
 //
-// A continuous joint gets +-100 turns. Accelerations and the pose in the world are not in a URDF.
+// A continuous joint gets limits of +-100 turns. A URDF has no accelerations and no pose in the world.
 // Source: http://wiki.ros.org/urdf/XML; read by urdfdom, which only urdf.cpp includes.
 #pragma once
 
@@ -21,8 +21,8 @@
 
 namespace dresslife::pipeline {
 
-/// robot_from_urdf() for a URDF's text; request.urdf names it. Errors: InputError at the line of the joint or
-/// link in the URDF, as far as it is known.
+/// Implements robot_from_urdf() for a URDF's text; request.urdf is its name. Errors: InputError at the line of the joint or link
+/// in the URDF, if it is known.
 Node robot_from_urdf(const UrdfRequest& request, const std::string& text);
 
 }  // namespace dresslife::pipeline
