@@ -49,8 +49,8 @@ struct RankingRow {
   double life_repeats = 0;              ///< repeats of the motion until the worst wire breaks
   double life_hours = 0;                ///< hours of motion
   double life_months = 0;               ///< life_hours in months, at the job's operating hours per week
-  double life_repeats_all_stick = 0;    ///< lower bound: no part of the cables slips
-  double life_repeats_all_free = 0;     ///< upper bound: all parts of the cables slip without friction
+  double life_repeats_all_stick = 0;    ///< bound: no part of the cables slips
+  double life_repeats_all_free = 0;     ///< bound: all parts of the cables slip without friction
   double repeat_seconds = 0;            ///< duration of one repeat [s]
   double damage_per_repeat = 0;         ///< damage of the worst wire
   std::string worst_dresspack;          ///< dresspack of the worst wire, among several; empty: the only one
