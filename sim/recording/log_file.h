@@ -43,8 +43,8 @@ struct Recording {
   std::size_t left_out = 0;          ///< number of rows without all numbers
   std::size_t same_stamp = 0;        ///< number of rows with the stamp of the previous row
   std::size_t back = 0;              ///< number of rows with a stamp before that of the previous row
-  int first_left_out = 0;            ///< line of the first such row
-  int first_back = 0;                ///< line of the first such row
+  int first_left_out = 0;            ///< line of the first row without all numbers
+  int first_back = 0;                ///< line of the first row with a stamp back in time
   int pauses = 0;                    ///< number of pauses without rows, longer than a hundred intervals and 10 s
   double pause_seconds = 0, longest_pause = 0;
   int line_of_pause = 0;             ///< line after the longest pause

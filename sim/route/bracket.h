@@ -34,8 +34,8 @@ class Surfaces {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Returns a note that the shape of the gripper or gun is not known, if a tool's tip is so far from the flange that half of this
-/// distance is outside all shapes of the last link. tools: origins of the motion's tools in the flange's frame [m]. Empty: no
+/// Returns a note that the shape of the gripper or gun is not known, if a tool's tip is farther from the shapes of the last
+/// link than half of its distance from the flange. tools: origins of the motion's tools in the flange's frame [m]. Empty: no
 /// such tool.
 std::string gripper_note(const pipeline::Setup& setup, const std::vector<Vector3>& tools);
 
