@@ -128,7 +128,7 @@ class Data {
     return {of.begin(), of.end()};
   }
 
-  /// Of all samples: largest curvature and its time, least and largest twist.
+  /// Returns the extremes over all samples: largest curvature and its time, least and largest twist.
   Json extremes() const {
     const std::size_t segments = damage_.size();
     std::vector<double> curvature(segments, 0.0), when(segments, 0.0), least(segments, INFINITY),
@@ -152,14 +152,14 @@ class Data {
             {"largest_twist", most}};
   }
 
-  /// A wire whose whole history strain.h5 holds.
+  /// A wire with a complete history in strain.h5.
   struct ProbedWire {
-    std::size_t row;  ///< of /probe/strain
+    std::size_t row;  ///< row in /probe/strain
     std::uint32_t site;
     double damage;
   };
 
-  /// (segment) of its probed wires the one that is damaged most.
+  /// Returns, (segment), the most damaged of its probed wires.
   std::map<std::size_t, ProbedWire> probes() const {
     std::map<std::size_t, ProbedWire> of;
     if (!strain_) return of;
@@ -176,7 +176,7 @@ class Data {
     return of;
   }
 
-  /// One history, at its own times or at those of all. sampled: whole, else straight between turning points.
+  /// Returns one history, at its own times or at the common times. sampled: whether it is complete; else only turning points.
   /// site: the site of the wire; by default the segment's worst site.
   Json strain_row(std::size_t segment, bool sampled, const std::vector<double>& strain,
                   const std::vector<float>& own_times = {}, const ProbedWire* of = nullptr) const {

@@ -72,7 +72,7 @@ class MotionChecks {
   void see(const RodState& state, const std::vector<Contact>& contacts, double time,
            const std::vector<double>& ways = {});
 
-  double net_twist() const;  ///< of the last state, sum of all dresspacks [rad]
+  double net_twist() const;  ///< net twist of the last state, sum of all dresspacks [rad]
   const std::vector<Extreme>& curvature() const { return curvature_; }  ///< (link) largest [1/m]
   const std::vector<Extreme>& twist() const { return twist_; }          ///< (link) largest absolute value [rad/m]
   const std::vector<Extreme>& tension() const { return tension_; }      ///< (link) largest pull [N]

@@ -46,7 +46,7 @@ void describe_dresspack(RunDescription& description, const pipeline::MountedDres
 struct Sample {
   double time = 0;                     ///< [s]
   int step = 0;                        ///< program line
-  const RodState& state;               ///< of the chain
+  const RodState& state;               ///< state of the chain
   const std::vector<Frame>& clamps;    ///< (clamp) frames
   const std::vector<double>& travel;   ///< (dresspack) travel of the retraction units [m]; empty without one
   const Pose& pose;                    ///< poses that the motion prescribes

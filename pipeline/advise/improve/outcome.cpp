@@ -46,7 +46,7 @@ static_assert(bracket == bracket_limit && bend == bend_limit);
 
 /// reached: value and limit as text.
 void see(Outcome& outcome, Limit limit, double g, const std::string& reached = "") {
-  if (!(g > outcome.beyond[limit])) return;  // not a number: not known
+  if (!(g > outcome.beyond[limit])) return;  // NaN: not known
   outcome.beyond[limit] = g;
   outcome.reached[limit] = reached;
 }

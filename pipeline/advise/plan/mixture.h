@@ -12,7 +12,6 @@
 // a share q may be lost, the n q-th wire. The dresspack fails by its first mode, after 1 / max over m of R(m, s) hours.
 // Without an order, cycles that open in one program and close in another are not counted. Such cycles need a strain in one
 // program that the other does not reach, and occur once per change of the program.
-// that the other does not reach, and occur once per change of the program.
 #pragma once
 
 #include <cstdint>

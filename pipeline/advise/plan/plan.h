@@ -37,7 +37,7 @@ namespace dresslife::pipeline {
 
 /// A parameter that dresspacks share, with its value in all worlds.
 struct SharedValue {
-  std::size_t parameter = 0;  ///< of uncertain_parameters()
+  std::size_t parameter = 0;  ///< index in uncertain_parameters()
   std::string of;             ///< construction or material that has the parameter; empty: all have it
   std::vector<double> z;      ///< (world)
 };
@@ -77,7 +77,7 @@ struct PlanRule {
 struct RowPlan {
   double age_hours = 0;                  ///< hours of operation so far, under any duty
   std::shared_ptr<const LifeTable> lives{};  ///< lives of today's dresspack, by its age_hours (first_lives())
-  double fails_before_first = 0;         ///< before the first window
+  double fails_before_first = 0;         ///< P(failure before the first window)
   /// (week from today) P(failure in this week) of today's dresspack, if it is not replaced
   std::vector<double> fails_in_week;
   /// (window) P(failure from this window to the next one), if the dresspack lives at its begin

@@ -12,7 +12,6 @@
 //     sum over dresspacks of min over T of sum_w W_w c_w(T, A) - sum over j of min over T, A of sum_w W_w P(j | w) c_w(T, A).
 // Before the result A is the age of (D6). After it, A is the same or the age of (D6) with the new weights, so no result makes a
 // plan more expensive. Bins lose a part of the information, so the value is a lower bound.
-// dearer. Bins lose some of the result: the value is a lower bound.
 #pragma once
 
 #include <vector>

@@ -27,7 +27,7 @@ Shape& shape_of(CandidateModels::Shapes& shapes, std::size_t limit, bool differe
   return shapes[of_limits + 2 * limit + (difference ? 1 : 0)];
 }
 
-/// Returns the rehearsals at places of looks first, then those nearest to the centre.
+/// Returns the rehearsals at places of results first, then those nearest to the centre.
 std::vector<const Candidate*> chosen(const std::vector<Candidate>& rehearsals,
                                      const std::vector<Candidate>& looks, const VectorXd& centre) {
   std::vector<std::pair<double, const Candidate*>> some;

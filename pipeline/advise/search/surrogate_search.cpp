@@ -23,8 +23,8 @@ constexpr double moved_at_once =
 constexpr std::size_t screened_at_once = 24;
 constexpr std::size_t rehearsed_for_a_look = 4;
 constexpr int rehearsed_together = 8;
-constexpr int rehearsed_again = 24;   // per look while none is feasible; together they take about as long as a look
-// one of this number among the first looks is spread, because feasible places may have no common region
+constexpr int rehearsed_again = 24;   // per evaluation while none is feasible; together they take about as long as an evaluation
+// one of this number among the first evaluations is spread, because feasible places may have no common region
 constexpr int spread_share = 4;
 constexpr double cautious = 1;        // deviations of the constraints while no candidate is feasible
 constexpr double least_ahead = 0.02;  // smallest width; below it the search starts again at another place
@@ -259,7 +259,7 @@ std::vector<VectorXd> SurrogateSearch::next_rehearsals(CandidateModels& models, 
   return batch;
 }
 
-/// Returns whether no result is near feasibility after a third of the rehearsals before the first look.
+/// Returns whether no result is near feasibility after a third of the rehearsals before the first evaluation.
 bool SurrogateSearch::is_hopeless() const {
   const auto misses = [](const Candidate& look) { return !look.ran || look.violation() > hopeless; };
   return asked_ == 0 &&
@@ -301,7 +301,7 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
   }
 }
 
-/// Returns the looks with one objective made of two: the larger of both, each weighted and as a share of its range among the
+/// Returns the results with one objective made of two: the larger of both, each weighted and as a share of its range among the
 /// best, plus a small part of their sum (J. Knowles, ParEGO, IEEE Trans. Evolutionary Computation 10 (2006) 50).
 std::vector<Candidate> SurrogateSearch::by_weight(double weight) const {
   std::vector<Candidate> looks = looks_;
@@ -326,7 +326,7 @@ std::vector<Candidate> SurrogateSearch::by_weight(double weight) const {
   return looks;
 }
 
-/// Returns models of the looks, and of the rehearsals from `first` on near the best known place. The shapes are fitted again
+/// Returns models of the results, and of the rehearsals from `first` on near the best known place. The shapes are fitted again
 /// after the number of data has grown by the factor much_more.
 CandidateModels SurrogateSearch::models_of(const std::vector<Candidate>& looks, std::size_t first) {
   const bool by_looks = !any_ran(rehearsals_) || (!looks.empty() && best_of(looks).feasible());
@@ -342,7 +342,7 @@ CandidateModels SurrogateSearch::models_of(const std::vector<Candidate>& looks, 
   return models;
 }
 
-/// Returns a promising place that is farthest from all candidates, for the first few looks of a search with rehearsals.
+/// Returns a promising place that is farthest from all candidates, for the first few evaluations of a search with rehearsals.
 std::optional<VectorXd> SurrogateSearch::spread_look(const CandidateModels& models) const {
   std::optional<VectorXd> farthest;
   double most = -1;

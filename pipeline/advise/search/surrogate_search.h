@@ -76,8 +76,8 @@ class SurrogateSearch : public Search {
   std::vector<Candidate> rehearsals_;
   std::vector<Eigen::VectorXd> pending_;        // candidates without results
   std::vector<GaussianProcess::Shape> shapes_;  // shapes of the models, from the last fit
-  std::size_t shapes_of_looks_ = 0;             // number of looks at the last fit of the shapes
-  double shapes_of_ = 0;                        // number of looks and rehearsals at the last fit
+  std::size_t shapes_of_looks_ = 0;             // number of results at the last fit of the shapes
+  double shapes_of_ = 0;                        // number of results and rehearsals at the last fit
   std::vector<Region> regions_;
   std::size_t region_ = 0;      // region of the last candidates
   double ahead_width_;          // width of the region around the best rehearsal
