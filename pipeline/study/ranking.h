@@ -154,8 +154,7 @@ std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places
 /// with an apostrophe.
 std::string ranking_csv(const std::vector<RankingRow>& rows);
 
-/// Returns "stale: since this result routing.free_length_m 2.035 -> 2.1", and the reason if the job failed with its present
-/// settings.
+/// Returns "stale: since this result routing.free_length_m 2.035 -> 2.1", and the reason of a failure with present settings.
 std::string stale_words(const RankingRow& row);
 
 /// Returns "one hour does the damage of 1,200 rated cycles of lead; 5,000,000 rated: 4,200 h (torsion: ..)".
@@ -165,8 +164,7 @@ std::string relative_words(const RelativeLife& relative);
 std::string force_words(const RankingRow& row);
 
 /// Returns the ranking for a terminal. For one job the actions come first. Then a table with a line per job follows, and below
-/// it the sentences of row_words.h about each job, in lines of at most `width` columns. No cell is cut off. Ends with a line
-/// feed.
+/// it the sentences of row_words.h about each job, in lines of at most `width` columns. No cell is cut off. Ends with "\n".
 std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width = 120);
 
 }  // namespace dresslife::pipeline

@@ -16,8 +16,7 @@ struct RankingColumn {
       cell;  ///< returns the cell of a row with a result; empty: unknown or not applicable
 };
 
-/// Returns the columns in the order of the file. New columns are added at the end; other programs read columns by their
-/// names.
+/// Returns the columns in the order of the file. New columns are added at the end; other programs read columns by name.
 const std::vector<RankingColumn>& ranking_columns();
 
 /// Returns the table of columns as Markdown.

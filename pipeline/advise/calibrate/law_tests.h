@@ -75,8 +75,7 @@ std::vector<LawTest> read_law_tests(const std::filesystem::path& file);
 /// Returns whether the file contains law tests and no observations.
 bool holds_law_tests(const std::filesystem::path& file);
 
-/// Returns the prediction. Errors: InputError for a material that the catalogue does not have, or without a wear rate for this
-/// pair.
+/// Returns the prediction. Errors: InputError for a material that is not in the catalogue or has no wear rate for this pair.
 LawPrediction predicted(const LawTest& test);
 
 /// Returns the verdict. For a bound: MISS if even the 10 % (or 90 %) value is on the wrong side, agrees if the median is on the

@@ -41,8 +41,7 @@ struct Learned {
 
 std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes);
 
-/// Returns the number of standard deviations between a prediction and the observation, if it lies on the wrong side; 0 if they
-/// agree.
+/// Returns the standard deviations between a prediction and the observation, if it lies on the wrong side; 0 if they agree.
 double surprise(const LearnedTest& test);
 
 /// Adds notes on the limits of the result.

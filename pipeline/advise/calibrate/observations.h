@@ -29,8 +29,7 @@ namespace dresslife::pipeline {
 
 class Fields;
 
-/// broken: it failed then; broken_by: no specimen lived longer; run_out: it had not failed then; rating: the maker's lower
-/// bound.
+/// broken: it failed then; broken_by: no specimen lived longer; run_out: it had not failed; rating: lower bound by the maker.
 enum class ObservedEnd { broken, broken_by, run_out, rating };
 constexpr std::string_view word(ObservedEnd value) {
   return word_at({"broken", "broken_by", "run_out", "rating"}, value);

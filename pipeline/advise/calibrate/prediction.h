@@ -12,8 +12,7 @@ namespace dresslife::pipeline {
 /// Quantiles of a life or a number: 10, 50, 90 %. A life without damage is infinite.
 using PredictedDeciles = std::array<double, 3>;
 
-/// Return samples of all parameters, (draw, parameter): from the prior; from the posterior, with the prior for the other
-/// parameters.
+/// Return samples of all parameters, (draw, parameter): from the prior; from the posterior, with the prior for the others.
 Eigen::MatrixXd prior_draws();
 Eigen::MatrixXd posterior_draws(const Posterior& posterior, const Axes& axes);
 

@@ -26,8 +26,7 @@ LogLikelihood narrower_prior(std::vector<Eigen::Index> parameters);
 /// Adds an independent d to m in every draw, with mean, covariance and quantiles of the sum. The seed is fixed.
 void add_own_deviations(Posterior& posterior, const std::vector<Eigen::Index>& parameters);
 
-/// Returns the standard deviation of ln life between cables. median: ln life at z, (parameter). acts: parameters on which it
-/// depends.
+/// Returns the standard deviation of ln life between cables. median: ln life at z, (parameter). acts: parameters of ln life.
 template <class LogMedian>
 double deviation_between_cables(const LogMedian& median, const std::array<bool, uncertain_count>& acts,
                                 const Eigen::VectorXd& z) {

@@ -17,8 +17,7 @@ class Fields;
 struct AskedLimits {
   std::optional<double> contact_force;  ///< largest allowed contact force of the dresspack on the robot [N]
   std::optional<double> tension;        ///< largest allowed tension of the hose [N]
-  /// Least hours until 1 of 10 has failed by a mode that the planner's hours do not include; for the wall until half have failed
-  /// [h].
+  /// Least time until 1 of 10 (for the wall: half) has failed by a mode that the planner's hours do not include [h].
   std::optional<double> abrasion, wall, rating, jacket, corkscrew;
   std::optional<double> kink;  ///< least allowed UnvalidatedMode::margin
   Where where;

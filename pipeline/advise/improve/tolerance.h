@@ -5,8 +5,7 @@
 //
 // The merits m_i so far are upper bounds of m_w. The finalist with the largest bound is evaluated next, until all its m_i are
 // known: then no other finalist can have a larger m_w. Three finalists are compared, and more as long as each of them has an m_i
-// that does not run. Cases in which another finalist lost most are evaluated first. Both rules save runs and do not change the
-// result.
+// that does not run. Cases in which another finalist lost most are evaluated first. Both rules save runs with the same result.
 #pragma once
 
 #include <functional>

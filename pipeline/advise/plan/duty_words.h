@@ -24,8 +24,7 @@ std::string shown_hours(double robot_life, double hours);
 /// Returns what the hours of a duty leave out: modes that no test validates, and parts that are not evaluated. Lines, or empty.
 std::string caution_words(const DutyResult& duty);
 
-/// Returns one row per duty and program; lives belong to the whole duty. Numbers are exact when they are read back; "inf": no
-/// damage.
+/// Returns one row per duty and program; lives belong to the whole duty. Numbers are exact when read back; "inf": no damage.
 std::string duty_csv(const std::vector<DutyResult>& results);
 
 }  // namespace dresslife::pipeline

@@ -71,8 +71,7 @@ struct DutyDamage {
 /// Computes c(m) of one duty at any rates. Keeps references to the programs and the round.
 class SamePlace {
  public:
-  /// round: damage of a round of the order; null: no order. Preconditions: at least one program; all have the same modes and
-  /// layout.
+  /// round: damage of a round of the order; null: no order. Preconditions: one program or more, with equal modes and layout.
   explicit SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDamage* round = nullptr);
   /// Returns c(m), (mode), by (D2). repeats_per_hour: (program).
   std::vector<double> at(const std::vector<double>& repeats_per_hour) const { return at(repeats_per_hour, repeats_per_hour); }

@@ -52,8 +52,7 @@ std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const F
 /// Returns beside_rows() as text, and the dresspacks with another window. name: name of the changed fleet.
 std::string what_if_words(const std::string& name, const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
 
-/// Returns one row per dresspack and one column per week from today: P(failure in this week) of today's dresspack without
-/// replacement.
+/// Returns a row per dresspack and a column per week from today: P(failure in this week) of today's dresspack if not replaced.
 std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan);
 
 /// Returns one row per dresspack; numbers are exact when they are read back. checks: result of values_of_checks(); absent: their

@@ -36,8 +36,7 @@ struct JointCourse {
 /// Returns the name of a round's job: "spot_robot_1+hard", the same for the same order in another duty. Empty: no order.
 std::string round_name(const Duty& duty);
 
-/// Returns repeats per hour by (D8): (program, then the round; without an order only the programs). repeats_per_hour: (program)
-/// r_k.
+/// Returns repeats per hour by (D8): (program, then the round if the duty has an order). repeats_per_hour: (program) r_k.
 std::vector<double> repeats_in_rounds(const Duty& duty, const std::vector<double>& repeats_per_hour);
 
 /// Returns a recording of the programs one after the other, with moves between them: time_s, axis_1_deg, ... axes: the driven

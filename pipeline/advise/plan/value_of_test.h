@@ -7,8 +7,8 @@
 // the plan is:
 //     c_w(T, A) = C_p + (C_u - C_p) P_w(failure before T) + g_w(A) E_w(hours from T or failure to the end)
 //                 - min over A' of g_w(A') E_w(hours from the end to T or failure)                                     (D7)
-// g_w: (D6). All terms assume that the dresspack lives today. The last term is the value of a dresspack that outlives the plan. The
-// value of the test is:
+// g_w: (D6). All terms assume that the dresspack lives today. The last term is the value of a dresspack that outlives the plan.
+// The value of the test is:
 //     sum over dresspacks of min over T of sum_w W_w c_w(T, A) - sum over j of min over T, A of sum_w W_w P(j | w) c_w(T, A).
 // Before the result A is the age of (D6). After it, A is the same or the age of (D6) with the new weights, so no result makes a
 // plan more expensive. Bins lose a part of the information, so the value is a lower bound.
