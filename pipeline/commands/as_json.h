@@ -1,4 +1,4 @@
-// What commands print, as JSON for other programs (--json).
+// Output of commands as JSON for other programs (--json).
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@ namespace dresslife::pipeline {
 
 struct Node;
 
-/// A list with an object for each row of a CSV text of ours, by the titles of its columns. Cells of numbers are numbers,
-/// empty cells null; "inf" is text, because JSON has no infinity. Names of jobs and digests are text always.
+/// Returns a list with one object per row of a CSV text of this program, with the titles of the columns as keys. Cells with
+/// numbers become numbers, empty cells null; "inf" is text, because JSON has no infinity. Job names and digests are always text.
 Json json_of_csv(const std::string& csv);
 
-/// A YAML document: numbers, true and false as such, all else as text.
+/// Returns a YAML document as JSON: numbers, true and false keep their type, all other values are text.
 Json json_of(const Node& document);
 
-/// Jobs and their states on standard output: a line each, or all as one list in JSON.
+/// Jobs and their states on standard output: one line each, or in JSON one list with all jobs.
 class JobList {
  public:
   explicit JobList(bool json) : json_(json) {}
   void add(const std::string& job, const std::string& state);
-  /// Prints words below the lines, or the list instead.
+  /// Prints `words` below the lines; in JSON prints the list instead.
   void end(const std::string& words) const;
 
  private:

@@ -23,7 +23,7 @@ struct CalibrateOptions : RunOptions {
   std::string job, since, today;
 };
 
-/// A table of a maintenance system, or observations.
+/// Reads the tests from a table of a maintenance system (CSV) or from a file of observations.
 ServiceTests tests_of(const CalibrateOptions& options, const fs::path& file) {
   if (file.extension() != ".csv" && file.extension() != ".CSV") {
     for (const auto& [option, text] : {std::pair{"--job", &options.job}, {"--records-since", &options.since}, {"--today", &options.today}})
@@ -43,7 +43,7 @@ int calibrate(const CalibrateOptions& options) {
   const fs::path file = named_file(options.study, "observations");
   const auto [tests, words] = tests_of(options, file);
   for (const Warning& warning : doubtful_rows(tests)) tell(shown(warning.line() + "\n"));
-  if (!words.empty()) tell(words);  // before hours of computation
+  if (!words.empty()) tell(words);  // printed before hours of computation
   const OwnFolder own(options, "calibrate_" + file.stem().string(), file);
   const StudyPlaces& places = own.places;
   const Learned learned = learn(tests, options.sets, places,

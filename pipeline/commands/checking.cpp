@@ -19,7 +19,8 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Bounds are no best estimates: lives of glued or freely sliding parts lie decades apart. A run does not warn of what the job asks for.
+/// Adds a note if the job's slip gives a bound and no best estimate: lives with glued and with freely sliding parts differ by
+/// decades. A run does not repeat it, because the job asks for this slip.
 void add_slip(const Job& job, std::vector<std::string>& notes) {
   for (const Slip slip : job.strain.slip)
     if (!rubs(slip)) {
@@ -36,7 +37,7 @@ std::string estimate_line(const std::string& dresspack, const std::string& estim
   return fmt::format("ESTIMATE, not in the dresspack{}{}: {}", dresspack.empty() ? "" : " ", dresspack, estimates);
 }
 
-/// Whether a place lies in the catalogue that comes with dresslife, which users do not edit.
+/// Returns whether a place lies in the shipped catalogue, which users do not edit.
 bool is_shipped(const Where& where) {
   const std::filesystem::path catalogue = shipped_catalogue();
   return !as_seen_from(catalogue, where.file).string().starts_with("..");
@@ -46,7 +47,7 @@ bool is_shipped(const Where& where) {
   throw StageFailed({file.string()}, "its motion cannot be computed (see above)", "correct what is named there");
 }
 
-/// Of a deformation that needs no simulation: dresslife-sim writes it in less than a second.
+/// Returns the warnings of a prescribed deformation, which needs no simulation: dresslife-sim writes it in less than a second.
 std::vector<Warning> warnings_of_prescribed(const std::filesystem::path& file,
                                             const std::vector<std::string>& sets) {
   const PassingFile motion("motion.h5");
@@ -96,7 +97,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
       if (note.starts_with("The short run of the checks was left out")) check.limits = "The motion of the dresspack was not checked (see the note).";
       check.notes.push_back("note: " + note);
     }
-  } catch (const InputError&) {  // it was written just now: no fault of the job
+  } catch (const InputError&) {  // the file was written just now, so its faults are no fault of the job
     throw DiskError(preview_file.string(), EIO);
   }
   return check;

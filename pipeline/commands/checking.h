@@ -1,4 +1,4 @@
-// All quick checks of a job, in seconds: of its description, and of its program by geometry and statics.
+// All quick checks of a job, in seconds: checks of its description, and of its program by geometry and statics.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,21 @@
 namespace dresslife::pipeline {
 
 struct JobCheck {
-  std::string refusal;             ///< why the simulation refuses the job; empty: it takes it
-  std::vector<Warning> warnings;   ///< a run of the job has warnings of the same kinds; of strain.slip only a check has one
-  std::vector<std::string> notes;  ///< which lengths suit, for each dresspack between two clamps
-  std::vector<std::string> estimates;  ///< keys that each dresspack leaves out, with the values that count, as a run lists them
-  std::string limits;              ///< what only a run finds, a sentence
+  std::string refusal;             ///< reason why the simulation refuses the job; empty: the simulation accepts it
+  std::vector<Warning> warnings;   ///< a run of the job has warnings of the same kinds
+  /// suitable lengths of each dresspack between two clamps, and a note if strain.slip gives a bound only
+  std::vector<std::string> notes;
+  std::vector<std::string> estimates;  ///< keys that each dresspack leaves out, with the assumed values, in the format of a run
+  std::string limits;              ///< a sentence with the faults that only a run finds
 };
 
-/// Errors: InputError for all that a reader of jobs refuses, at once.
+/// Checks a job. Errors: InputError with all faults that a reader of jobs finds.
 JobCheck check_of(const std::filesystem::path& job, const std::vector<std::string>& sets);
-/// The same with the file of dresslife-sim --preview, which is written unless the motion is prescribed.
+/// Checks a job and writes the output of dresslife-sim --preview to `preview_file`, except if the motion is prescribed.
 JobCheck check_of(const std::filesystem::path& job, const std::vector<std::string>& sets,
                   const std::filesystem::path& preview_file);
 
-/// Prints warnings, lengths and the refusal.
+/// Prints the warnings, notes and the refusal.
 void print_check(const JobCheck& check);
 
 }  // namespace dresslife::pipeline

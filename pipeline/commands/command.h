@@ -1,4 +1,4 @@
-// The commands of dresslife. Each has a table of options and does its work in a file of its own.
+// The commands of dresslife. Each has a table of options and its own source file.
 #pragma once
 
 #include "pipeline/stage/command_line.h"
@@ -15,7 +15,7 @@ Command duty_command();
 Command plan_command();
 Command improve_command();
 Command reprogram_command();
-// Cables and the tests that they are put to
+// Cables and their tests
 Command rate_command();
 Command validate_command();
 Command calibrate_command();
@@ -29,7 +29,7 @@ Command draw_command();
 Command page_command();
 Command plot_command();
 Command export_command();
-// About the program itself. program must outlive the command.
+// The program itself. Precondition: `program` outlives the command.
 Command manual_command(const Command& program);
 
 }  // namespace dresslife::pipeline

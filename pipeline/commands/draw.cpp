@@ -20,7 +20,7 @@ int draw(const DrawOptions& options) {
   if (!options.picture.empty()) check_replaceable(options.picture);
   std::string faults;
   const Dresspack dresspack = read_dresspack(named_file(options.dresspack, "dresspacks"), faults);
-  if (!faults.empty()) {  // the picture marks what does not fit
+  if (!faults.empty()) {  // the picture marks the parts that do not fit
     if (!options.picture.empty()) write_picture(options.picture, cross_section_picture(dresspack));
     tell(faults + "\n");
     return 1;

@@ -14,7 +14,7 @@ namespace dresslife::pipeline {
 
 namespace {
 
-/// Runs the rounds of the duties' orders, in a folder of their own. They join the study and its rows.
+/// Runs the rounds of the duties' orders in a separate folder, and appends them to the study and its rows.
 void add_rounds(const DutyFile& file, const RunOptions& options, Study& study, const StudyPlaces& of_study,
                 std::vector<RankingRow>& rows) {
   const StudyPlaces places{of_study.folder / ".rounds", of_study.programs};
@@ -42,7 +42,7 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   const std::filesystem::path folder = request.out / study_name(study);
   const bool begun = kind_of(folder) == FileKind::folder;
   StudyState standing;
-  if (!begun) standing = expanded(request);  // a study that cannot be expanded leaves no folder
+  if (!begun) standing = expanded(request);  // a study that cannot be expanded creates no folder
   if (!begun) check_programs(file, standing.study);
   const FolderLock lock(folder);
   claim_folder(folder, study);

@@ -1,4 +1,4 @@
-// Runs the study that a file of duties names.
+// Runs the study that is named in a file of duties.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ struct DutiesRun {
   std::vector<RankingRow> rows;
 };
 
-/// Checks the duties against the study before anything runs. Errors: InputError.
+/// Checks the duties against the study before the first run. Runs the stages that are not up to date. Errors: InputError.
 DutiesRun run_duties(const DutyFile& file, const RunOptions& options);
 
 }  // namespace dresslife::pipeline

@@ -29,13 +29,13 @@ struct ImproveOptions : RunOptions {
   std::optional<double> off_deg, bracket_mm;
 };
 
-/// Short runs come before the first trial. The remaining time is that of the short runs, then that of the trials.
+/// Shows the progress. Short runs come before the first trial; the remaining time is that of the short runs, then of the trials.
 void show(Progress& progress, const Improvement& so_far, int trials) {
   const std::optional<std::size_t> best = so_far.best();
   const std::string best_words =
       best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits";
   const std::size_t done = so_far.trials.size();
-  trials = std::max(trials, static_cast<int>(done));  // bend reliefs come after those that were asked for
+  trials = std::max(trials, static_cast<int>(done));  // bend reliefs are tried after the requested trials
   if (done <= 1 && so_far.rehearsals < so_far.most_rehearsals)
     progress.show(static_cast<double>(so_far.rehearsals) / so_far.most_rehearsals,
                   fmt::format("short run {} of about {} before the first of {} trials", so_far.rehearsals,
@@ -52,7 +52,7 @@ FilesAtStart files_of(const Study& study) {
   return FilesAtStart(std::move(jobs));
 }
 
-/// Of a search whose files changed: its trials so far are of the files as they were.
+/// Ends a search whose files changed. Its trials so far belong to the old files.
 int end_early(const Improvement& found, const StudyPlaces& places) {
   tell(shown(found.ended) + "\n");
   print(shown(unfinished_words(found)));
@@ -60,14 +60,14 @@ int end_early(const Improvement& found, const StudyPlaces& places) {
   return 1;
 }
 
-/// The best of one job as a job of a few lines, here; none where no trial is better, and of jobs without a robot.
-/// verified: within the mounting tolerance, or no tolerance is asked for. written: of this search, not verified. Returns whether
-/// this search has written it.
+/// Writes the best trial as a short job into the present folder. Writes none if no trial is better or the job has no robot.
+/// verified: it was judged within the mounting tolerance, or no tolerance is given. written: this search has already written a
+/// version that is not verified. Returns whether the file now contains the job of this search.
 bool write_short_job(const ImproveRequest& request, const Improvement& found, const Finals& finals,
                      const fs::path& job, bool verified, bool written) {
   const Final* const best = finals.best();
   const Node document = read_document(request.file);
-  check_replaceable(job);  // again: somebody may have changed it during the search
+  check_replaceable(job);  // checked a second time, because the file may have changed during the search
   if (!best || !finals.is_gain(*best) || !document.find("robot") || !document.find("routing")) {
     if (written) remove_ours(job);
     return false;
@@ -86,7 +86,7 @@ bool write_short_job(const ImproveRequest& request, const Improvement& found, co
   return true;
 }
 
-/// Runs the best again, in full and with clamps and length off, and writes the results.
+/// Runs the best trials again, in full and with offsets of clamps and length, and writes the results.
 int judge_the_best(const ImproveOptions& options, const StudyPlaces& places, const Improvement& found,
                    const FilesAtStart& files, const fs::path& job) {
   Finals finals = finals_of(found, options.request, [&](const Study& study) {
@@ -130,7 +130,7 @@ int improve_study(ImproveOptions options) {
   check_replaceable(job);
   RunOptions quiet = options;
   quiet.quiet =
-      options.quiet || ::isatty(STDERR_FILENO);  // a terminal has one line, and that shows the search
+      options.quiet || ::isatty(STDERR_FILENO);  // a terminal shows only one progress line, that of the search
   Progress progress(name, options.quiet);
   const FilesAtStart files = files_of(read_study(options.request.file, options.sets));
   const TrialMakers makers{

@@ -20,17 +20,16 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A study with fewer jobs than cores lets each stage use several. Those of a launcher are not this
-/// machine's.
+/// If a study has fewer jobs than cores, each stage uses several cores. A launcher's stages use the cores of other machines.
 void share_cores(const RunOptions& options, std::size_t jobs) {
   const std::size_t cores = options.launcher.empty() ? static_cast<std::size_t>(options.jobs) : 1;
   const std::size_t each = cores / std::max<std::size_t>(jobs, 1);
-  constexpr int keep = 0;  // what the user has set
+  constexpr int keep = 0;  // setenv() keeps a value that the user has set
   ::setenv("DRESSLIFE_THREADS", std::to_string(std::max<std::size_t>(each, 1)).c_str(), keep);
 }
 
-/// Removes during a run what is not kept. Jobs that share files go together, when the last of them has ended:
-/// before, it would free nothing, and a name less changes one of the times of a file that others read.
+/// Removes files that the study does not keep, during the run. The files of jobs that share them are removed together after the
+/// last of these jobs: earlier removal would free no space, and a removed link changes a time of a file that other jobs read.
 class Unkept {
  public:
   Unkept(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states)
@@ -44,7 +43,7 @@ class Unkept {
       left_.emplace("fatigue " + study.jobs[k].name, first);
     }
   }
-  /// A stage, as in a BuildEvent.
+  /// Handles the end of a stage. stage: BuildEvent::what.
   void ended(const std::string& stage) {
     const auto found = left_.find(stage);
     if (found == left_.end()) return;
@@ -65,12 +64,12 @@ class Unkept {
   const Study& study_;
   const StudyPlaces& places_;
   const std::vector<JobState>& states_;
-  std::unordered_map<std::string, std::size_t> left_;                   ///< jobs' last stages
-  std::unordered_map<std::size_t, std::vector<std::size_t>> together_;  ///< by their first
+  std::unordered_map<std::string, std::size_t> left_;                   ///< (last stage of a job) first job of its group
+  std::unordered_map<std::size_t, std::vector<std::size_t>> together_;  ///< (first job) all jobs of its group
   std::unordered_map<std::size_t, std::size_t> ended_;
 };
 
-/// Runs the graph that was written. left: jobs in it. Returns how many stages were started.
+/// Runs the written graph. left: number of jobs in it. Returns the number of started stages.
 int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& options, std::size_t left,
                std::vector<JobState>& states, const Digests& before, Progress& progress) {
   share_cores(options, left);
@@ -91,11 +90,11 @@ int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& 
   return built.executed;
 }
 
-/// Of jobs with the same recipes the first one runs, and the others take its results: robots that do the same are made once.
-/// Jobs without others like them wait for the next graph. Returns how many stages were started.
+/// Runs the first of every group of jobs with the same recipes. The other jobs of the group take its results. Jobs without such
+/// a group wait for the next graph. Returns the number of started stages.
 int make_first_of_likes(const Study& study, const StudyPlaces& places, const RunOptions& options,
                         std::vector<JobState>& states, const Digests& before, Progress& progress) {
-  if (study.keep == Keep::lives) return 0;  // the first one would keep nothing to take
+  if (study.keep == Keep::lives) return 0;  // the first job would keep no files that the others could take
   std::map<std::array<std::string, stage_count>, std::vector<std::size_t>> likes;
   for (std::size_t k = 0; k < states.size(); ++k)
     if (study.jobs[k].failure.empty() && !states[k].done()) likes[states[k].recipes].push_back(k);

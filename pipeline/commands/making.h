@@ -13,40 +13,40 @@
 
 namespace dresslife::pipeline {
 
-/// Makes what is not up to date and brings the states up to date. Returns how many stages were started.
+/// Runs the stages that are not up to date and updates the states. Returns the number of started stages.
 int make_rest(const StudyRequest& request, StudyState& standing, const RunOptions& options);
 
-/// Runs what is not up to date of a study that no file of its own tells. Returns its rows.
+/// Runs the stages that are not up to date, of a study that has no file of its own. Returns its rows.
 std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options);
 
-/// The same in a search. Errors: FilesChanged when a file is not as it was at its start.
+/// Does the same within a search. Errors: FilesChanged when a file differs from its state at the start of the search.
 std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options,
                                   const FilesAtStart& files);
 
-/// The results of the ratings of its cables for each row; to_run: lets their rigs run first, and says with which
-/// options.
+/// Adds the relative lives of the cables with ratings to each row. to_run: options with which the rigs are run first; null: they
+/// are not run.
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,
                         std::vector<RankingRow>& rows);
 
-/// The folder of a command's own jobs, below that of the results. As long as this lives no other run writes there.
+/// The folder of a command's own jobs, inside the folder of results. No other run writes there during the life of this object.
 struct OwnFolder {
   StudyPlaces places;
   FolderLock lock;
-  /// file: the folder notes it as the source of its results. Errors: those of FolderLock and claim_folder().
+  /// file: noted in the folder as the source of its results. Errors: those of FolderLock and claim_folder().
   OwnFolder(const StudyOptions& options, const std::string& name, const std::filesystem::path& file);
 };
 
-/// A line of a job that is written before these runs.
+/// A comment line in a job that is written before the runs within the mounting tolerance.
 inline constexpr const char* not_verified =
     "# Not yet verified within the mounting tolerance. The command replaces this file at its end.\n";
 
-/// The runs within the mounting tolerance as one piece of work, whose remaining time is that of all runs.
+/// Progress of the runs within the mounting tolerance; the remaining time is that of all these runs.
 class ToleranceRuns {
  public:
   ToleranceRuns(const std::string& label, const RunOptions& options);
-  /// Of the runs that follow: how many were done before.
+  /// Sets how many runs are already done and how many follow.
   void begin(const ToleranceCount& count);
-  /// Options of these runs. Precondition: it stays where it is.
+  /// Returns the options for these runs. Precondition: this object is not moved.
   const RunOptions& options() const { return options_; }
 
  private:
@@ -59,7 +59,7 @@ class ToleranceRuns {
 
 int count_failed(const std::vector<RankingRow>& rows);
 
-/// Says on standard error how many jobs failed. input: what the user named. Returns the exit status.
+/// Writes the number of failed jobs to standard error. input: the user's name for the study. Returns the exit status.
 int say_failures(const std::string& input, const std::vector<RankingRow>& rows);
 
 }  // namespace dresslife::pipeline

@@ -18,7 +18,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// What a first job needs. All other keys have a default or belong to a special case.
+/// Keys that a first job needs. All other keys have a default or belong to a special case.
 constexpr std::array first_keys{
     "motion", "robot", "dresspack", "routing", "study.base", "study.vary", "study.jobs", "study.table",
     "motion.program", "motion.modules", "motion.routine", "motion.speed_percent", "motion.steps",
@@ -33,7 +33,7 @@ constexpr std::array first_keys{
     "routing.base_clamp.link", "routing.base_clamp.position_m", "routing.base_clamp.direction", "routing.tool_clamp",
     "simulation.segments", "fatigue.operating_hours_per_week", "fatigue.robot_life_hours", "calibration"};
 
-/// As on a command line: "motion.program"; a key of the job itself is "motion".
+/// Returns the path of a key as on a command line: "motion.program"; for a key of the job itself "motion".
 std::string path_of(const KeyRow& row) { return row.map == "job" ? row.key : row.map + "." + row.key; }
 
 std::vector<KeyRow> every_key() {
@@ -43,7 +43,7 @@ std::vector<KeyRow> every_key() {
   return rows;
 }
 
-/// The keys of a first job by their paths, then the others map by map.
+/// Returns the manual page: the keys of a first job by their paths, then the other keys by map.
 std::string keys_page() {
   std::vector<KeyRow> first, others;
   for (KeyRow& row : every_key()) {
@@ -56,7 +56,8 @@ std::string keys_page() {
   return key_tables(first) + "\n" + key_tables(others);
 }
 
-/// A path with or without the numbers of list items, as the manual writes it: "components.2.count" is "components[].count".
+/// Returns the path in the form of the manual, with or without numbers of list items: "components.2.count" gives
+/// "components[].count".
 std::string as_in_manual(const std::string& key) {
   std::string path;
   for (std::size_t at = 0; at <= key.size();) {
@@ -71,8 +72,8 @@ std::string as_in_manual(const std::string& key) {
   return path.starts_with("job.") ? path.substr(4) : path;
 }
 
-/// The keys of this path; else all keys whose path ends with it; else all with its last name.
-/// Errors: none of these, with the nearest name.
+/// Returns the key with this path; else all keys whose path ends with it; else all keys with its last name.
+/// Errors: InputError with the nearest name if no key is found.
 std::vector<KeyRow> keys_of(const std::string& wanted) {
   const std::vector<KeyRow> all = every_key();
   const std::string path = as_in_manual(wanted);
@@ -84,7 +85,7 @@ std::vector<KeyRow> keys_of(const std::string& wanted) {
   take([&](const KeyRow& row) { return path_of(row) == path; });
   take([&](const KeyRow& row) { return ("." + path_of(row)).ends_with("." + path); });
   take([&](const KeyRow& row) { return row.key == last; });
-  take([&](const KeyRow& row) { return ("." + row.map).ends_with("." + path); });  // all keys of a map that is no key itself
+  take([&](const KeyRow& row) { return ("." + row.map).ends_with("." + path); });  // all keys of a map that is not a key itself
   if (!found.empty()) return found;
   std::vector<std::string> names;
   for (const KeyRow& row : all) names.push_back(row.key);

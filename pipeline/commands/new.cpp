@@ -32,29 +32,29 @@ namespace fs = std::filesystem;
 
 struct NewOptions {
   std::string job, robot, program, dresspack;
-  bool dresspack_is_example = false;  ///< none was named
+  bool dresspack_is_example = false;  ///< the user named no dresspack
 };
 
 constexpr const char* default_dresspack = "spot_welding";
 
-/// YAML files of a folder of the shipped catalogue, sorted.
+/// Returns the YAML files of a folder of the shipped catalogue, sorted.
 std::vector<fs::path> shipped(const char* shelf) {
   std::vector<fs::path> files = entries_of(shipped_catalogue() / shelf);
   std::erase_if(files, [](const fs::path& file) { return file.extension() != ".yaml"; });
   return files;
 }
 
-/// A routing and where it comes from.
+/// A routing and its origin.
 struct Choice {
   Node routing;
   std::string source;
-  std::vector<std::string> faults = {};  ///< what dresslife check reports
-  std::vector<std::string> estimates = {};  ///< of the dresspack
-  std::vector<std::string> doubts = {};  ///< and of program and dresspack, whatever the routing
+  std::vector<std::string> faults = {};  ///< faults that dresslife check reports
+  std::vector<std::string> estimates = {};  ///< estimated keys of the dresspack
+  std::vector<std::string> doubts = {};  ///< faults of program and dresspack that do not depend on the routing
   bool refused = false;
 };
 
-/// Of a shipped job with this robot and one dresspack; of several the one with this dresspack.
+/// Returns the routing of a shipped job with this robot and one dresspack; of several jobs the one with this dresspack.
 std::optional<Choice> shipped_routing(const std::string& robot, const std::string& dresspack) {
   std::optional<Choice> found;
   for (const fs::path& file : shipped("jobs")) {
@@ -94,13 +94,13 @@ std::string choices() {
       listed("robots"), routed, listed("programs"), default_dresspack, listed("dresspacks"));
 }
 
-/// Errors: InputError: neither a file nor an entry of the catalogue.
+/// Checks that a name is a file or an entry of the catalogue. Errors: InputError.
 void check_named(const char* option, const char* shelf, const std::string& name) {
   const Where where{option};
   catalogue_entry(shelf, name, where, where);
 }
 
-/// A file as it is named from the job's folder; a name of the catalogue as it is.
+/// Returns the path of a file relative to the job's folder; a name of the catalogue unchanged.
 std::string seen_from_job(const std::string& name, const fs::path& job) {
   if (kind_of(name) != FileKind::file) return name;
   const fs::path folder = job.has_parent_path() ? job.parent_path() : fs::path(".");
@@ -110,7 +110,7 @@ std::string seen_from_job(const std::string& name, const fs::path& job) {
   return is_path ? seen : "./" + seen;
 }
 
-/// Without the place of a file that is gone afterwards.
+/// Returns the text without the path of a temporary file.
 std::string without_place(const std::string& words, const fs::path& file) {
   std::string text = words;
   for (std::size_t at = 0; (at = text.find(file.string(), at)) != std::string::npos;) {
@@ -121,7 +121,8 @@ std::string without_place(const std::string& words, const fs::path& file) {
   return text;
 }
 
-/// What dresslife check reports on the draft with this routing, with the places of the user's files. motion: YAML; empty: the draft's.
+/// Adds the results of dresslife check for the draft with this routing, with places in the user's files. motion: YAML; empty: the
+/// draft's own motion.
 void judge(const Draft& draft, const std::string& motion, Choice& choice) {
   const PassingFile file("job.yaml");
   write_text_if_changed(file.path(),
@@ -133,7 +134,8 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
     choice.faults.push_back(without_place(problem.what(), file.path()));
     return;
   }
-  const JobCheck check = check_of(file.path(), {});  // a full disk or a killed stage is no fault of the routing
+  // a full disk or a killed stage is no fault of the routing, so it is not caught
+  const JobCheck check = check_of(file.path(), {});
   choice.refused = !check.refusal.empty();
   choice.estimates = check.estimates;
   if (choice.refused) choice.faults.push_back(without_place(check.refusal, file.path()));
@@ -144,14 +146,14 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
   }
 }
 
-/// The draft with its preliminary routing. Its files stay references, so that errors name lines of the user's files.
+/// Returns the draft with its preliminary routing. Its files stay references, so that errors name lines of the user's files.
 std::string draft_text(const Draft& draft, const fs::path& folder) {
   const std::string whole = job_text(draft.job);
   if (draft.exercise) return whole;
   return to_yaml(routed(draft, to_yaml(*parse_yaml(whole, "draft").find("routing")), "", 1, folder));
 }
 
-/// The best routing that geometry and short runs find, in some seconds.
+/// Returns the best routing that geometry and short runs find within some seconds.
 Choice proposed(const Draft& draft) {
   const PassingFile job("draft.yaml"), screening("screening.h5");
   write_text_if_changed(job.path(), with_mark(draft_text(draft, job.path().parent_path()), Mark::yaml));
@@ -172,14 +174,14 @@ Choice proposed(const Draft& draft) {
   return choice;
 }
 
-/// The accelerations that a URDF needs beside it, as proposals [deg/s2]; empty: none are missing. A URDF holds no
-/// accelerations. A proposal is the largest speed of the axis times that of shipped robots over theirs, rounded to 10.
+/// Returns proposals for the accelerations of a URDF file [deg/s2], which contains none; empty: they are given. A proposal is the
+/// largest speed of the axis times the ratio of acceleration to speed of shipped robots, rounded to 10.
 std::vector<double> missing_accelerations(const std::string& robot) {
   std::vector<double> proposals;
   if (!robot.ends_with(".urdf")) return proposals;
-  // Medians of config/robots: acceleration over speed of axes 1 to 6 [1/s]. They spread by 5 % there.
+  // Medians over config/robots: acceleration over speed of axes 1 to 6 [1/s]. They scatter by 5 %.
   constexpr std::array<double, 6> per_speed{4.3, 3.2, 6.7, 14.3, 15.1, 15.2};
-  constexpr double of_no_speed = 500;  // [deg/s2]: of a slide, or of a URDF without speeds
+  constexpr double of_no_speed = 500;  // [deg/s2]: for a slide, or a URDF without speeds
   UrdfRequest request;
   request.urdf = robot;
   const Node made = robot_from_urdf(request);
@@ -193,7 +195,7 @@ std::vector<double> missing_accelerations(const std::string& robot) {
   return proposals;
 }
 
-/// A job of a URDF with proposed accelerations, which hardly matter to a routing.
+/// Returns a job of a URDF with proposed accelerations, which have little influence on a routing.
 std::string job_of_urdf(const NewOptions& options, const std::vector<double>& accelerations) {
   const auto in_full = [](const std::string& name) {
     return scalar(kind_of(name) == FileKind::file ? fs::absolute(name).string() : name);

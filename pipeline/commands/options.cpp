@@ -58,13 +58,13 @@ Option launcher_option(RunOptions& options) {
 
 namespace {
 
-/// The shipped file of this entry; empty: there is none.
+/// Returns the shipped file of an entry; empty: no such file exists.
 fs::path shipped_file(const fs::path& entry) {
   const fs::path shipped = shipped_catalogue() / (entry.string() + ".yaml");
   return kind_of(shipped) == FileKind::file ? fs::proximate(shipped) : fs::path();
 }
 
-/// shelves: the first that has the entry counts. "studies/NAME" is the entry of one shelf.
+/// Returns the file of a name. shelves: the first shelf with the entry is used. "studies/NAME" is an entry of one shelf.
 fs::path file_or_entry(const std::string& name, const std::vector<std::string>& shelves) {
   const std::string shelf_of_name = fs::path(name).parent_path().string();
   const bool on_shelf = std::find(shelves.begin(), shelves.end(), shelf_of_name) != shelves.end();
@@ -98,7 +98,7 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
                                 : fmt::format("did you mean '{}'? Else write the path of a YAML file", near));
 }
 
-/// What a file of another kind is, and what to do with it.
+/// A kind of file that is no job and no study, and its use.
 struct OtherKind {
   std::string_view kind, use;
 };
@@ -107,7 +107,8 @@ constexpr OtherKind program_kind{"robot program", "name it in a job: dresslife n
                "name it in a job: dresslife new --robot FILE JOB.yaml; or give it to dresslife route"},
     result_kind{"result", "see it by dresslife show FILE or plot FILE"};
 
-/// By the end of the name; null: perhaps a YAML file, whose keys tell its kind (pipeline/resolve/document_kind.h).
+/// Returns the kind by the end of the file name; null: perhaps a YAML file, whose keys show its kind
+/// (pipeline/resolve/document_kind.h).
 const OtherKind* kind_by_name(const fs::path& file) {
   const std::string end = lower_case(file.extension().string());
   static const std::set<std::string> programs{".mod", ".modx", ".prg", ".sys", ".pgf", ".src", ".dat", ".ls", ".jbi", ".script"};
@@ -117,7 +118,7 @@ const OtherKind* kind_by_name(const fs::path& file) {
   return nullptr;
 }
 
-/// What a user names is read, here or by a stage, and not replaced.
+/// Returns the input file that the user named. Throws InputError for a robot program or a result file.
 fs::path input(fs::path file) {
   if (const OtherKind* const other = kind_by_name(file))
     throw InputError({file.string()}, fmt::format("is a {}, not a YAML file of dresslife", other->kind), std::string(other->use));

@@ -1,4 +1,4 @@
-// What several commands read from the command line, and how they answer.
+// Options that several commands have, and the files that their arguments name.
 #pragma once
 
 #include <filesystem>
@@ -15,51 +15,51 @@ namespace dresslife::pipeline {
 
 struct StudyOptions {
   std::string study, out = "runs";
-  bool json = false;  ///< of commands with json_option()
+  bool json = false;  ///< only for commands with json_option()
   std::vector<std::string> sets;
 };
 
 struct RunOptions : StudyOptions {
-  int jobs;  ///< stages at a time
+  int jobs;  ///< number of stages that run at the same time
   bool quiet = false;
-  std::string launcher;  ///< before each stage's command
+  std::string launcher;  ///< shell words in front of each stage's command
   std::string shard;     ///< "2/8": only the second eighth of the jobs; empty: all
-  /// Of runs within a search: gets the share of the stages that are done, and no line of its own shows it.
+  /// For runs within a search: receives the share of the finished stages; the run then prints no progress of its own.
   std::function<void(double)> share_done{};
-  StageLimits limits{24 * 3600, installed_memory_mb()};  // a day, and what the machine has
+  StageLimits limits{24 * 3600, installed_memory_mb()};  // one day, and the memory of this machine
   RunOptions();
 };
 
-/// The argument STUDY.yaml or JOB.yaml.
+/// Returns the argument STUDY.yaml or JOB.yaml.
 Option study_or_job(StudyOptions& options);
-/// --set KEY.PATH=VALUE, as often as wanted. what: "override a key".
+/// Returns --set KEY.PATH=VALUE, which may be repeated. what: description, such as "override a key".
 Option sets_option(const std::string& what, std::vector<std::string>& sets);
-/// --json: of commands that print a table.
+/// Returns --json, for commands that print a table.
 Option json_option(bool& json);
-/// --output DIR and --set.
+/// Returns --output DIR and --set.
 std::vector<Option> study_options(StudyOptions& options);
-/// --jobs and --quiet: of commands that run stages.
+/// Returns --jobs and --quiet, for commands that run stages.
 std::vector<Option> run_options(RunOptions& options);
-/// --launcher: of commands whose stages may run elsewhere.
+/// Returns --launcher, for commands whose stages may run on other machines.
 Option launcher_option(RunOptions& options);
 
-/// The date that an option has. Errors: InputError for a text that is no date.
+/// Returns the date in the text of an option. Errors: InputError for text that is no date.
 Day day_of(const std::string& option, const std::string& text);
 
-/// What a user names: a file, or an entry of the catalogue ("two_robots" or "studies/two_robots"). A name of both a job and
-/// a study means the job in every command, which a note says. shelf: folder of config/. Errors: InputError, neither, or a robot
-/// program or a result.
+/// Returns the file for a name given by the user: a path, or an entry of the catalogue ("two_robots" or "studies/two_robots").
+/// shelf: folder of config/. If both a job and a study have the name, every command uses the job and prints a note. Errors:
+/// InputError when neither exists, or for a robot program or a result file.
 std::filesystem::path named_file(const std::string& name, const std::string& shelf);
 
-/// Likewise a study, or a job, which is a study of one.
+/// Returns the file of a study, or of a job, which is a study of one job. Names as in named_file().
 std::filesystem::path named_study(const std::string& name);
 
 StudyRequest request_of(const StudyOptions& options);
 
-/// The folder of a study's results. Errors: InputError when it is not there.
+/// Returns the folder of a study's results. Errors: InputError when it does not exist.
 std::filesystem::path folder_of_results(const StudyRequest& request, const StudyOptions& options);
 
-/// To standard output, as it is: what comes from jobs and programs passes shown() first.
+/// Writes text unchanged to standard output. Precondition: text from jobs and programs has passed shown().
 void print(const std::string& text);
 
 }  // namespace dresslife::pipeline

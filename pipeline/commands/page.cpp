@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of any folder that holds a job's results.
+/// Writes the page of any folder that contains a job's results.
 int page(const fs::path& folder) {
   JobFolder files{fs::weakly_canonical(folder).filename().string(), folder};
   if (kind_of(files.life()) == FileKind::absent)

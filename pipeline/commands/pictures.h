@@ -1,4 +1,4 @@
-// Pictures for people, as files.
+// Picture files.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace dresslife::pipeline {
 
-/// As the file's ending says: .png, else SVG. Errors: InputError when it cannot be written, or would replace a file
-/// that is not ours.
+/// Writes PNG if the file name ends in .png, else SVG. Errors: InputError when the file cannot be written, or when it exists and
+/// was not written by dresslife.
 void write_picture(const std::filesystem::path& file, const std::string& svg);
 
 }  // namespace dresslife::pipeline

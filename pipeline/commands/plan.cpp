@@ -38,7 +38,7 @@ struct PlanOptions : RunOptions {
   std::optional<double> risk_percent;
 };
 
-/// The day on which the duties of another table begin.
+/// Returns the day on which the duties of the other fleet table begin.
 Day change_day(const PlanOptions& options, Day today) {
   const char* const option = "--what-if-from";
   if (options.what_if_from.empty()) return today;
@@ -62,9 +62,9 @@ std::vector<Warning> doubts_of(std::optional<double> risk_percent) {
                               : "--risk 10")};
 }
 
-constexpr std::size_t most_named = 3;  // duties or programs of a plant, which may have hundreds
+constexpr std::size_t most_named = 3;  // duties or programs that are named; a plant may have hundreds
 
-/// Duties whose programs have warnings that spoil a plan.
+/// Returns the duties whose programs have warnings that make a plan unreliable.
 std::vector<std::string> doubts(const std::vector<DutyResult>& duties) {
   std::vector<std::string> lines;
   std::size_t more = 0;
@@ -86,7 +86,7 @@ std::vector<std::string> doubts(const std::vector<DutyResult>& duties) {
   return lines;
 }
 
-/// Of the duties with the earliest modes that no test validates.
+/// Returns the cautions about the duties with the earliest modes that no test validates.
 std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
   std::vector<std::pair<double, const DutyResult*>> order;
   for (const DutyResult& duty : duties) {
@@ -108,14 +108,14 @@ std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
   return texts;
 }
 
-/// Whether the samples are of a calibration from a maintenance system's table.
+/// Returns whether the samples come from a calibration with the table of a maintenance system.
 bool knows_survivors(const Study& study) {
   return std::any_of(study.jobs.begin(), study.jobs.end(), [](const StudyJob& one) {
     return one.job && one.job->calibration && counts_survivors(*one.job->calibration);
   });
 }
 
-/// Of the dresspack that abrasion ends first under each duty.
+/// Returns, by duty, the life of the dresspack that abrasion ends first.
 std::map<std::string, AbrasionLife> abrasion_lives(const std::vector<DutyResult>& duties) {
   std::map<std::string, AbrasionLife> lives;
   for (const DutyResult& duty : duties)
@@ -128,7 +128,7 @@ std::map<std::string, AbrasionLife> abrasion_lives(const std::vector<DutyResult>
   return lives;
 }
 
-/// Of abrasion and jacket wear, which an inspection sees, by the duty's name.
+/// Returns, by duty, the age limits of abrasion and jacket wear, which an inspection can see.
 std::map<std::string, std::vector<AgeLimit>> age_limits(const std::vector<DutyResult>& duties) {
   std::map<std::string, std::vector<AgeLimit>> limits;
   for (const DutyResult& duty : duties)
@@ -144,7 +144,7 @@ std::map<std::string, double> week_hours_of(const std::vector<DutyResult>& dutie
   return hours;
 }
 
-/// The texts one after the other, and an empty line where there are some.
+/// Returns the joined texts, followed by an empty line if there are any.
 std::string block(const std::vector<std::string>& texts) {
   return fmt::format("{}{}", joined(texts, ""), texts.empty() ? "" : "\n");
 }
@@ -176,7 +176,7 @@ int plan(const PlanOptions& options) {
   if (!fleet.unused.empty())
     tell(shown(fmt::format("note: {}: a plan does not use the columns {}\n", options.fleet, joined(fleet.unused, ", "))));
   const std::set<std::string> planned = needed;
-  bool has_changes = changed.has_value();  // of the duty of a dresspack
+  bool has_changes = changed.has_value();  // whether the duty of a dresspack changes
   for (const Duty& duty : file.duties)
     for (const PastDuty& past : duty.history)
       if (planned.contains(duty.name)) needed.insert(past.duty), has_changes = true;
@@ -198,8 +198,10 @@ int plan(const PlanOptions& options) {
   add_past(fleet);
   const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent,
                       knows_survivors(made.study)};
-  if (const double effective = effective_worlds(fleet, tables, day, rule); effective < enough_worlds) {  // many survivors leave few worlds
-    constexpr double spare = 1.2, most = 8;  // few worlds tell how many more are needed to a tenth; ten seconds for 500 dresspacks
+  // ages of many survivors leave few worlds with weight
+  if (const double effective = effective_worlds(fleet, tables, day, rule); effective < enough_worlds) {
+    // the estimate from few worlds is exact to a tenth; the limit takes ten seconds for 500 dresspacks
+    constexpr double spare = 1.2, most = 8;
     const auto times = static_cast<std::size_t>(std::clamp(std::ceil(spare * enough_worlds / effective), 2.0, most));
     tables = life_tables(file, made.study, made.rows, needed, has_changes, times * usual_worlds);
   }
@@ -218,7 +220,7 @@ int plan(const PlanOptions& options) {
     add_past(*changed);
     keep_ages(*changed, fleet, tables, day, from);
     PlanRule same = rule;
-    same.weights = found.weights;  // of the plant as it is
+    same.weights = found.weights;  // the weights of the present plant
     other = plan_of(*changed, tables, windows, day, same);
     what_if = "\n" + what_if_words(what_if_name, fleet, found, *changed, *other);
   }

@@ -22,8 +22,8 @@ struct PreviewOptions {
   std::vector<std::string> sets;
 };
 
-/// Writes the page of a job before its run and prints what a check finds. A job that is refused has a page, too: exit
-/// status 0 means that the page is there.
+/// Writes the page of a job before its run and prints the results of a check. A refused job also gets a page: exit
+/// status 0 means that the page was written.
 int preview(const PreviewOptions& options) {
   const fs::path job = named_file(options.job, "jobs");
   const fs::path page =
@@ -31,7 +31,8 @@ int preview(const PreviewOptions& options) {
   check_replaceable(page);
   const PassingFile file("preview.h5");
   const JobCheck check = check_of(job, options.sets, file.path());
-  if (kind_of(file.path()) != FileKind::file) return print_preview(job, options.sets, {}, file.path());  // prints why
+  // the stage prints the error
+  if (kind_of(file.path()) != FileKind::file) return print_preview(job, options.sets, {}, file.path());
   write_text_if_changed(page, preview_page(file.path(), job.stem().string(), xxh3(shell_digest())));
   print_check(check);
   print(shown("Preview: " + page.string() + "\n"));

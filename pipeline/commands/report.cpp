@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Prints the ranking of what is done. The files of the study's folder are brought up to date: of a stale job
-/// they keep the last result, marked. Where one is lost that they may still tell of, they stay as the last
-/// run left them.
+/// Prints the ranking of the existing results and updates the files of the study's folder. Stale jobs keep their last result,
+/// marked as stale. If results that these files may describe are missing, broken off or damaged, the files stay as the last run
+/// left them.
 int report(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
   const fs::path folder = folder_of_results(request, options);

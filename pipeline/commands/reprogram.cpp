@@ -30,19 +30,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t ways_shown = 12;  // on the terminal; the table holds all
+constexpr std::size_t ways_shown = 12;  // on the terminal; the table contains all
 
 struct ReprogramOptions : RunOptions {
   int lines = 4;
 };
 
-/// One way that was tried.
+/// One alternative that was simulated.
 struct TriedWay {
   OtherWay way;
   Outcome outcome;
-  double seconds = 0;  ///< of a repeat
-  std::string patch;   ///< of the program, unified diff; empty: its motion is a list of steps
-  fs::path file;       ///< that it was written to
+  double seconds = 0;  ///< duration of a repeat [s]
+  std::string patch;   ///< unified diff of the program; empty: the motion is a list of steps
+  fs::path file;       ///< file with the patch
 };
 
 std::vector<double> cost_of_lines(const fs::path& life_file) {
@@ -52,7 +52,7 @@ std::vector<double> cost_of_lines(const fs::path& life_file) {
   return cost;
 }
 
-/// How many times as long it lives; without damage before and after: 1.
+/// Returns the ratio of the life to the life before; 1 if both have no damage.
 double times_as_long(const TriedWay& tried, const TriedWay& before) {
   return std::isinf(before.outcome.hours) && std::isinf(tried.outcome.hours)
              ? 1
@@ -107,7 +107,8 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The ways of a job whose motion is a program, as its patched text reads; how many cannot be written in it.
+/// Returns the alternatives for a job whose motion is a program, with the text of the patched program. Prints the
+/// number of alternatives that the program cannot express.
 std::vector<TriedWay> program_ways_of(const Job& job, const fs::path& life_file, const ReprogramOptions& options) {
   const PassingFile described("job.yaml"), noted("ways.h5");
   write_text_if_changed(described.path(), with_mark(job_text(job), Mark::yaml), Sync::never);
@@ -141,10 +142,10 @@ std::vector<TriedWay> ways_of(const Job& job, const fs::path& life_file, const R
   return ways;
 }
 
-/// A patch for each way that helps, beside the table; those of an earlier run go.
+/// Writes a patch beside the table for each alternative that increases the life, and removes the patches of an earlier run.
 void write_patches(const StudyPlaces& places, const std::string& job, const TriedWay& before,
                    std::vector<TriedWay>& ways) {
-  constexpr double helps = 1.01;  // times as long; less is rounding of a simulation
+  constexpr double helps = 1.01;  // ratio of lives; a smaller gain is within the rounding of a simulation
   const auto name = [&](int number) { return places.folder / fmt::format("{}_{:02}.patch", job, number); };
   int number = 0;
   for (TriedWay& tried : ways) {
@@ -156,7 +157,7 @@ void write_patches(const StudyPlaces& places, const std::string& job, const Trie
   }
 }
 
-/// Of one job of the study: what it could do instead, best first.
+/// Returns the simulated alternatives for one job of the study, best first.
 std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job, const StudyJob& base,
                                  const StudyPlaces& places, const ReprogramOptions& options) {
   const std::vector<TriedWay> ways = ways_of(*base.job, places.life(base.name), options);
@@ -174,7 +175,7 @@ std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job,
     TriedWay way = ways[way_of.at(row.job)];
     way.outcome = outcome_of(row, places.job(row.job));
     way.seconds = row.done() ? row.repeat_seconds : 0;
-    if (!way.patch.empty()) way.way.sets.clear();  // the patch says it
+    if (!way.patch.empty()) way.way.sets.clear();  // the patch contains these changes
     tried.push_back(std::move(way));
   }
   std::stable_sort(tried.begin(), tried.end(), [](const TriedWay& a, const TriedWay& b) {

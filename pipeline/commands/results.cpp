@@ -34,12 +34,11 @@ int print_preview(const fs::path& job, const std::vector<std::string>& sets, con
 
 namespace {
 
-/// Whether there is a page of what the simulation refuses in this job; made when it or the page's parts have
-/// changed.
+/// Writes the page of a refused job if the refusal or the parts of the page changed. Returns whether a page exists.
 bool refresh_preview(const fs::path& job, const fs::path& page, const JobState& state,
                      const std::string& name) {
   constexpr StageLimits limits{
-      20, 4000};  // a preview takes one second and little memory; the table says why the job failed
+      20, 4000};  // a preview takes one second and little memory; the ranking contains the reason of the failure
   const std::string made_from = xxh3(shell_digest() + state.recipes[0] + state.failure + name);
   if (made_from_of(page) == made_from) return true;
   const bool on_its_way = state.failure.find("is pulled tight") != std::string::npos;
@@ -54,7 +53,7 @@ bool refresh_preview(const fs::path& job, const fs::path& page, const JobState& 
 
 std::vector<fs::path> refresh_previews(const Study& study, const StudyPlaces& places,
                                        const std::vector<JobState>& states) {
-  constexpr std::size_t most = 10;  // half a second each
+  constexpr std::size_t most = 10;  // each takes half a second
   std::vector<fs::path> pages;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
@@ -69,7 +68,7 @@ std::vector<fs::path> refresh_previews(const Study& study, const StudyPlaces& pl
     }
     if (shows)
       pages.push_back(page);
-    else  // of a refusal that has been mended
+    else  // the refusal has been corrected
       remove_ours(page);
   }
   return pages;
@@ -77,7 +76,7 @@ std::vector<fs::path> refresh_previews(const Study& study, const StudyPlaces& pl
 
 namespace {
 
-/// Why a page of a job's last result is none of what the ranking says now; empty where it may be.
+/// Returns the reason why the page of a job's last result does not match the ranking; empty: it may match.
 std::string why_old(const RankingRow& row) {
   if (row.stale) return stale_words(row);
   if (!row.done()) return "the job has no result now: " + row.failure;
@@ -86,7 +85,7 @@ std::string why_old(const RankingRow& row) {
              : "";
 }
 
-/// Whether a step with a job's page could be taken; prints why not.
+/// Does a step with a job's page. Returns whether it succeeded; prints the error if not.
 bool taken(const std::string& job, const std::function<void()>& step) {
   try {
     step();
@@ -97,9 +96,9 @@ bool taken(const std::string& job, const std::function<void()>& step) {
   }
 }
 
-/// Pages of the jobs that the report shows at length. Others that are there, made earlier or by hand, stay
-/// while they are of the results that are there. Returns the jobs whose page could not be written: the
-/// ranking stands without it, and no old one stays beside it.
+/// Writes the pages of the jobs that have a section in the report. Other existing pages stay if they belong to the existing
+/// results. Returns the jobs whose page could not be written; their old pages are removed, and the ranking is complete without
+/// them.
 std::set<std::string> refresh_pages(const StudyPlaces& places, const std::vector<RankingRow>& rows) {
   const std::vector<bool> detailed = detailed_jobs(rows);
   std::set<std::string> failed;

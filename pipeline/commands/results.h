@@ -1,5 +1,4 @@
-// What a study leaves for people beside its numbers: the ranking's files, pages of jobs, previews of what is
-// refused.
+// Output of a study for readers, besides its numbers: the files of the ranking, pages of jobs, previews of refused jobs.
 #pragma once
 
 #include <filesystem>
@@ -14,17 +13,17 @@
 
 namespace dresslife::pipeline {
 
-/// ranking.csv, report.html and the pages that it links to. Returns the jobs whose results could not all be shown,
-/// which it has said. Errors: InputError where a file cannot be written, DiskError.
+/// Writes ranking.csv, report.html and the pages that it links to. Returns the jobs whose results could not all be shown, after
+/// printing a message about each. Errors: InputError when a file cannot be written; DiskError.
 [[nodiscard]] std::set<std::string> write_results(const Study& study, const StudyPlaces& places,
                                                   const std::vector<RankingRow>& rows);
 
-/// Pages of jobs that the simulation refuses, beside their logs; of the first few, as a study that varies a
-/// routing may have thousands. Returns them.
+/// Writes pages of jobs that the simulation refuses, beside their logs. Only the first few jobs get a page, because a study that
+/// varies a routing may have thousands of refused jobs. Returns the pages.
 std::vector<std::filesystem::path> refresh_previews(const Study& study, const StudyPlaces& places,
                                                     const std::vector<JobState>& states);
 
-/// Lets dresslife-sim tell into a file what stands where. Returns its exit status.
+/// Runs `dresslife-sim --preview` with its output in the file `preview`. Returns its exit status.
 int print_preview(const std::filesystem::path& job, const std::vector<std::string>& sets,
                  const StageLimits& limits, const std::filesystem::path& preview,
                  StageWords said = StageWords::shown);

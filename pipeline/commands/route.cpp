@@ -45,9 +45,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int trials = 3;  // routings of one search that are run through the whole chain
+constexpr int trials = 3;  // number of routings of one search that are simulated through the whole chain
 constexpr int further =
-    40;  // short runs for less bending and twisting: a third as long again as a usual search
+    40;  // short runs for less bending and twisting: a third more time than a usual search
 
 struct RouteOptions : RunOptions {
   RouteRequest request;
@@ -57,20 +57,21 @@ struct RouteOptions : RunOptions {
   std::optional<double> off_mm, off_deg, bracket_mm;
 };
 
-/// One search and what became of its routings.
+/// One search and the results of its routings.
 struct Trial {
   double factor = 1;
   ScreenedList proposals;
-  std::vector<Outcome> outcomes;  // (proposal) empty limits: it was not run
-  std::vector<RankingRow> rows;   // (proposal) likewise
+  std::vector<Outcome> outcomes;  // (proposal) empty limits: the proposal was not run
+  std::vector<RankingRow> rows;   // (proposal) empty: the proposal was not run
   std::optional<std::size_t>
-      best;  // that ran: feasible and the best by merit within the tolerance, else least beyond its limits
-  std::vector<ImprovementStory::Nudge> nudges{};  // of the best
+      // index of the best proposal that ran: of feasible ones the best merit within the tolerance, else the smallest violation
+      best;
+  std::vector<ImprovementStory::Nudge> nudges{};  // runs of the best proposal within the tolerance
   std::optional<std::size_t> start{};             // the job's own routing, if it has one
-  std::string ended{};  // message: a file changed, which ended the search; empty: none did
+  std::string ended{};  // message that a file changed and the search ended; empty: no file changed
 
   bool feasible() const { return best && outcomes[*best].feasible(); }
-  /// What the merit of a routing compares with: the job's own routing, if it ran.
+  /// Returns the reference for the merit of a routing: the outcome of the job's own routing, if it ran.
   Outcome as_it_is() const {
     if (start && !rows[*start].job.empty()) return outcomes[*start];
     Outcome none;
@@ -79,7 +80,7 @@ struct Trial {
   }
 };
 
-/// Whether a job that ran is to be preferred.
+/// Returns whether outcome a is better than outcome b.
 bool better(const Outcome& a, const Outcome& b, const Outcome& as_it_is) {
   if (a.violation() != b.violation()) return a.violation() < b.violation();
   return merit_of(a, as_it_is) > merit_of(b, as_it_is);
@@ -112,8 +113,7 @@ ScreenedList proposed(const Draft& draft, const RouteOptions& options, double fa
   return read_screening(passing.path());
 }
 
-/// Runs a routing through the whole chain.
-/// which: "run 2 of 4", for the progress.
+/// Runs a routing through the whole chain. which: "run 2 of 4", for the progress.
 void run(Trial& trial, std::size_t k, const std::string& which, const Draft& draft, const RouteOptions& options,
          const StudyPlaces& places, const FilesAtStart& files) {
   const ScreenedCandidate& candidate = trial.proposals.candidates[k];
@@ -127,12 +127,12 @@ void run(Trial& trial, std::size_t k, const std::string& which, const Draft& dra
   if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best], trial.as_it_is())) trial.best = k;
 }
 
-/// Twenty-four more runs of each routing say nothing where the motion is no program of the user.
+/// Returns the tolerance to verify. Without a program of the user 24 more runs of each routing have no value, so it is zero then.
 MountingTolerance tolerance_for(const Draft& draft, const RouteOptions& options) {
   return tolerance_of(options.off_mm.value_or(draft.exercise ? 0 : 1e3 * MountingTolerance{}.off), options.off_deg);
 }
 
-/// The feasible ones judged within the mounting tolerance.
+/// Judges the feasible proposals within the mounting tolerance.
 void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const StudyPlaces& places,
            const FilesAtStart& files) {
   const Outcome as_it_is = trial.as_it_is();
@@ -175,22 +175,22 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
   trial.nudges = judged[best].nudges;
 }
 
-/// The routing of the job that is named, as YAML; absent: it has none that is complete.
+/// Returns the routing of the given job as YAML; absent: the job has no complete routing.
 std::optional<std::string> own_routing(const Draft& draft) {
   const Node* const routing = draft.document.find("routing");
   if (draft.exercise || !routing) return {};
   try {
     job_from(draft.document);
-  } catch (const InputError&) {  // what is missing is what is searched for
+  } catch (const InputError&) {  // the job lacks keys that the search finds
     return {};
   }
   return to_yaml(*routing);
 }
 
-/// The best routing of a search, or the first if none ran. head: comment lines, or empty.
+/// Writes the best routing of a search, or the first if none ran. head: comment lines, or empty.
 void write_job(const Trial& of, const Draft& draft, const RouteOptions& options, const fs::path& job,
                const std::string& head) {
-  check_replaceable(job);  // again: somebody may have changed it during the search
+  check_replaceable(job);  // checked a second time, because the file may have changed during the search
   const Node document =
       routed(draft, of.proposals.candidates[of.best.value_or(0)].changes, of.proposals.motion, of.factor,
              job.has_parent_path() ? job.parent_path() : fs::path("."));
@@ -199,8 +199,8 @@ void write_job(const Trial& of, const Draft& draft, const RouteOptions& options,
                                        Mark::yaml));
 }
 
-/// Those that kept all limits in their rehearsal, and the job's own; with a tolerance all of them, as it decides, else until one keeps all
-/// limits in the whole chain.
+/// Runs the proposals that kept all limits in their rehearsal, and the job's own routing. With a tolerance all of them are run,
+/// because the tolerance decides; else until one keeps all limits in the whole chain.
 Trial tried(const Draft& draft, const RouteOptions& options, double factor, const StudyPlaces& places,
             const FilesAtStart& files, const fs::path& job) {
   Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}, {}};
@@ -238,28 +238,28 @@ Trial tried(const Draft& draft, const RouteOptions& options, double factor, cons
   return trial;
 }
 
-/// (limit) How far the best of a search is beyond each, by its run, else by its rehearsal; empty: it does not run.
+/// Returns, (limit), how far the best routing exceeds each limit, by its run, else by its rehearsal; empty: it cannot run.
 std::vector<double> beyond(const Trial& trial) {
   if (trial.best) return trial.outcomes[*trial.best].beyond;
   const ScreenedCandidate& first = trial.proposals.candidates.front();
   return limits_of_rehearsal(trial.proposals.limits, first.beyond);
 }
 
-/// The limit that the best of a search passes most, and what would cure it.
+/// The limit that the best routing of a search exceeds most, and its remedy.
 struct DecidingLimit {
   std::string by, remedy;
 };
 DecidingLimit decided(const Trial& trial, const Draft& draft) {
   std::vector<double> passed = beyond(trial);
   for (double& g : passed)
-    if (!(g > 0)) g = 0;  // not a number: not known
+    if (!(g > 0)) g = 0;  // NaN: not known
   const auto most = static_cast<std::size_t>(std::max_element(passed.begin(), passed.end()) - passed.begin());
   const std::string other =
       "another link (--from, --to), more --tried and --rehearsals, or a gentler program";
   if (passed.empty() || passed[most] == 0) return {"no routing runs", other};
   const std::string& limit = outcome_limit_names()[most];
   if (limit != "bend radius") {
-    // Its run has said by how much, why, and what would cure it.
+    // The warning of the run contains the amount, the reason and the remedy.
     constexpr std::string_view remedy = " Remedy: ";
     static const std::map<std::string, WarningKind> kinds{{"twist", WarningKind::twist},
                                                           {"too short", WarningKind::slack},
@@ -271,12 +271,12 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
     for (const Warning& warning : trial.best ? warnings_of(trial.rows[*trial.best]) : std::vector<Warning>{})
       if (const std::size_t at = warning.words.find(remedy);
           kind != kinds.end() && warning.kind == kind->second && at != std::string::npos)
-        return {"the limit that decides: " + warning.words.substr(0, at - 1),  // without its point
+        return {"the limit that decides: " + warning.words.substr(0, at - 1),  // without its full stop
                 warning.words.substr(at + remedy.size()) + "; or " + other};
     return {fmt::format("the limit that decides: {}, passed by {}", limit, passed_text(most, passed[most])), other};
   }
-  // The limit shrinks with the hose, but a smaller one is bent tighter, too: abb_irb2600_12_165 with hard misses by
-  // 0.14 at 100 % and by 0.033 at 78 %, and keeps all limits at 70 %. Short runs know a bend to some percent.
+  // The limit shrinks with the hose, but a thinner hose is also bent more: abb_irb2600_12_165 with `hard` exceeds the limit by
+  // 0.14 at 100 % and by 0.033 at 78 %, and keeps all limits at 70 %. Short runs give a bend to some percent.
   constexpr double margin = 0.95, smallest = 0.05;
   const double least = least_bend_radius(draft.job.dresspacks.front().dresspack) * trial.factor,
                share = std::exp(-passed[most]);
@@ -290,14 +290,14 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
                       other, std::floor(1e3 * least * share * margin))};
 }
 
-/// What stood against the best of them.
+/// Returns the reason why the best routing of a search is not feasible.
 std::string obstacle(const Trial& trial) {
   if (trial.best) return trial.outcomes[*trial.best].words();
   const ScreenedCandidate& first = trial.proposals.candidates.front();
   return first.refusal.empty() ? trial.proposals.words(first) : first.refusal;
 }
 
-/// Of its best, by its rehearsal; infinite: it does not run.
+/// Returns the violation of the best routing by its rehearsal; infinite: it cannot run.
 double violation(const Trial& trial) {
   const ScreenedCandidate& first = trial.proposals.candidates.front();
   return first.refusal.empty() ? first.violation() : std::numeric_limits<double>::infinity();
@@ -319,10 +319,10 @@ void write_page(const fs::path& job, const fs::path& page) {
     write_text_if_changed(page, preview_page(passing.path(), job.stem().string(), xxh3(shell_digest())));
 }
 
-/// The winner beside the routing that the job has.
+/// Returns a comparison of the best routing with the job's own routing.
 std::string comparison_words(const Trial& trial) {
   if (!trial.start || trial.rows[*trial.start].job.empty())
-    return "";  // it has none, or the search ended before
+    return "";  // no own routing, or the search ended early
   const Outcome &own = trial.outcomes[*trial.start], &best = trial.outcomes[*trial.best];
   if (*trial.best == *trial.start) return "It is the job's own routing: none that was found is better.\n";
   if (!own.failure.empty()) return fmt::format("The job's own routing does not run: {}\n", own.failure);
@@ -357,7 +357,7 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
   return text + mode_table(row, 120, "");
 }
 
-/// Removes the runs of a search but that of its winner.
+/// Removes the runs of a search except that of the best routing.
 void remove_others(const fs::path& folder, const std::string& winner) {
   for (const fs::path& entry : entries_of(folder))
     if (entry.filename() != winner && is_job_folder(entry)) remove_job(entry);

@@ -25,7 +25,7 @@ std::string ran_words(int stages) {
   return fmt::format("{} {} ran", stages, stages == 1 ? "stage" : "stages");
 }
 
-/// Makes a shard's jobs beside other shards' runs, and leaves ranking and report to a run of the whole.
+/// Runs the jobs of one shard beside the runs of other shards. A run of the whole study writes ranking and report.
 int run_shard(const RunOptions& options) {
   const Shard shard = shard_from(options.shard, "--shard");
   const StudyRequest request = request_of(options);
@@ -42,7 +42,7 @@ int run_shard(const RunOptions& options) {
   return say_failures(options.study, ranking_of(standing.study, standing.places, standing.states));
 }
 
-/// What a run would make, without making it.
+/// Prints the stages that a run would start, without starting them.
 int dry_run(const RunOptions& options) {
   const StudyRequest request = request_of(options);
   check_source(request.out / study_name(request.file), request.file);
@@ -76,7 +76,7 @@ int run(const RunArguments& options) {
   const fs::path folder = request.out / study_name(request.file);
   StudyState standing;
   const bool begun = kind_of(folder) == FileKind::folder;
-  if (!begun) standing = expanded(request);  // a study that cannot be expanded leaves no folder
+  if (!begun) standing = expanded(request);  // a study that cannot be expanded creates no folder
   const FolderLock lock(folder);
   claim_folder(folder, request.file);
   if (begun) standing = standing_of(request);

@@ -26,15 +26,15 @@ struct SubmitOptions : StudyOptions {
   bool only_write = false;
 };
 
-/// One word of a shell, whatever it holds.
+/// Returns any text quoted as one word of a shell.
 std::string shell_word(const std::string& text) {
   std::string word = "'";
   for (const char letter : text) word += letter == '\'' ? "'\\''" : std::string(1, letter);
   return word + "'";
 }
 
-/// The batch script: the same `dresslife run` in an allocation as on a laptop, but for the launcher. In an
-/// array of allocations each makes its shard; whichever is started again goes on where it was.
+/// Returns the batch script: the same `dresslife run` as on one machine, with a launcher. In an array of allocations each
+/// allocation runs its shard. An allocation that is started again continues.
 std::string script_of(const SubmitOptions& options, const Cluster& cluster, const StudyState& standing) {
   constexpr double megabyte = 1e6;
   const int tasks = options.tasks.value_or(cluster.tasks);
@@ -56,7 +56,7 @@ std::string script_of(const SubmitOptions& options, const Cluster& cluster, cons
   return text + "  ${SLURM_ARRAY_TASK_ID:+--shard \"$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT\"}\n";
 }
 
-/// Queues the script; returns what the queue calls it. Errors: InputError when the queue does not take it.
+/// Submits the script. Returns its name in the queue. Errors: InputError when the queue does not accept it.
 std::string submitted(const Cluster& cluster, const std::string& more, const fs::path& script) {
   const std::string command = cluster.submit + more + ' ' + shell_word(fs::absolute(script).string());
   std::fflush(nullptr);
@@ -99,7 +99,7 @@ int submit(const SubmitOptions& options) {
   }
   std::string last = submitted(cluster, array, script);
   std::string message = fmt::format("{}: job {}", standing.study.name, last);
-  if (shards > 1) {  // the whole, which finds the rest and ranks
+  if (shards > 1) {  // a last allocation runs the missing stages and ranks the jobs
     last = submitted(cluster, " --dependency=afterany:" + last, script);
     message += fmt::format(" of {} shards, ranked by job {}", shards, last);
   }

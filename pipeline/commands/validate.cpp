@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Laws beside published tests: at once, without jobs.
+/// Compares laws with published tests, at once and without jobs.
 int validate_laws(const fs::path& file, const RunOptions& options) {
   const std::string table = law_table(read_law_tests(file));
   const OwnFolder own(options, "validate_" + file.stem().string(), file);

@@ -26,15 +26,15 @@ using Curve = std::vector<double>;
 
 struct Law {
   std::string name;
-  double largest;  ///< curvature in the motion [1/m]
-  /// Of the first bend [N m]; friction: a factor.
+  double largest;  ///< largest curvature in the motion [1/m]
+  /// Returns the moment of the first bend [N m]; friction: a factor on the friction.
   std::function<Curve(double friction, const Curve& curvature)> moment;
-  std::function<double(double curvature)> simulated;  ///< of the first bend in the simulation [N m]; empty: not simulated
+  std::function<double(double curvature)> simulated;  ///< moment of the first bend in the simulation [N m]; empty: not simulated
 };
 
-constexpr int curve_steps = 120;  // from end to end, each some 7 px wide
+constexpr int curve_steps = 120;  // number of points of a curve, about 7 px apart
 
-/// On the way up, between minus and plus the largest curvature.
+/// Returns the moments for rising curvature, between minus and plus the largest curvature.
 Curve way_up(const Law& law, double friction) {
   Curve half;
   for (int k = 0; k <= curve_steps; ++k) half.push_back(law.largest * k / curve_steps);
@@ -44,13 +44,14 @@ Curve way_up(const Law& law, double friction) {
   return moment;
 }
 
-/// "0.0081 N m2 sliding, 1.7 held; friction 0.017 N m (0.006 .. 0.05)": the ends of the law, without and with all friction.
+/// Returns "0.0081 N m2 sliding, 1.7 held; friction 0.017 N m (0.006 .. 0.05)": both ends of the law, with no and all layers
+/// sliding.
 std::string words_of(const Law& law, const std::array<double, 3>& frictions) {
-  constexpr double none = 1e-6, all = 1e4;  // [1/m]: nothing slides, all slides to the end of it
+  constexpr double none = 1e-6, all = 1e4;  // [1/m]: curvatures at which no part slides, and at which all parts slide
   const auto friction = [&](double factor) {
     const Curve at = law.moment(factor, {all, 2 * all});
     const double held = 2 * at[0] - at[1];
-    return readable(held > 1e-12 * at[1] ? held : 0);  // below it is rounding
+    return readable(held > 1e-12 * at[1] ? held : 0);  // a smaller value is rounding
   };
   const Curve at = law.moment(frictions[1], {none, all, 2 * all});
   return fmt::format("{}: E I {} N m2 sliding, {} held; friction {} N m (10 .. 90 %: {} .. {}); largest curvature {} 1/m", law.name,
@@ -96,7 +97,7 @@ Law law_of_hose(const Dresspack& dresspack, double largest) {
           dresspack.cable_alone ? std::function<double(double)>() : simulated};
 }
 
-/// Largest curvature of the segments of a dresspack [1/m].
+/// Returns the largest curvature of the segments of a dresspack [1/m].
 double bend_of_hose(const FileReader& strain, std::size_t dresspack) {
   const std::vector<std::size_t> of_segment = dresspack_of_segments(strain);
   std::vector<double> row;
@@ -109,7 +110,7 @@ double bend_of_hose(const FileReader& strain, std::size_t dresspack) {
   return most;
 }
 
-/// Largest curvature of the cables of a component [1/m]; 0: they are held, or an older file does not say it.
+/// Returns the largest curvature of the cables of a component [1/m]; 0: they are held, or an older file does not contain it.
 double bend_of_cables(const FileReader& strain, std::size_t dresspack, std::size_t component) {
   if (!strain.has("/cable/curvature")) return 0;
   const auto bends = strain.read<double>("/cable/curvature");

@@ -41,7 +41,7 @@ svg .whisker { stroke: var(--blue); stroke-width: 12; stroke-opacity: .35; }
 svg .scatter { stroke: var(--hot); stroke-width: 5; }
 )";
 
-/// A phone scrolls a chart sideways rather than make its words too small to be read; paper shows all of it.
+/// On a phone a chart scrolls sideways, so that its text stays readable; on paper the whole chart is printed.
 constexpr std::string_view chart_rules = R"(
 .chart { overflow-x: auto; } @media screen and (max-width: 45rem) { .chart > svg { min-width: 52rem; } }
 .picture > svg { max-height: 32rem; } .metered { white-space: nowrap; }
@@ -51,14 +51,14 @@ constexpr std::string_view chart_rules = R"(
   .meter { width: 3rem; } .meter > span { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 )";
 
-/// The value that the first, light, set of colours gives a variable.
+/// Returns the value of a variable in the first set of colours, which is the light one.
 std::string_view light_colour(std::string_view variable) {
   const std::string declared = fmt::format("{}: ", variable);
   const std::size_t at = drawing_style.find(declared) + declared.size();
   return drawing_style.substr(at, drawing_style.find(';', at) - at);
 }
 
-/// The rules with the light colours in the place of variables.
+/// Returns the rules with the light colours instead of variables.
 std::string light_rules() {
   std::string rules(drawing_style.substr(drawing_style.find("svg {")));
   constexpr std::string_view open = "var(";
@@ -77,7 +77,7 @@ File temporary_file() {
   return file;
 }
 
-/// Exit status; 127: there is no such program.
+/// Runs the converter. Returns its exit status; 127: the program is not installed.
 int run_converter(std::FILE* in, std::FILE* out) {
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);

@@ -1,8 +1,8 @@
-// Clamps in the preview: the YAML of a clamp where the reader clicks on a link, and clamps that are dragged over the links'
-// surfaces while length and clearance are computed over the whole program. Lengths in metres, poses in a link's frame.
+// Clamps in the preview: the YAML of a clamp where the reader clicks on a link, and clamps that are dragged over the surfaces of
+// links. Length and clearance are computed over the whole program. Lengths in metres, poses in a link's frame.
 const leastSlack = .02, mostSlack = 1 / 3, clearanceMoments = 60;
 
-// Of a point to a triangle: to its plane where the foot lies inside, else to its sides.
+// Distance of a point to a triangle: to its plane if the foot of the perpendicular lies inside, else to its sides.
 function distanceToTriangle(point, a, b, c) {
   const ab = b.clone().sub(a), ac = c.clone().sub(a), normal = ab.clone().cross(ac), area = normal.length();
   if (area > 1e-12) {
@@ -20,7 +20,7 @@ function distanceToLine(point, from, to) {
   return {distance: nearest.distanceTo(point), nearest};
 }
 
-// A link's shape as something that points have a distance to, below 0 inside of a capsule or box; a mesh is a surface.
+// The shape of a link, to which points have a distance (below 0 inside a capsule or box); a mesh is a surface without an inside.
 class Solid {
   constructor(shape) {
     this.shape = shape;
@@ -52,7 +52,7 @@ class Solid {
     this.centre = ball.center;
     this.reach = ball.radius;
   }
-  // {distance, nearest} of a point in the link's frame.
+  // Returns {distance, nearest} of a point in the link's frame.
   near(point) {
     if (this.shape.kind === 'capsule') {
       const axis = distanceToLine(point, this.begin, this.end), out = point.clone().sub(axis.nearest);
@@ -62,7 +62,7 @@ class Solid {
     if (this.shape.kind === 'box') {
       const local = point.clone().applyMatrix4(this.inverse), nearest = local.clone().clamp(this.half.clone().negate(), this.half);
       let distance = nearest.distanceTo(local);
-      if (distance === 0) {  // inside: out by the nearest side
+      if (distance === 0) {  // inside: the nearest side decides
         const axis = ['x', 'y', 'z'].sort((a, b) => Math.abs(local[b]) - this.half[b] - Math.abs(local[a]) + this.half[a])[0];
         distance = Math.abs(local[axis]) - this.half[axis];
         nearest[axis] = Math.sign(local[axis] || 1) * this.half[axis];
@@ -78,7 +78,7 @@ class Solid {
   }
 }
 
-// To the nearest of them; those that are surely farther than `limit` are passed over.
+// Returns the distance to the nearest shape; skips shapes that are farther than `limit`.
 function nearestOf(solids, point, limit = Infinity) {
   let best = {distance: limit, nearest: null};
   for (const solid of solids) {
@@ -125,13 +125,13 @@ class Clamps {
     return poses;
   }
 
-  // ---- where the pointer is ----
+  // ---- position of the pointer ----
   ray(x, y) {
     const ray = new THREE.Raycaster(), size = this.viewer.canvas.getBoundingClientRect();
     ray.setFromCamera(new THREE.Vector2(2 * x / size.width - 1, 1 - 2 * y / size.height), this.viewer.camera);
     return ray;
   }
-  // Of the links' shapes: {link, position, normal} in the link's frame; null: none.
+  // Returns {link, position, normal} on the shapes of the links, in the link's frame; null: none.
   surfaceAt(x, y) {
     const shapes = [];
     this.viewer.links.forEach((group, link) => group.children.forEach(part => {
@@ -144,7 +144,7 @@ class Clamps {
     if (normal.dot(this.viewer.camera.position.clone().sub(hit.point)) < 0) normal.negate();
     const position = hit.point.clone().applyMatrix4(inverse), shape = hit.object.userData.shape;
     normal.transformDirection(inverse);
-    if (shape.kind === 'capsule') {  // Its drawn faces are plane and lie up to 2 % of the radius inside it.
+    if (shape.kind === 'capsule') {  // The drawn faces are plane and lie up to 2 % of the radius inside the capsule.
       const solid = new Solid(shape), axis = distanceToLine(position, solid.begin, solid.end).nearest;
       normal.subVectors(position, axis).normalize();
       position.copy(axis).addScaledVector(normal, shape.radius);
@@ -158,7 +158,7 @@ class Clamps {
   }
 
   // ---- a clamp at a place ----
-  // On a surface the hose lies on it, along it, toward the dresspack's next clamp.
+  // On a surface the hose lies on it, parallel to it, toward the dresspack's next clamp.
   placed(clamp, surface) {
     const position = surface.position.clone().addScaledVector(surface.normal, clamp.radius);
     const frames = this.viewer.links, here = position.clone().applyMatrix4(frames[surface.link].matrixWorld);
@@ -203,8 +203,8 @@ class Clamps {
     clamp.bracketMesh = rod;
   }
 
-  // ---- what it means for the program ----
-  // Of each piece of the dresspack: clamps' least and largest distance over the program, and lengths that suit.
+  // ---- consequences for the program ----
+  // For each piece of the dresspack: least and largest distance of its clamps over the program, and suitable lengths.
   lengths(clamp) {
     const all = this.ofDresspack(clamp), pieces = [];
     for (let k = 0; k + 1 < all.length; ++k) {
@@ -219,7 +219,7 @@ class Clamps {
     }
     return pieces;
   }
-  // Least distance of the hose at this clamp to links other than its own, over the program.
+  // Returns the least distance over the program between the hose at this clamp and links other than the clamp's own link.
   clearance(clamp) {
     let best = {distance: Infinity, link: '', time: 0};
     const step = Math.max(1, Math.floor(this.poses.length / clearanceMoments));
@@ -263,7 +263,7 @@ class Clamps {
     }
     return lines;
   }
-  // whole: the clearance, too, which takes a moment.
+  // whole: whether the clearance is also computed, which takes a moment.
   show(whole = true) {
     const clamp = this.clamps[this.chosen];
     const names = this.clamps.map((one, k) => [String(k), one.name]);

@@ -1,4 +1,5 @@
-// Colours for numbers, distinct for colour-blind readers: plasma from dark to bright for amounts, blue to orange for signs.
+// Colours for numbers, distinct for colour-blind readers: plasma from dark to bright for amounts, blue to orange for values of
+// both signs.
 const sequentialStops = [[59, 4, 154], [126, 3, 168], [182, 48, 139], [225, 100, 98], [248, 149, 64], [252, 194, 50]];
 const divergingStops = [[0, 82, 155], [90, 155, 205], [225, 225, 225], [240, 160, 70], [175, 80, 0]];
 const noAmount = [150, 158, 168];
@@ -9,7 +10,7 @@ function colourOf(stops, part) {
 }
 const css = colour => `rgb(${colour.map(Math.round).join(',')})`;
 
-// How a quantity of segments is coloured: part(value) in 0 .. 1, null without an amount.
+// Colour of a quantity of segments: part(value) in 0 .. 1, null without a value.
 class Scale {
   constructor(title, stops, low, high, logarithmic) { Object.assign(this, {title, stops, low, high, logarithmic}); }
   colour(value) {

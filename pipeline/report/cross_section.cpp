@@ -15,9 +15,9 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double picture = 640;     // side of the square that holds the hose [px]
+constexpr double picture = 640;     // side of the square around the hose [px]
 constexpr double margin = 20;       // [px]
-constexpr double line_height = 18;  // of the list below [px]
+constexpr double line_height = 18;  // height of a line of the list below [px]
 
 double millimetres(double metres) { return 1e3 * metres; }
 
@@ -39,7 +39,7 @@ std::string kind_words(const Component& part) {
   return words;
 }
 
-/// What a part without wires has instead.
+/// Returns the properties of a part without wires, as text.
 std::string plain_words(const Component& part) {
   const PlainProperties plain = properties_of(*part.plain, part.radius);
   return kind_words(part) + fmt::format(", {:.3g} kg/m, E I {:.3g} N m2{}; no life here",
@@ -68,12 +68,12 @@ int depth_of(const std::vector<Component>& components) {
   return depth;
 }
 
-/// Of one part: E A and E I about its own axis.
+/// Stiffness of one part: E A, and E I about its own axis.
 struct Stiffness {
   double axial = 0, bending = 0;
 };
 
-/// solid_from: the level from which on parts do not slide; `level` is that of `part`'s inner parts.
+/// Returns the stiffness of `part`. level: level of its inner parts. solid_from: parts of this level and deeper do not slide.
 Stiffness stiffness_of(const Dresspack& dresspack, const Component& part, int level, int solid_from) {
   if (part.plain) return {};
   if (part.components.empty()) {
@@ -150,7 +150,7 @@ class Drawing {
            (outside_bore(room_, component) > 0 || inside_core(room_, component) > 0);
   }
 
-  /// Layers of equal parts: each part is drawn once and shown K times.
+  /// Returns the parts of all layers: the part of a layer is defined once and shown K times.
   std::string inside(const std::vector<Component>& components) {
     std::string text;
     for (const Component& component : components) {
@@ -166,7 +166,7 @@ class Drawing {
     return text;
   }
 
-  /// Parts of one component each other, or those of another of the same parent.
+  /// Returns whether the parts of a component overlap each other or the parts of another component of `among`.
   static bool overlap(const Component& component, const std::vector<Component>& among) {
     return overlaps(component) || std::any_of(among.begin(), among.end(), [&](const Component& other) {
              return &other != &component && overlap_each_other(component, other);
@@ -227,7 +227,7 @@ class Drawing {
   int parts_ = 0;
 };
 
-/// "layer 2/wire 17": the layer's name where it has one, then part 17 of so many.
+/// Returns "layer 2/wire 17": the layer's name if it has one, then the name and number of the part.
 std::string own_name(const Component& component, int number) {
   return fmt::format("{}{}{} {}", component.layer, component.layer.empty() ? "" : "/", component.name,
                      number);

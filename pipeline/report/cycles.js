@@ -1,4 +1,4 @@
-// The wire that breaks first: its cycles by range and mean, and its stress over strain.
+// The wire that breaks first: a chart of its cycles by range and mean, and of its stress over strain.
 const svgNames = new DOMParser().parseFromString('<svg></svg>', 'text/html').querySelector('svg').namespaceURI;
 function drawing(tag, attributes = {}, ...children) {
   const element = document.createElementNS(svgNames, tag);

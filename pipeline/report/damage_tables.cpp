@@ -16,14 +16,14 @@ namespace {
 
 constexpr std::size_t listed_lines = 10, listed_layers = 12;
 
-/// A share with a bar beside it, whose full length is the largest share of the table.
+/// Returns a share with a bar, which has full length for the largest share of the table.
 std::string meter(double share, double largest) {
   return fmt::format(
       "<span class=\"metered\"><span class=\"meter\"><span style=\"width:{:.1f}%\"></span></span>{:.1f} %</span>",
       100 * share / largest, 100 * share);
 }
 
-/// Of those above 0.
+/// Returns the indices of the largest values above 0.
 std::vector<std::size_t> largest_of(const std::vector<double>& values, std::size_t most) {
   std::vector<std::size_t> order = largest_first(values);
   std::erase_if(order, [&](std::size_t i) { return !(values[i] > 0); });
@@ -31,7 +31,7 @@ std::vector<std::size_t> largest_of(const std::vector<double>& values, std::size
   return order;
 }
 
-/// The joints that cost most of a line's damage, "joint 5 60 %, joint 6 31 %".
+/// Returns the joints that cause most of a line's damage: "joint 5 60 %, joint 6 31 %".
 std::string main_causes(const LifeSummary& life, std::size_t line) {
   constexpr std::size_t most_named = 2;
   constexpr double least_named = 0.1;
@@ -48,7 +48,7 @@ std::string main_causes(const LifeSummary& life, std::size_t line) {
   return text;
 }
 
-/// What moved between opening and closing of the worst wire's cycles.
+/// Returns the table of the joints that moved between opening and closing of the worst wire's cycles.
 std::string cause_table(const LifeSummary& life) {
   const double total = std::accumulate(life.cause_damage.begin(), life.cause_damage.end(), 0.0);
   if (!(total > 0)) return "";
@@ -74,7 +74,7 @@ std::string cause_table(const LifeSummary& life) {
       wide_table({"moved", "share of the damage"}, rows));
 }
 
-/// (line) half of the damage of the cycles that a line opens and half of those that it completes.
+/// Returns, (line), half of the damage of the cycles that a line opens plus half of the damage of those that it closes.
 std::vector<double> damage_of_lines(const LifeSummary& life) {
   std::vector<double> damage = life.step_damage;
   for (std::size_t line = 0; line < life.step_opened.size(); ++line)
@@ -82,7 +82,7 @@ std::vector<double> damage_of_lines(const LifeSummary& life) {
   return damage;
 }
 
-/// When a line runs, and its run in which most damage is completed.
+/// The number of runs of a line, and its run in which most damage is completed.
 struct LineRuns {
   std::size_t times = 0;
   const ProgramRun* costliest = nullptr;
@@ -99,7 +99,7 @@ LineRuns runs_of(std::size_t line, const std::vector<ProgramRun>& runs) {
 }
 
 std::string program_table(const LifeSummary& life) {
-  constexpr double least_listed = 5e-4;  // of the damage: 0.1 % when rounded
+  constexpr double least_listed = 5e-4;  // share of the damage that rounds to 0.1 %
   const std::vector<double> damage = damage_of_lines(life);
   const double total = std::accumulate(damage.begin(), damage.end(), 0.0);
   const std::vector<ProgramRun> runs = program_runs(life);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double duty_width = 960, duty_names = 190, duty_row = 40;
 
-/// Two bars of each program: its share of the time, and of the damage.
+/// Returns a chart with two bars per program: its share of the time, and of the damage.
 std::string shares_chart(const DutyResult& duty) {
   constexpr double top = 8, legend = 300;
   const double height = duty_row * double(duty.parts.size());
@@ -37,14 +37,14 @@ std::string shares_chart(const DutyResult& duty) {
   return picture.svg();
 }
 
-/// Lives over the share of the time of one program. The horizontal line is the robot's life.
+/// Returns a chart of lives over the time share of one program. The horizontal line is the robot's life.
 std::string life_chart(const DutyResult& duty, const DutyPart& part) {
   constexpr double chart = 460, height = 250;
   double low = duty.robot_life_hours, high = low;
   for (const LifeAtShare& at : part.over_share)
     for (const std::size_t p : {0, 1})
       if (std::isfinite(at.hours[p])) low = std::min(low, at.hours[p]), high = std::max(high, at.hours[p]);
-  high = std::min(high, 1e3 * duty.robot_life_hours);  // what lies above says nothing to a plan
+  high = std::min(high, 1e3 * duty.robot_life_hours);  // longer lives are not relevant for a plan
   const Panel panel{84, 10, chart - 104, height - 70, linear_axis("share of the time [%]", 0, 100 * part.over_share.back().share_of_time),
                     decades_axis("life [h]", low * 0.999, high)};
   Picture picture(chart, height, part.job, "Hours until 1 of 10 and half have failed, over the share of the time of this program.");

@@ -1,4 +1,4 @@
-// The page of duties: of each program its share of the damage, the life without it, and the life over its share of the time.
+// The page of duties: for each program its share of the damage, the life without it, and the life over its share of the time.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dresslife::pipeline {
 
-/// name: of the file of duties. table: the file with the same numbers.
+/// Returns the page. name: name of the file of duties. table: file with the same numbers.
 std::string duty_page(const std::string& name, const std::vector<DutyResult>& results, const std::string& table);
 
 }  // namespace dresslife::pipeline

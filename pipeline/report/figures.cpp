@@ -22,10 +22,10 @@ namespace {
 constexpr double percent = 100;
 constexpr double degrees = 57.29577951308232;
 
-/// The worst wire of a job, as its life file names it.
+/// The worst wire of a job, from its life file.
 struct Worst {
-  std::size_t segment = 0;  ///< of the file
-  int from_tool = 0;        ///< in its dresspack, 1 is nearest to the tool
+  std::size_t segment = 0;  ///< index in the file
+  int from_tool = 0;        ///< number in its dresspack, 1 is nearest to the tool
   std::string dresspack, component;
   double time = 0;  ///< [s]
 };
@@ -64,7 +64,7 @@ std::pair<double, double> extremes(const std::vector<double>& values) {
   return values.empty() ? std::pair{0.0, 1.0} : std::pair{*low, *high};
 }
 
-/// Curvature, twist or elongation of the segments of one dresspack at one moment.
+/// Curvature, twist or elongation of the segments of one dresspack at one time.
 struct Along {
   std::string title;
   std::vector<double> value;
@@ -85,7 +85,7 @@ std::array<Along, 3> deformation_at(const FileReader& strain, std::size_t sample
   return all;
 }
 
-/// Three panels over each other, from the base clamp to the tool clamp.
+/// Returns three panels, one above the other, from the base clamp to the tool clamp.
 std::string deformation_chart(const std::array<Along, 3>& all, const std::vector<double>& lengths,
                               const std::string& title) {
   constexpr double height = 120, gap = 18, heading = 26;

@@ -20,11 +20,11 @@ struct JobFiles {
   std::filesystem::path motion, strain, life;
 };
 
-/// Of a job's folder, or of one of its files with the others beside it under their usual names. Errors: InputError for
-/// anything else.
+/// Returns the result files in a job's folder; or, for one of its files, this file and the others beside it under their usual
+/// names. Errors: InputError for other places.
 JobFiles job_files(const std::filesystem::path& place);
 
-/// An SVG file.
+/// Returns an SVG file.
 ///   strain       of the worst wire over time, the program below it (thesis, figures 16 and 17)
 ///   cycles       of the worst wire: number and damage of the cycles of each range
 ///   damage       of the worst wire of each segment, along the dresspack
@@ -33,8 +33,8 @@ JobFiles job_files(const std::filesystem::path& place);
 ///   curvature    strain of the worst wire over the curvature of its segment (figure 15 multiplies by E)
 ///   bending      moment over curvature of the hose and its cables (bending_chart.h)
 ///   scene        robot and dresspack at a time, the worst segment marked (figures 18 and 19)
-/// time: [s], the nearest sample; absent: when the most damaging cycle closes. Errors: InputError for a file
-/// that is missing or cannot be read, or a job without a damaged wire where the figure needs one.
+/// time: [s], the nearest sample is shown; absent: the time at which the most damaging cycle closes. Errors: InputError for a
+/// file that is missing or cannot be read, or a job without a damaged wire if the figure needs one.
 std::string figure(Figure what, const JobFiles& files, std::optional<double> time);
 
 }  // namespace dresslife::pipeline

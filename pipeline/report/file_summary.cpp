@@ -12,15 +12,15 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t block_values = 1 << 20;  // read at a time
-constexpr std::size_t longest_value = 60;      // columns of an attribute
+constexpr std::size_t block_values = 1 << 20;  // number of values that are read at a time
+constexpr std::size_t longest_value = 60;      // characters of an attribute's value
 
 std::string number_words(double value) {
   const bool whole = std::abs(value) < 1e15 && value == std::floor(value);
   return whole ? grouped(fmt::format("{:.0f}", value)) : readable(value, 6);
 }
 
-/// "sample 4501, segment 64, 3"
+/// Returns "sample 4501, segment 64, 3".
 std::string shape_words(const FileReader& file, const Dataset& dataset) {
   std::string words;
   for (std::size_t axis = 0; axis < dataset.shape.size(); ++axis) {
@@ -34,7 +34,7 @@ std::string shape_words(const FileReader& file, const Dataset& dataset) {
   return words;
 }
 
-/// "-0.021 .. 0.034"; of text the first and the last.
+/// Returns "-0.021 .. 0.034"; for text the first and the last value.
 std::string range_words(const FileReader& file, const Dataset& dataset) {
   const std::size_t rows = file.rows(dataset.path), row = file.row_size(dataset.path);
   if (rows == 0 || row == 0) return "empty";

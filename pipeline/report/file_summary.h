@@ -1,4 +1,4 @@
-// Content of a file between the stages as text: `dresslife show FILE.h5`.
+// Content of a result file of a stage as text: `dresslife show FILE.h5`.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace dresslife::pipeline {
 
-/// Format, history and input, then each attribute with its value and each dataset with its shape, unit and
+/// Returns format, history and input, then each attribute with its value and each dataset with its shape, unit and
 /// range, all with their meanings. Reads the whole file. Errors: InputError for other or damaged files.
 std::string file_summary(const std::filesystem::path& file);
 

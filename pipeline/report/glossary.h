@@ -1,4 +1,4 @@
-// The words of tables, pages and warnings with their meanings, for the end of every HTML page.
+// Terms of tables, pages and warnings with their meanings, printed at the end of every HTML page.
 #pragma once
 
 #include <span>
@@ -11,10 +11,10 @@ struct GlossaryEntry {
   const char* meaning;
 };
 
-/// Sorted by word.
+/// Returns the entries, sorted by word.
 std::span<const GlossaryEntry> glossary();
 
-/// The end of a page: a closed list, with the anchor #words.
+/// Returns the end of a page: a closed list with the anchor #words.
 std::string glossary_html();
 
 }  // namespace dresslife::pipeline

@@ -8,17 +8,17 @@
 
 namespace dresslife::pipeline {
 
-/// Places of one dresspack's points in a row of /clamp/position and of /segment/position.
+/// Indices of one dresspack's points in a row of /clamp/position and of /segment/position.
 struct DresspackLine {
   std::size_t base_clamp = 0, first_segment = 0, segments = 0, tool_clamp = 0;
 
   std::size_t points() const { return segments + 2; }
-  /// (points) [m]; clamps, centres: x y z after each other.
+  /// Returns the points, (points) [m]. clamps, centres: rows of the datasets, (point, 3).
   std::vector<Eigen::Vector3d> in(const std::vector<double>& clamps,
                                   const std::vector<double>& centres) const;
 };
 
-/// One for each dresspack, in the order of the file. Errors: InputError.
+/// Returns one line per dresspack, in the order of the file. Errors: InputError.
 std::vector<DresspackLine> hose_lines(const FileReader& motion);
 
 }  // namespace dresslife::pipeline

@@ -86,10 +86,10 @@ std::string nudges_section(const ImprovementStory& story) {
          wide_table({"off by", "#life", "limits", "first of the modes that are not validated"}, rows);
 }
 
-/// Room for the chart of a page, and for that of a phone's.
+/// Width of a chart on a page, width on a phone, and height [px].
 constexpr double broad = 940, narrow = 350, chart_height = 370;
 
-/// A chart at both widths: words keep their size, so a phone's has fewer of them.
+/// Returns a chart in both widths: text keeps its size, so the narrow chart has less of it.
 template <typename Draw>
 std::string at_both_widths(const Draw& draw) {
   return fmt::format(
@@ -102,7 +102,7 @@ Panel panel_of(double width, PlotAxis x, PlotAxis y) {
   return {left, top, width - left - right, chart_height - top - below, std::move(x), std::move(y)};
 }
 
-/// Lives over trials: what keeps its limits, what does not, and the best so far.
+/// Returns a chart of lives over trials: trials within the limits, trials beyond them, and the best trial so far.
 std::string history_chart(const std::vector<ImprovementStory::TrialPoint>& looks, double low, double high,
                           double width) {
   const Panel panel = panel_of(width, linear_axis("trial", 0, static_cast<double>(looks.size())),

@@ -41,7 +41,7 @@ Reader opened(const std::filesystem::path& file, const Format& format, std::vect
   return nullptr;
 }
 
-/// Files of one motion have the same samples and segments.
+/// Throws if the files do not have the same number of samples and segments, so that they belong to different motions.
 void check_together(const FileReader& life, const FileReader* other) {
   if (!other || (life.rows("/time") == other->rows("/time") &&
                  life.rows("/segment/length") == other->rows("/segment/length")))
@@ -57,15 +57,15 @@ std::string paragraph(const std::string& words) {
   return words.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(words));
 }
 
-/// What to do, and each mode of failure.
+/// Returns the action and each failure mode.
 std::string headline(const RankingRow& row) {
   const std::string action = action_words(row);
-  const bool named = action.find(row.not_evaluated) != std::string::npos;  // also if there is nothing to name
+  const bool named = action.find(row.not_evaluated) != std::string::npos;  // true also if all parts and modes are evaluated
   return fmt::format("<h1>{}</h1>\n<p><b>{}</b></p>\n", escaped(row.job), escaped(action)) + failure_table(row) +
          (named ? "" : paragraph(fmt::format("Not evaluated: {}.", row.not_evaluated)));
 }
 
-/// The distribution behind the headline, what would narrow it, and the worst wire.
+/// Returns the distribution of the life, the test that would narrow it, and the worst wire.
 std::string lives(const RankingRow& row) {
   const double hours = row.headline_hours();
   std::string words;
@@ -86,8 +86,8 @@ std::string lives(const RankingRow& row) {
   return paragraph(words) + paragraph(uncertainty_words(row)) + (row.damaged() ? paragraph(failure_words(row)) : "");
 }
 
-/// "E I 25 N m2, G J 20 N m2, E A 1e+05 N" of each dresspack as it was simulated; empty where an older file
-/// does not say.
+/// Returns the simulated stiffnesses of each dresspack: "E I 25 N m2, G J 20 N m2, E A 1e+05 N"; empty if an older file does not
+/// contain them.
 std::string stiffness_words(const FileReader& motion) {
   if (!motion.has("/dresspack/bending_stiffness")) return "";
   const auto bending = motion.read<double>("/dresspack/bending_stiffness"),
@@ -103,7 +103,7 @@ std::string stiffness_words(const FileReader& motion) {
   return joined(words, "; ");
 }
 
-/// Of every dresspack that takes a stiffness from its construction, what it would be otherwise.
+/// Returns, for each dresspack with a stiffness from its construction, the values without this rule.
 std::string construction_words(const Setup& setup) {
   std::string words;
   for (const MountedDresspack& mounted : setup.dresspacks)
@@ -111,8 +111,7 @@ std::string construction_words(const Setup& setup) {
   return words;
 }
 
-/// "stress cyclic, counting repeating" of what a part of the resolved job says in single words; empty:
-/// nothing.
+/// Returns the keys of one section of the resolved job with single-word values: "stress cyclic, counting repeating"; empty: none.
 std::string settings_words(const Node& job, const std::string& part) {
   std::vector<std::string> words;
   if (const Node* settings = job.find(part); settings && settings->is_map())
@@ -121,7 +120,7 @@ std::string settings_words(const Node& job, const std::string& part) {
   return joined(words, ", ");
 }
 
-/// The settings that decide most, as they were in the end. job: resolved.
+/// Returns the settings with most influence, in their final form. job: resolved.
 std::string assumptions(const RankingRow& row, const Node& job, const FileReader* motion,
                         const FileReader* strain, const Setup* setup) {
   std::string list;
@@ -154,7 +153,7 @@ std::string assumptions(const RankingRow& row, const Node& job, const FileReader
   return list.empty() ? "" : "<dl>\n" + list + "</dl>\n";
 }
 
-/// Limits of the motion that are broken, by name; empty: none.
+/// Returns the names of the limits that the motion exceeds; empty: none.
 std::string broken_limits(const FileReader& motion) {
   if (!motion.has("/check/warning")) return "";
   const auto names = motion.read<std::string>("/check/name");
@@ -167,7 +166,7 @@ std::string broken_limits(const FileReader& motion) {
              : fmt::format("Limits of the motion are broken: {} (see below)", joined(broken, ", "));
 }
 
-/// What lies in each dresspack, in words.
+/// Returns the layers of each dresspack as text.
 std::string layers(const Setup& setup) {
   std::string text;
   for (std::size_t d = 0; d < setup.dresspacks.size(); ++d)
@@ -192,8 +191,7 @@ class Page {
     check_together(life_, strain_.get());
     if (!motion_) return;
     if (const std::string limits = broken_limits(*motion_); !limits.empty()) notes_.push_back(limits);
-    // The motion may be another job's that moves alike, with other cables in the hose; a life is each job's
-    // own.
+    // The setup comes from life.h5: motion.h5 may belong to another job with the same motion but with other cables in the hose.
     setup_ = setup_from(stored_job(life_));
   }
 
@@ -241,12 +239,12 @@ class Page {
   std::optional<Setup> setup_;
 };
 
-/// Errors: InputError where a file is there and its checksum is damaged.
+/// Returns a digest of the results and of this program. Errors: InputError when an existing file has a damaged checksum.
 std::string made_from(const JobFolder& files) {
   std::string sources = shell_digest() + files.name;
   for (const auto& file : {files.motion(), files.strain(), files.life()}) {
     const std::optional<std::string> checksum = stored_checksum(file);
-    if (!checksum && kind_of(file) == FileKind::file)  // readers refuse anything else
+    if (!checksum && kind_of(file) == FileKind::file)  // readers report any other kind of file
       throw InputError({file.string()}, "is damaged (it has no checksum)", "make it again with dresslife run");
     sources += checksum.value_or("-");
   }
@@ -266,7 +264,7 @@ bool refresh_job_page(const JobFolder& files) {
 void mark_job_page(const JobFolder& files, const std::string& words) {
   constexpr std::string_view body = "<body>\n", open = "<p class=\"failed\" id=\"stale\">", close = "</p>\n";
   const std::string digest = made_from_of(files.page());
-  if (digest.empty()) return remove_job_page(files);  // damaged, or of another version
+  if (digest.empty()) return remove_job_page(files);  // the page is damaged, or of another version
   const std::string mark = fmt::format("{}{}{}{}", body, open, escaped(words), close);
   const std::string page = read_text(files.page());
   if (page.find(mark) != std::string::npos) return;
@@ -275,7 +273,8 @@ void mark_job_page(const JobFolder& files, const std::string& words) {
     if (at == std::string::npos) return;
     const bool has_one = std::string_view(text).substr(behind).starts_with(open);
     text.replace(at, (has_one ? text.find(close, behind) + close.size() : behind) - at, mark);
-    text.replace(text.find(digest), digest.size(), xxh3(digest + mark));  // no page of these results any more
+    // with another digest, the page no longer counts as the page of these results
+    text.replace(text.find(digest), digest.size(), xxh3(digest + mark));
   });
   write_text_if_changed(files.page(), marked, Sync::never);
 }

@@ -7,9 +7,9 @@
 
 namespace dresslife::pipeline {
 
-/// The folder of a job with motion.h5, strain.h5 and life.h5.
+/// The folder of a job, which contains motion.h5, strain.h5 and life.h5.
 struct JobFolder {
-  std::string name;  ///< of the job
+  std::string name;  ///< name of the job
   std::filesystem::path folder;
 
   std::filesystem::path motion() const { return folder / "motion.h5"; }
@@ -18,22 +18,22 @@ struct JobFolder {
   std::filesystem::path page() const { return folder / "page.html"; }
 };
 
-/// The page as text. Without motion.h5 or strain.h5, which a study need not keep, it shows the rest and names the
-/// missing files. Errors: InputError when a file cannot be read or the files are not of one job.
+/// Returns the page as text. Without motion.h5 or strain.h5, which a study need not keep, the page contains the other sections
+/// and names the missing files. Errors: InputError when a file cannot be read or the files belong to different jobs.
 std::string job_page(const JobFolder& files);
 
-/// Writes the page if the results of the job or its program changed. Returns whether it was written. Errors:
-/// InputError as above, or when it cannot be written.
+/// Writes the page if the results of the job or this program changed. Returns whether it was written. Errors: InputError as
+/// in job_page(), or when the page cannot be written.
 bool refresh_job_page(const JobFolder& files);
 
-/// Marks an existing page as stale, with these words at its head. refresh_job_page() replaces it once there is a
-/// present result. Errors: InputError when it cannot be written.
+/// Marks an existing page as stale, with `words` at its head. refresh_job_page() replaces it as soon as an up-to-date
+/// result exists. Errors: InputError when it cannot be written.
 void mark_job_page(const JobFolder& files, const std::string& words);
 
 /// Removes a page; a file of the user stays. Errors: InputError when it cannot be removed.
 void remove_job_page(const JobFolder& files);
 
-/// Removes a page that is damaged or does not belong to the results beside it. Errors: as above.
+/// Removes a page that is damaged or does not belong to the results beside it. Errors: InputError when it cannot be removed.
 void remove_old_job_page(const JobFolder& files);
 
 }  // namespace dresslife::pipeline

@@ -7,7 +7,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// (quantity) slopes from a sample that pass all later ones within tolerance.
+/// (quantity) range of slopes from a sample for which the line passes all later samples within the tolerance.
 class Fan {
  public:
   Fan(const Histories& histories, const std::vector<double>& tolerance, std::size_t from)
@@ -17,7 +17,8 @@ class Fan {
         least_(histories.width, -std::numeric_limits<double>::infinity()),
         most_(histories.width, std::numeric_limits<double>::infinity()) {}
 
-  /// Whether the line to `sample` passes those before it; if so, it is one of them from now on.
+  /// Returns whether the line to `sample` passes all samples before it within the tolerance. If so, narrows the slopes by
+  /// `sample`.
   bool reaches(std::size_t sample) {
     const double time = histories_.time[sample] - histories_.time[from_];
     const double *here = histories_.row(from_), *there = histories_.row(sample);

@@ -21,12 +21,13 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double in_percent = 100;
-constexpr double narrow_span = 30;     // ratios below this stay on a linear axis
-constexpr double widest_span = 1e6;    // what lies further below the largest is nothing beside it
-constexpr double smallest_cell = 0.5;  // narrower stretches of the program cannot be seen
-constexpr double nearly_worst = 0.8;   // of the largest damage: no other place, seen from the plant
+constexpr double narrow_span = 30;     // values with a smaller ratio use a linear axis
+constexpr double widest_span = 1e6;    // values below the largest by more than this ratio are not shown
+constexpr double smallest_cell = 0.5;  // narrower stretches of the program are invisible
+// share of the largest damage that counts as the same place, because a technician cannot separate such places
+constexpr double nearly_worst = 0.8;
 constexpr std::size_t named_lines = 4;
-constexpr double named_share = 0.03;  // of the damage, that a line needs to be named
+constexpr double named_share = 0.03;  // smallest share of the damage with which a line is named
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
@@ -35,7 +36,7 @@ std::string line_name(const LifeSummary& life, std::int32_t step) {
   return life.step_text[static_cast<std::size_t>(step)];
 }
 
-/// An axis for damage or counts: over decades where the values span many, from zero where they do not.
+/// Returns an axis for damage or counts: logarithmic if the values span decades, else linear from zero.
 PlotAxis axis_of_amounts(std::string title, const std::vector<double>& values) {
   double most = 0, least = 0;
   for (const double value : values) {
@@ -55,7 +56,7 @@ struct Label {
   std::string words;
 };
 
-/// The lines that cost most, each at the moment at which it costs most, in the order of time.
+/// Returns the most damaging program lines, each at the time of its largest damage, in the order of time.
 std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<ProgramRun>& runs,
                                 const Panel& panel) {
   const double total = sum(life.step_damage);
@@ -75,8 +76,8 @@ std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<Progr
   return labels;
 }
 
-/// Labels above the panel, a leader from each: those that read to the right step down from left to right,
-/// those that must read to the left stand above them and step up, so that no leader crosses a word.
+/// Draws labels above the panel, each with a leader. Labels that extend to the right step down from left to right. Labels that
+/// must extend to the left stand above them and step up, so that no leader crosses a label.
 void draw_labels(Picture& picture, const Panel& panel, const std::vector<Label>& labels, double top,
                  double row_height) {
   std::vector<const Label*> rows;
@@ -95,7 +96,7 @@ void draw_labels(Picture& picture, const Panel& panel, const std::vector<Label>&
   }
 }
 
-/// One cell per stretch of the program, in turns light and dark, and marked where it costs much.
+/// Draws one cell per stretch of the program, alternately light and dark. Stretches with much damage are marked.
 void draw_program(Picture& picture, const LifeSummary& life, const std::vector<ProgramRun>& runs,
                   const Panel& panel, double top, double height) {
   const double total = sum(life.damage_rate);
@@ -127,7 +128,7 @@ std::vector<double> shares_so_far(const std::vector<double>& rates) {
   return shares;
 }
 
-/// Shares stay until the next cycle closes: a stair.
+/// Returns a step curve: the share is constant until the next cycle closes.
 std::vector<std::pair<double, double>> stair(const Panel& panel, const std::vector<double>& time,
                                              const std::vector<double>& values) {
   std::vector<std::pair<double, double>> points;
@@ -172,10 +173,10 @@ std::vector<double> column(const std::vector<Bin>& bins, double Bin::*member) {
   return values;
 }
 
-/// The whole axis of ranges with room for the outer bins.
+/// Returns the axis over all ranges, with margins for the outer bins.
 PlotAxis range_axis(const std::vector<Bin>& bins) {
   PlotAxis axis{"strain range of a cycle [%]", bins.front().low, bins.back().high, true};
-  // Less than a decade has few round ticks; widen to the next decade then.
+  // An axis of less than a decade has too few round ticks, so it is widened to whole decades.
   if (axis.high < 8 * axis.low) axis = decades_axis(axis.title, axis.low, axis.high);
   return axis;
 }
@@ -188,7 +189,7 @@ struct PlaceInFile {
   std::size_t dresspack = 0, first_segment = 0;
 };
 
-/// Names and lives of all dresspacks, and the data along the one with the worst wire.
+/// Reads names and lives of all dresspacks, and the data along the dresspack with the worst wire.
 PlaceInFile read_worst_dresspack(const FileReader& file, LifeSummary& life) {
   life.dresspack = dresspack_names(file);
   if (file.has("/dresspack/damage")) life.dresspack_damage = file.read<double>("/dresspack/damage");

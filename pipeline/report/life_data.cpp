@@ -18,14 +18,14 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr std::uint32_t no_site = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t most_strains = 200'000;  // whole histories, of two bytes each
-constexpr std::size_t most_turns = 30'000;     // of other places, of six bytes each
+constexpr std::size_t most_strains = 200'000;  // samples of complete histories, two bytes each
+constexpr std::size_t most_turns = 30'000;     // turning points of other places, six bytes each
 constexpr std::size_t most_life_samples = 20'000;
-constexpr std::size_t most_closings = 300;  // of each segment
-constexpr double least_closing = 1e-4;      // of a segment's damage: 0.01 %
-constexpr int cycle_cells = 24;             // along range and mean, each wide enough for a thumb on a phone
+constexpr std::size_t most_closings = 300;  // per segment
+constexpr double least_closing = 1e-4;      // share of a segment's damage: 0.01 %
+constexpr int cycle_cells = 24;             // number of cells along range and along mean, each wide enough for a thumb on a phone
 
-/// A history as it is, or by the two extremes of each of equal stretches, in the order in which they occur.
+/// Reduces a long history to the two extremes of each of equal intervals, in the order of time; keeps a short one.
 class Thinning {
  public:
   explicit Thinning(std::size_t samples)
@@ -35,7 +35,7 @@ class Thinning {
   std::size_t length() const { return thins() ? 2 * ((samples_ + stretch_ - 1) / stretch_) : samples_; }
 
   std::vector<double> of(const std::vector<double>& history) const { return at(history, kept(history)); }
-  /// Samples of a history that are kept.
+  /// Returns the samples of a history that are kept.
   std::vector<std::size_t> kept(const std::vector<double>& history) const {
     if (!thins()) return indices_of(samples_);
     std::vector<std::size_t> samples;
@@ -100,7 +100,7 @@ class Data {
         .add("worst_segment", worst_segment());
   }
 
-  /// In the order of the file; -1: none.
+  /// Returns the index in the file; -1: none.
   int worst_segment() const {
     if (!worst_) return -1;
     std::vector<std::int32_t> of;
@@ -128,7 +128,7 @@ class Data {
     return {of.begin(), of.end()};
   }
 
-  /// Of all samples: largest curvature and its time, least and largest twist.
+  /// Returns the extremes over all samples: largest curvature and its time, least and largest twist.
   Json extremes() const {
     const std::size_t segments = damage_.size();
     std::vector<double> curvature(segments, 0.0), when(segments, 0.0), least(segments, INFINITY),
@@ -152,14 +152,14 @@ class Data {
             {"largest_twist", most}};
   }
 
-  /// A wire whose whole history strain.h5 holds.
+  /// A wire with a complete history in strain.h5.
   struct ProbedWire {
-    std::size_t row;  ///< of /probe/strain
+    std::size_t row;  ///< row in /probe/strain
     std::uint32_t site;
     double damage;
   };
 
-  /// (segment) of its probed wires the one that is damaged most.
+  /// Returns, (segment), the most damaged of its probed wires.
   std::map<std::size_t, ProbedWire> probes() const {
     std::map<std::size_t, ProbedWire> of;
     if (!strain_) return of;
@@ -176,8 +176,8 @@ class Data {
     return of;
   }
 
-  /// One history, at its own times or at those of all. sampled: whole, else straight between turning points.
-  /// site: of the wire; by default the segment's worst.
+  /// Returns one history, at its own times or at the common times. sampled: whether it is complete; else only turning points.
+  /// site: the site of the wire; by default the segment's worst site.
   Json strain_row(std::size_t segment, bool sampled, const std::vector<double>& strain,
                   const std::vector<float>& own_times = {}, const ProbedWire* of = nullptr) const {
     const bool other = of && of->site != worst_site_[segment];
@@ -189,7 +189,7 @@ class Data {
     return row.add("numbers", packed(strain));
   }
 
-  /// Of a segment's worst wire: times after the first sample [s], strains.
+  /// Returns the turning points of a segment's worst wire: times after the first sample [s], strains.
   std::pair<std::vector<float>, std::vector<double>> turning_points(std::size_t segment) const {
     std::vector<std::uint64_t> range;
     std::vector<double> strain;
@@ -203,8 +203,8 @@ class Data {
     return {times, strain};
   }
 
-  /// The history of one wire of each segment: of the worst that is known whole; of the job's worst wire its
-  /// turning points beside it. Where none is known whole the worst, straight between its turning points.
+  /// Returns the history of one wire per segment: of the most damaged wire with a complete history; else the turning points of
+  /// the worst wire. For the job's worst wire the turning points are added.
   Json strains() const {
     const auto probed = probes();
     const int worst = worst_segment();
@@ -236,7 +236,7 @@ class Data {
     return data;
   }
 
-  /// Of the worst wire, where its history is not known whole.
+  /// Returns the turning points of the job's worst wire if its complete history is not known.
   std::optional<Json> worst_turns(int worst, bool known) const {
     if (worst < 0 || known || !strain_) return {};
     const auto [times, strain] = turning_points(static_cast<std::size_t>(worst));
@@ -244,7 +244,7 @@ class Data {
     return Json{{"time", base64_of(times)}, {"strain", packed(strain)}};
   }
 
-  /// Where cycles close: per segment the sum, then times and damages of the largest.
+  /// Returns the closings of cycles: per segment the sum of the damage, then times and damages of the largest closings.
   Json closings() const {
     std::vector<Json> rows;
     std::vector<double> rate;
@@ -270,8 +270,8 @@ class Data {
     return rows;
   }
 
-  /// The worst site's cycles by range and mean: of each cell that holds any its place, their number, their
-  /// damage, and when the most damaging one closes.
+  /// Returns the worst site's cycles by range and mean. Each cell with cycles has its place, their number, their damage, and the
+  /// time at which the most damaging one closes.
   std::optional<Json> cycles() const {
     if (!worst_) return {};
     struct Cell {
@@ -312,7 +312,7 @@ class Data {
                 {"rows", rows}};
   }
 
-  /// Stress over strain of the worst site.
+  /// Returns stress over strain of the worst site.
   std::optional<Json> loops() const {
     if (!worst_ || !life_.has("/worst/stress")) return {};
     const auto strain = life_.read<double>("/worst/strain"), stress = life_.read<double>("/worst/stress");
@@ -325,7 +325,7 @@ class Data {
                 {"stress", packed(Thinning::at(stress, kept))}};
   }
 
-  /// What stress follows, in words.
+  /// Returns the name of the stress law.
   std::string stress_rule() const {
     const Node job = stored_job(life_);
     const Node* fatigue = job.find("fatigue");

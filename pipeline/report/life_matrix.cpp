@@ -17,10 +17,10 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_cells = 4000;  // 2,000 jobs fit where half of the combinations are missing
+constexpr std::size_t most_cells = 4000;  // enough for 2,000 jobs if half of the combinations are missing
 
 using Colour = std::array<double, 3>;
-/// Orange, near white, blue: distinct for colour-blind readers; black is legible on each.
+/// Orange, near white, blue: distinct for colour-blind readers; black text is legible on each.
 constexpr std::array<Colour, 3> stops{{{235, 145, 70}, {245, 240, 232}, {120, 180, 220}}};
 
 std::string colour_of(double part) {
@@ -32,7 +32,7 @@ std::string colour_of(double part) {
   return fmt::format("#{:02x}{:02x}{:02x}", mixed(0), mixed(1), mixed(2));
 }
 
-/// A key and its values in the order in which the rows, by name, have them.
+/// A key and its values, in the order of the rows, which are sorted by name.
 struct Key {
   std::size_t index = 0;
   std::vector<std::string> values;
@@ -42,7 +42,7 @@ struct Key {
   }
 };
 
-/// "free_length_m=1.05" before "free_length_m=1.2": as numbers where both end in one after the same word.
+/// Orders "free_length_m=1.05" before "free_length_m=1.2": by number if both end in a number after the same word.
 bool before(const std::string& a, const std::string& b) {
   const std::size_t equals = a.find('=');
   if (equals == std::string::npos || a.compare(0, equals, b, 0, b.find('=')) != 0) return a < b;
@@ -53,7 +53,7 @@ bool before(const std::string& a, const std::string& b) {
   return number(a) != number(b) ? number(a) < number(b) : a < b;
 }
 
-/// Of the keys with two values or more.
+/// Returns the keys with two values or more.
 std::vector<Key> axes_of(const std::vector<RankingRow>& rows) {
   std::vector<Key> axes;
   const std::size_t keys = rows.empty() ? 0 : rows.front().varied.size();
@@ -68,7 +68,7 @@ std::vector<Key> axes_of(const std::vector<RankingRow>& rows) {
   return axes;
 }
 
-/// The row with the shortest life, a failed one before all, and how many there are.
+/// The row with the shortest life (a failed row counts as shortest), and the number of jobs in the cell.
 struct MatrixCell {
   std::size_t row = 0, jobs = 0;
 };
@@ -78,7 +78,7 @@ bool shorter(const RankingRow& a, const RankingRow& b) {
   return a.headline_hours() < b.headline_hours();
 }
 
-/// Logarithms of the shortest and the longest finite life among the cells; none without any.
+/// Returns the logarithms of the shortest and the longest finite life among the cells; std::nullopt if none is finite.
 std::optional<std::pair<double, double>> span_of(
     const std::vector<RankingRow>& rows, const std::map<std::pair<std::size_t, std::size_t>, MatrixCell>& cells) {
   std::optional<std::pair<double, double>> span;

@@ -12,13 +12,13 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Without the sign of what rounds to nothing.
+/// Returns the rounded value, without a minus sign if it rounds to zero.
 std::string rounded(double value, int decimals) {
   const std::string text = fmt::format("{:.{}f}", value, decimals);
   return text.find_first_not_of("-0.") == std::string::npos && text.starts_with('-') ? text.substr(1) : text;
 }
 
-/// As cell designers say it: mm, deg/m, turns.
+/// Returns a value in the units of cell designers: mm, deg/m, turns.
 std::string in_words(double value, const std::string& unit) {
   if (std::isinf(value)) return "";
   if (unit == "m") return rounded(1e3 * value, 1) + " mm";

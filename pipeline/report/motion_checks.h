@@ -6,7 +6,7 @@
 
 namespace dresslife::pipeline {
 
-/// An HTML table; empty for a file without checks. Errors: InputError.
+/// Returns an HTML table; empty for a file without checks. Errors: InputError.
 std::string check_table(const std::filesystem::path& motion_file);
 
 }  // namespace dresslife::pipeline

@@ -12,26 +12,27 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_motion_bytes = 2'150'000;     // of the page, before base64 adds a third
-constexpr std::size_t most_samples = 20'000;      // considered; of longer motions every second, third, ...
-constexpr double first_miss = 0.5e-3;             // allowed of a place [m]
-constexpr double shape_miss = 0.01 / first_miss;  // of largest curvature and twist, per metre of that
+constexpr std::size_t most_motion_bytes = 2'150'000;     // bytes in the page, before base64 adds a third
+// samples that are considered; of longer motions every second, third, ... sample
+constexpr std::size_t most_samples = 20'000;
+constexpr double first_miss = 0.5e-3;             // first tolerance of a position [m]
+// tolerance of curvature and twist, as a share of their largest value, per metre of position tolerance
+constexpr double shape_miss = 0.01 / first_miss;
 constexpr std::size_t samples_at_once = 512;
-constexpr std::string_view contact = "contact";  // a group
+constexpr std::string_view contact = "contact";  // name of a group
 
-/// Every second of 64 centres, with a spline through them, misses those between by hundredths of a
-/// millimetre.
-constexpr std::size_t most_points = 34;  // of a dresspack, and the two ends
+/// A spline through every second of 64 centres misses the centres between by hundredths of a millimetre.
+constexpr std::size_t most_points = 34;  // points of a dresspack, including the two clamps
 
-/// Consecutive quantities of a row that share their steps and their unit.
+/// Consecutive quantities of a row with common steps and a common unit.
 struct Group {
   std::string_view name;
   std::size_t begin, size;
-  double weight;  ///< [m per its unit] turns a miss into one of a place; 0: it may miss anything
-  bool narrow;    ///< one byte each: what is only coloured
+  double weight;  ///< [m per unit of the quantity] turns an error into an error of position; 0: any error is allowed
+  bool narrow;    ///< one byte per value, for quantities that are only shown as a colour
 };
 
-/// Every stride-th row of a dataset.
+/// Returns every stride-th row of a dataset.
 std::vector<double> read_strided(const FileReader& file, const std::string& dataset, std::size_t stride) {
   if (stride == 1) return file.read<double>(dataset);
   const std::size_t rows = file.rows(dataset), size = file.row_size(dataset);
@@ -46,7 +47,7 @@ std::vector<double> read_strided(const FileReader& file, const std::string& data
 }
 
 double reach(const Link& link) {
-  double farthest = 0.1;  // [m] of a link without shapes, whose frame is drawn
+  double farthest = 0.1;  // [m] for a link without shapes, whose frame is drawn
   for (const Capsule& capsule : link.capsules)
     farthest = std::max({farthest, capsule.from.norm() + capsule.radius, capsule.to.norm() + capsule.radius});
   for (const Box& box : link.boxes) farthest = std::max(farthest, box.position.norm() + box.sides.norm() / 2);
@@ -59,7 +60,7 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-/// Segments of a line whose centres are included: evenly spread, with the first and the last.
+/// Returns the segments of a line whose centres are included: evenly spread, with the first and the last.
 std::vector<std::size_t> kept_centres(const DresspackLine& line) {
   const std::size_t pieces = std::min(line.segments, most_points) - 1;
   std::vector<std::size_t> kept;
@@ -105,7 +106,7 @@ class Player {
     return bytes;
   }
 
-  /// Base clamp, centres in between, tool clamp.
+  /// Reads the points of each dresspack: base clamp, segment centres, tool clamp.
   void read_lines(const FileReader& motion) {
     const std::vector<double> clamps = read_strided(motion, "/clamp/position", stride_),
                               centres = read_strided(motion, "/segment/position", stride_);
@@ -126,7 +127,7 @@ class Player {
     add("points", std::move(points), 1, false);
   }
 
-  /// Quaternions without jumps of sign, so that they can be interpolated.
+  /// Reads the link poses with quaternions of continuous sign, so that they can be interpolated.
   void read_links(const FileReader& motion, const Setup& setup) {
     const std::vector<double> poses = read_strided(motion, "/robot/link_pose", stride_);
     const std::size_t samples = histories_.time.size(), links = poses.size() / samples / 7;
@@ -148,7 +149,7 @@ class Player {
         for (int q = 0; q < 4; ++q) turns.push_back(sign * pose[3 + q]);
       }
     add("link_positions", std::move(positions), 1, false);
-    // A quaternion that is off by e turns by 2 e at most.
+    // A quaternion error of e is a rotation error of at most 2 e.
     add("link_quaternions", std::move(turns), 2 * farthest, false);
   }
 
@@ -175,8 +176,8 @@ class Player {
     parts_.clear();
   }
 
-  /// Contacts come and go from sample to sample and choose none: a key sample has the largest since the one
-  /// before it.
+  /// Contacts change from sample to sample, so they do not choose key samples. A key sample gets the largest contact force since
+  /// the key sample before it.
   void gather_contacts(const std::vector<std::size_t>& keys) {
     for (const Group& group : groups_) {
       if (group.name != contact) continue;
@@ -231,7 +232,7 @@ class Player {
             {"time", base64_of(times)}};
   }
 
-  /// (key, quantity) of a group.
+  /// Returns the values of a group, (key, quantity).
   Json numbers(const Group& group, const Steps& steps, const std::vector<std::size_t>& keys) const {
     std::vector<std::uint16_t> wide;
     std::string narrow;
@@ -244,7 +245,7 @@ class Player {
     return group.narrow ? Json(base64(narrow)) : base64_of(wide);
   }
 
-  /// places: of the points along the line, counted in segments from the base clamp.
+  /// places: positions of the points along the line, in segments from the base clamp.
   std::vector<Json> line_descriptions() const {
     std::vector<Json> list;
     for (const DresspackLine& line : lines_) {

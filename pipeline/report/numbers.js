@@ -1,4 +1,4 @@
-// The page's data: rows of numbers from base64, and a motion between its key samples.
+// The page's data: rows of numbers from base64, and interpolation of a motion between its key samples.
 function bytesOf(base64) {
   const text = atob(base64), bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
@@ -7,7 +7,7 @@ function bytesOf(base64) {
 const wholeNumbers = base64 => new Uint16Array(bytesOf(base64));
 const floats = base64 => new Float32Array(bytesOf(base64));
 
-// Index of the last entry of a rising list that is not above the value; 0 when all are.
+// Returns the index of the last entry of a rising list that is at most the value; 0 if no entry is.
 function lastNotAbove(list, value) {
   let low = 0, high = list.length - 1;
   while (low < high) {
@@ -18,7 +18,7 @@ function lastNotAbove(list, value) {
   return low;
 }
 
-// "1,230", "4.56", "7.8e-9": about three figures, as the tables of the report.
+// Returns "1,230", "4.56", "7.8e-9": about three figures, as in the tables of the report.
 function readable(value, figures = 3) {
   if (value === null || value === undefined || Number.isNaN(value)) return '-';
   const size = Math.abs(value);
@@ -39,7 +39,7 @@ class Motion {
   }
   group(name) { return this.data.groups[name] || null; }
 
-  // Fills `row` with all quantities at this time after the motion's begin [s], straight between key samples.
+  // Fills `row` with all quantities at this time after the begin of the motion [s], by linear interpolation.
   goTo(time) {
     const last = this.time.length - 1;
     const k = Math.min(lastNotAbove(this.time, time), Math.max(last - 1, 0)), next = Math.min(k + 1, last);
@@ -52,13 +52,13 @@ class Motion {
       }
     return this.row;
   }
-  // One quantity at all key samples.
+  // Returns one quantity at all key samples.
   history(name, index) {
     const group = this.group(name), values = new Float64Array(this.time.length);
     for (let k = 0; k < values.length; ++k) values[k] = group.low + group.step * group.values[k * group.size + index];
     return values;
   }
-  // Least and largest of a group over the whole motion.
+  // Returns the least and the largest value of a group over the whole motion.
   range(name) {
     const group = this.group(name);
     return [group.low, group.high];

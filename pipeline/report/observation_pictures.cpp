@@ -11,7 +11,7 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double row_height = 26, first_row = 44, names = 170, below = 52;
-constexpr double least_life = 1e2, most_life = 1e14;  // that are shown; beyond, a bar ends at the edge
+constexpr double least_life = 1e2, most_life = 1e14;  // shown lives; a bar beyond them ends at the edge
 constexpr const char* arrows = "dot: observed; arrow to the right: at least, to the left: at most";
 
 constexpr const char* rows_style = R"(<style>
@@ -24,7 +24,7 @@ svg { font: 12px sans-serif; background: #fff }
 </style>
 )";
 
-/// Rows on one axis: a name, bars and marks, words.
+/// Rows on one axis, each with a name, bars, marks and text.
 class Rows {
  public:
   Rows(Picture& picture, double from_top, std::size_t rows, double width, PlotAxis axis)
@@ -46,7 +46,7 @@ class Rows {
   void median(double value) { picture_.line(panel_.across(value), y_ - 7, panel_.across(value), y_ + 7, "median"); }
   void words(const std::string& text, const char* kind) { picture_.text(panel_.right() + 8, y_ + 4, text, kind); }
 
-  /// Many lives have words only.
+  /// Draws one observed life. Rows with service records, which have many lives, have text only.
   void observed(const Observation& observation) {
     if (!observation.service.empty()) return;
     const double at = panel_.across(observation.cycles ? *observation.cycles : *observation.hours);
@@ -71,7 +71,7 @@ std::string as_file(const Picture& picture) {
   return text.insert(text.find('>') + 1, std::string("\n") + rows_style);
 }
 
-/// Parameters on an axis of z, so that all priors look alike.
+/// Returns the deciles of a parameter as values of z, so that all priors have the same picture.
 PredictedDeciles in_deviations(const UncertainParameter& parameter, const PredictedDeciles& key) {
   return {parameter.z_of(key[0]), parameter.z_of(key[1]), parameter.z_of(key[2])};
 }

@@ -1,4 +1,4 @@
-// Observed lives beside predicted ones, as complete SVG files: a row for each on a common axis.
+// Observed and predicted lives as complete SVG files: one row per observation on a common axis.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace dresslife::pipeline {
 
-/// Each observation beside its predictions.
+/// Returns each observation with its predictions.
 std::string validation_picture(const ValidationStudy& validation, const std::vector<RankingRow>& rows);
 
-/// Each parameter before and after a calibration, and each row's observed life with its predictions before and after.
+/// Returns each parameter before and after a calibration, and each row's observed life with its predictions before and after.
 std::string calibration_picture(const Learned& learned);
 
 }  // namespace dresslife::pipeline

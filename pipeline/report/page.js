@@ -1,4 +1,4 @@
-// One page: what is chosen (time, place, colours), and everything that shows it.
+// State of a page: the chosen time, place and colours, and the update of all parts that show them.
 const data = JSON.parse(document.getElementById('data').textContent);
 const life = data.life || null;
 const motion = data.motion ? new Motion(data.motion) : null;
@@ -24,10 +24,10 @@ const make = (tag, attributes = {}, ...children) => {
   return element;
 };
 
-// Where cycles close: damage of a segment's worst wire about a moment.
+// Closings of cycles: damage of a segment's worst wire near a given time.
 class Closings {
   constructor(rows, segments) {
-    this.window = Math.max(.5, duration / 200);  // [s] to either side: a cycle closes at one sample, too short to be seen
+    this.window = Math.max(.5, duration / 200);  // [s] to either side: one sample alone is too short to be visible
     this.of = [];
     for (const row of rows) {
       const pairs = floats(row.pairs), time = [], sum = [0];
@@ -183,7 +183,7 @@ function buildView() {
   if (life) viewer.mark(viewer.worst, life.worst_segment);
 }
 
-// ---- what the reader does -----------------------------------------------------------------------------------------
+// ---- actions of the reader ----------------------------------------------------------------------------------------
 function choose(segment) {
   state.segment = segment;
   if (viewer) viewer.mark(viewer.chosen, segment === life?.worst_segment ? -1 : segment);
@@ -284,7 +284,7 @@ function tellWhatIsShown() {
   place.replaceChildren(words + '; damage, lives and largest values are those of the files.', make('span', {id: 'frame-time'}));
 }
 
-// Names and frames at once, and the moment that is refused; the links that the refusal names in the colour of a warning.
+// Adds names and frames, the moment of the refusal, and marks the links that the refusal names in a warning colour.
 function openPreview() {
   for (const id of ['names', 'frames']) document.getElementById(id)?.click();
   if (data.preview.refusal_time !== null) setTime(data.preview.refusal_time - begin);
@@ -297,7 +297,7 @@ function openPreview() {
   if (data.preview.refusal) viewer.look('place');
 }
 
-// #t=12.5&segment=30&colour=twist&view=top&play=1: a link to what one sees.
+// #t=12.5&segment=30&colour=twist&view=top&play=1: a link to the present view.
 function followLink() {
   const wish = new URLSearchParams(location.hash.slice(1));
   if (wish.has('colour')) setColour(wish.get('colour'));
@@ -326,7 +326,7 @@ matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
   redrawSection();
   if (viewer) viewer.dirty = true;
 });
-// Paper is light, and what is drawn stays as it is drawn.
+// Uses light colours for paper; pictures that are drawn once keep their colours.
 function onPaper(yes) {
   document.documentElement.classList.toggle('paper', yes);
   fillTimeline();

@@ -1,4 +1,4 @@
-// Scripts and style of the pages, compiled in from *.js and page.css of this folder.
+// Scripts and style of the pages, compiled from *.js and page.css of this folder.
 #pragma once
 
 #include <string_view>
@@ -6,7 +6,7 @@
 namespace dresslife::pipeline {
 
 std::string_view page_style();
-std::string_view page_scripts();  ///< of pages with a 3D view
-std::string_view study_script();  ///< of the page of a study
+std::string_view page_scripts();  ///< scripts of pages with a 3D view
+std::string_view study_script();  ///< script of pages with a table
 
 }  // namespace dresslife::pipeline

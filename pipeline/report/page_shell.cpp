@@ -21,12 +21,12 @@ constexpr std::string_view doctype = "<!DOCTYPE html>\n",
                            before_digest = "<html lang=\"en\">\n<!-- dresslife page made from ";
 constexpr std::size_t digest_digits = 32;
 
-/// Empty where it is not installed.
+/// Returns the text of a file; empty if it is not installed.
 std::string text_of(const std::filesystem::path& file) {
   return kind_of(file) == FileKind::file ? read_text(file) : "";
 }
 
-/// Both or nothing.
+/// Returns both scripts; empty if one is missing.
 std::string three_scripts() {
   const std::string three = text_of(three_folder() / "three.min.js"),
                     controls = text_of(three_folder() / "examples/js/controls/OrbitControls.js");

@@ -1,5 +1,5 @@
-// The timeline's panels: strain and damage of the chosen place, its shape, the joints, the program; of a preview, how far the
-// clamps are apart.
+// The panels of the timeline: strain and damage of the chosen place, its shape, the joints, the program; in a preview the
+// distance of the clamps.
 const unpacked = (of, factor) => Float64Array.from(wholeNumbers(of.numbers), steps => factor * (of.low + of.step * steps));
 function strainOf(segment) {
   const row = life.strains.rows.find(one => one.segment === segment);
@@ -17,7 +17,7 @@ function around(values, ...more) {
   const room = (high - low) * .05 || 1e-6;
   return {low: low - room, high: high + room};
 }
-// The worst wire's own turning points, where another wire's history is shown.
+// Turning points of the worst wire, if the history of another wire is shown.
 function drawTurns(context, panel, line, colour) {
   const turns = life.strains.turns;
   turns.values = turns.values || unpacked(turns.strain, 100);
@@ -131,7 +131,7 @@ function programPanel(colours) {
     words: time => lineWords(time)
   };
 }
-// Of a preview: how far the clamps of each span are apart, and its length.
+// For a preview: distance of the clamps of each span, and the length of the span.
 function wayPanel(colours) {
   if (!data.preview || !data.preview.ways.spans.length) return null;
   const {time, spans} = data.preview.ways, all = [].concat(...spans.map(span => [span.length, ...span.ways]));

@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a file lies, seen from the XDMF file, as its reader wants it before a dataset's path.
+/// Returns the path of a file relative to the XDMF file, in the form that its reader needs in front of a dataset's path.
 std::string name_from(const fs::path& output, const fs::path& file) {
   return escaped(
       fs::proximate(file, output.has_parent_path() ? output.parent_path() : fs::path(".")).generic_string());
 }
 
-/// The other file of a job, if it lies there and is of the same motion.
+/// Returns the other file of a job, if it exists and belongs to the same motion; else null.
 std::unique_ptr<FileReader> beside(const fs::path& file, const Format& format, const FileReader& motion) {
   if (kind_of(file) == FileKind::absent) return nullptr;
   auto reader = std::make_unique<FileReader>(file, format);
@@ -36,7 +36,7 @@ std::unique_ptr<FileReader> beside(const fs::path& file, const Format& format, c
   return reader;
 }
 
-/// One row, or one number of each segment of one row, of a dataset in a file.
+/// References to one row of a dataset, or to one number per segment in one row.
 class Slab {
  public:
   Slab(std::string file, std::size_t rows, std::size_t segments)
@@ -46,7 +46,7 @@ class Slab {
     return slab(dataset, fmt::format("{} 0 1 1 1 {}", sample, segments_),
                 fmt::format("{} {}", rows_, segments_), "3 2", fmt::format("{}", segments_), bytes);
   }
-  /// Component `k` of pairs.
+  /// Returns a reference to component `k` of a dataset of pairs.
   std::string component(const std::string& dataset, std::size_t sample, int k, int bytes) const {
     return slab(dataset, fmt::format("{} 0 {} 1 1 1 1 {} 1", sample, k, segments_),
                 fmt::format("{} {} 2", rows_, segments_), "3 3", fmt::format("{}", segments_), bytes);
@@ -77,7 +77,7 @@ std::string attribute(const char* name, const char* centre, std::size_t values, 
                      values, item);
 }
 
-/// Places to a tenth of a millimetre. In the text, since ParaView complains of places in parts of a dataset.
+/// Returns positions to a tenth of a millimetre. They are in the text, because ParaView rejects positions in parts of a dataset.
 std::string geometry(std::size_t points, const std::string& places) {
   return fmt::format(
       "<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"{} 3\" "
@@ -88,7 +88,7 @@ void add_place(std::string& places, const Vector3d& at) {
   fmt::format_to(std::back_inserter(places), "{:.4f} {:.4f} {:.4f} ", at.x(), at.y(), at.z());
 }
 
-/// Numbers that every moment repeats: a reference to one list at the head makes the Xdmf3 readers abort.
+/// Returns numbers that are repeated at every time step, because a reference to one list makes the Xdmf3 readers abort.
 std::string numbers(std::size_t count, const char* type, const std::string& values) {
   return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Format=\"XML\">{}</DataItem>", count,
                      type, values);
@@ -96,13 +96,14 @@ std::string numbers(std::size_t count, const char* type, const std::string& valu
 
 // ---- the robot --------------------------------------------------------------------------------------------
 
-/// The links' shapes: every capsule a line of two points, every box eight, in the frames of their links.
+/// Shapes of the links: every capsule is a line of two points, every box has eight points, in the frames of their links.
 class Shapes {
  public:
   explicit Shapes(const Robot& robot) {
     for (std::size_t link = 0; link < robot.links.size(); ++link) {
       for (const Capsule& capsule : robot.links[link].capsules) {
-        cells_ += fmt::format("2 2 {} {} ", points_.size(), points_.size() + 1);  // a line, of two points
+        // cell type 2: a line, with its number of points
+        cells_ += fmt::format("2 2 {} {} ", points_.size(), points_.size() + 1);
         add_cell(link, capsule.radius);
         points_.push_back({link, capsule.from});
         points_.push_back({link, capsule.to});
@@ -138,7 +139,7 @@ class Shapes {
 
   void add_box(std::size_t link, const Box& box) {
     const Eigen::Quaterniond turn = from_roll_pitch_yaw(box.orientation);
-    cells_ += "9 ";  // a hexahedron: around the lower face, then around the upper
+    cells_ += "9 ";  // cell type 9: a hexahedron, first its lower face, then its upper face
     for (int corner = 0; corner < 8; ++corner)
       cells_ += fmt::format("{} ", points_.size() + static_cast<std::size_t>(corner));
     add_cell(link, 0, 9);
@@ -147,7 +148,7 @@ class Shapes {
         points_.push_back({link, box.position + turn * box.sides.cwiseProduct(Vector3d(x, y, z))});
   }
 
-  std::vector<std::pair<std::size_t, Vector3d>> points_;  // link, place in its frame
+  std::vector<std::pair<std::size_t, Vector3d>> points_;  // (link, position in its frame)
   std::string cells_, radii_, links_;
   std::size_t count_ = 0, numbers_ = 0;
 };
@@ -157,7 +158,7 @@ class Shapes {
 /// A line through the segments of each dresspack.
 struct HoseLines {
   std::size_t lines = 0;
-  std::string cells, radii;  ///< as items
+  std::string cells, radii;  ///< text of XDMF data items
 
   HoseLines(const std::vector<std::size_t>& dresspack_of_segment, const Setup& setup) {
     std::string points_of_lines, radius_of_each;

@@ -1,5 +1,5 @@
 // A job for ParaView: an XDMF file that refers to the datasets of the HDF5 files beside it, one grid per sample. Only
-// the links' shapes in the world are copied, because no file contains them.
+// the shapes of the links in world coordinates are copied, because no file contains them.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace dresslife::pipeline {
 
-/// The text of the XDMF file `output`; HDF5 files are named relative to its folder. One grid per sample: the
+/// Returns the text of the XDMF file `output`; HDF5 files are named relative to its folder. One grid per sample contains the
 /// dresspacks as lines through their segments' centres with radius, tension and contact force; with a strain file
 /// curvature, twist and elongation; with a life file damage per repeat; the robot's links as the axes of their
-/// capsules and as boxes, with radius and number of the link. Units as in the files. For ParaView's `XDMF Reader`:
+/// capsules and as boxes, with radius and number of the link. Units as in the files. Made for ParaView's `XDMF Reader`:
 /// its Xdmf3 readers cannot read parts of datasets. Errors: InputError when the motion file cannot be read, or a file
 /// belongs to another motion.
 std::string xdmf_text(const JobFiles& files, const std::filesystem::path& output);

@@ -4,7 +4,7 @@ function dresspackOf(segment) {
       motion.data.lines.findIndex(line => segment >= line.first_segment && segment < line.first_segment + line.segments) :
       0;
 }
-// Its segment counted from the tool, 1 first, and the distance of its middle from there [m].
+// Returns the number of a segment counted from the tool, from 1, and the distance of its middle from the tool [m].
 function fromTool(segment) {
   const own = life.segments.dresspack[segment];
   let count = 1, distance = life.segments.length[segment] / 2;

@@ -17,10 +17,10 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double plan_width = 960, plan_names = 190, plan_right = 14;
-constexpr std::size_t most_rows = 40;      // of the calendar: with more it does not fit on a sheet
-constexpr std::size_t most_columns = 130;  // of the calendar: narrower cells cannot be seen
+constexpr std::size_t most_rows = 40;      // rows of the calendar: more do not fit on a sheet
+constexpr std::size_t most_columns = 130;  // columns of the calendar: narrower cells are invisible
 
-/// Shades of a cell's probability, from these on.
+/// Lower limits of a cell's probability, with the class of its shade.
 constexpr std::array shades{std::pair(1e-4, "p1"), std::pair(1e-3, "p2"), std::pair(1e-2, "p3"), std::pair(1e-1, "p4")};
 constexpr const char* shade_rules =
     "<style>svg .p1 { fill: var(--hot); fill-opacity: .12; } svg .p2 { fill: var(--hot); fill-opacity: .3; } "
@@ -34,7 +34,7 @@ const char* shade_of(double probability) {
   return shade;
 }
 
-/// Dresspacks by falling risk.
+/// Returns the dresspacks in order of falling risk.
 std::vector<std::size_t> by_risk(const Plan& plan) {
   return largest_first(plan.rows.size(), [&](std::size_t k) { return plan.rows[k].fails_before; });
 }
@@ -72,7 +72,7 @@ class Calendar {
   }
   Day week(std::size_t number) const { return plan_.today + std::chrono::days(7 * static_cast<int>(number)); }
 
-  /// Expected failures of all dresspacks: by the plan, and without it.
+  /// Draws the expected failures of all dresspacks: with the plan, and without it.
   void failures(Picture& picture) const {
     std::vector<double> by_plan, without;
     for (std::size_t k = 0; k < plan_.failures_in_week.size(); ++k) {

@@ -1,5 +1,5 @@
-// The page of a plan: what to replace in which window, a calendar of the dresspacks with the greatest risk, spare parts per
-// year, and the table of all dresspacks.
+// The page of a plan: the dresspacks to replace in each window, a calendar of the dresspacks with the greatest risk, spare parts
+// per year, and the table of all dresspacks.
 #pragma once
 
 #include <string>
@@ -9,15 +9,16 @@
 
 namespace dresslife::pipeline {
 
-/// Beside the plan: why not to plan with duties, what tests and checks are worth (lines), and paragraphs on what it does not contain.
+/// Notes beside the plan: doubts (reasons not to plan with some duties), values (lines on the value of tests and checks), and
+/// paragraphs on the limits of the plan.
 struct PlanNotes {
   std::vector<std::string> doubts;
   std::string values;
   std::vector<std::string> paragraphs;
-  std::string today{};              ///< of a changed fleet: the name of today's
-  std::vector<BesideRow> beside{};  ///< its plan, and that of the changed fleet
+  std::string today{};              ///< name of the present fleet, if another fleet is compared with it
+  std::vector<BesideRow> beside{};  ///< the plan of the present fleet and that of the other fleet
 };
-/// name: of the fleet. table: the file with all dresspacks.
+/// Returns the page. name: name of the fleet. table: file with all dresspacks.
 std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& plan, const PlanNotes& notes, const std::string& table);
 
 }  // namespace dresslife::pipeline

@@ -12,10 +12,10 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double label_character = 6.6;  // widest average of common sans serifs at 12 px
-constexpr double close_to_tick = 1e-9;   // roundings of the step against the range
+constexpr double label_character = 6.6;  // upper bound of the average width of common sans serif fonts at 12 px
+constexpr double close_to_tick = 1e-9;   // tolerance for rounding errors of the step, relative to the range
 
-/// 1, 2 or 5 times a power of ten, the smallest that divides `span` into at most `most` steps.
+/// Returns the smallest step of 1, 2 or 5 times a power of ten that divides `span` into at most `most` steps.
 double round_step(double span, int most) {
   const double raw = span / std::max(1, most);
   const double power = std::pow(10, std::floor(std::log10(raw)));
@@ -24,7 +24,7 @@ double round_step(double span, int most) {
   return 10 * power;
 }
 
-/// `power`: a common power of ten that is written behind the digits; 0: none.
+/// power: exponent of a common power of ten that is written behind the digits; 0: none.
 std::string linear_label(double value, double step, int power) {
   if (std::abs(value) < step * close_to_tick) value = 0;
   if (power != 0 && value == 0) return "0";
@@ -34,7 +34,7 @@ std::string linear_label(double value, double step, int power) {
   return power == 0 ? digits : digits + "·" + power_of_ten(power);
 }
 
-/// Digits alone from a thousandth to a million; beyond, a power of ten keeps labels short.
+/// Returns the exponent for labels: 0 (digits only) from a thousandth to a million, else a power of ten that shortens them.
 int power_of_labels(double low, double high) {
   const double largest = std::max(std::abs(low), std::abs(high));
   if (!(largest > 0) || !std::isfinite(largest)) return 0;
@@ -50,7 +50,7 @@ std::string logarithmic_label(int factor, int exponent) {
 
 std::vector<Tick> linear_ticks(double low, double high, int most) {
   const double step = round_step(high - low, most);
-  constexpr double resolved = 1e12;  // steps from 0: further off, one more no longer changes a double
+  constexpr double resolved = 1e12;  // number of steps from 0 beyond which a step is lost in the rounding of a double
   if (!(step > 0) || !std::isfinite(step) || !(std::max(std::abs(low), std::abs(high)) < resolved * step))
     return {};
   const int power = power_of_labels(low, high);
@@ -65,7 +65,7 @@ std::vector<Tick> logarithmic_ticks(double low, double high, int most) {
   if (!(low > 0) || !std::isfinite(decades)) return {};
   const int every = std::max(1, static_cast<int>(std::ceil(decades / most)));
   const bool narrow = decades < 2.5;
-  const bool room = decades < 0.4 * most;  // between 1 and 2, the closest two labels
+  const bool room = decades < 0.4 * most;  // room between 1 and 2, the two closest labels
   std::vector<Tick> ticks;
   for (int exponent = static_cast<int>(std::floor(std::log10(low) - 1)); exponent <= std::log10(high) + 1;
        ++exponent)
@@ -90,7 +90,7 @@ std::string hinted(const std::string& element, const std::string& hint) {
   return fmt::format("<{}><title>{}</title></{}>\n", element, escaped(hint), name);
 }
 
-/// Lengths need a tenth of a pixel; shorter text keeps the page small.
+/// Returns a length with a tenth of a pixel, which is precise enough and keeps the page small.
 std::string at(double length) { return short_decimal(length, 1); }
 
 double share_of(const PlotAxis& axis, double value) {
@@ -223,7 +223,7 @@ double Panel::across(double value) const { return left + width * share_of(x, val
 double Panel::down(double value) const { return bottom() - height * share_of(y, value); }
 
 void Panel::draw_axes(Picture& picture, bool with_x_labels) const {
-  constexpr double x_spacing = 90, y_spacing = 32;  // between labels
+  constexpr double x_spacing = 90, y_spacing = 32;  // distance between labels [px]
   double widest = 0;
   for (const Tick& tick : y.ticks(static_cast<int>(height / y_spacing))) {
     picture.line(left, down(tick.value), right(), down(tick.value), "grid");

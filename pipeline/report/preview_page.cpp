@@ -22,9 +22,9 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A length that was tried.
+/// A length that was tried by the simulation.
 struct TriedLength {
-  double length = 0, bend_radius = 0;  ///< [m]; bend radius 0: no rest was found
+  double length = 0, bend_radius = 0;  ///< [m]; bend radius 0: no equilibrium was found
 };
 
 /// Dresspack between two of its clamps.
@@ -32,8 +32,8 @@ struct SpanPreview {
   std::string subject;  ///< "dresspack 'main hose' between clamps 1 and 2 of 3"
   double length = 0;    ///< [m]
   double least_way = 0, most_way = 0;
-  double here[2]{}, program[2]{};  ///< lengths that work [m]
-  double least_bend_radius = 0;    ///< allowed [m]
+  double here[2]{}, program[2]{};  ///< suitable lengths [m]
+  double least_bend_radius = 0;    ///< smallest allowed bend radius [m]
   std::vector<TriedLength> tried;
   bool hangs() const { return !(most_way > 0); }
   bool works() const { return hangs() || (length >= program[0] && length <= program[1]); }
@@ -73,8 +73,8 @@ std::vector<SpanPreview> spans_of(const FileReader& file, const Setup& setup) {
   return spans;
 }
 
-/// Lengths that are bent no harder at rest than allowed, or the one that is bent least. bends: whether a check, which knows
-/// what the dresspack lies on, warns of its bends.
+/// Returns the lengths that keep the bend radius at rest, or the length with the least bend. bends: whether a check, which
+/// includes the contact of the dresspack, warns of its bends.
 std::string bend_words(const SpanPreview& span, bool bends) {
   const TriedLength *first = nullptr, *last = nullptr, *best = nullptr;
   for (const TriedLength& tried : span.tried) {
@@ -153,8 +153,7 @@ Json ways_data(const FileReader& file, const std::vector<SpanPreview>& spans) {
   return {{"time", since}, {"spans", rows}};
 }
 
-/// Of "... at 151.040 s, program step 9 ...", as the simulation words its moments; not a number: it names
-/// none.
+/// Returns the time in a message of the simulation, "... at 151.040 s, program step 9 ..."; NaN: the message contains none.
 double time_in(const std::string& failure) {
   const std::size_t end = failure.find(" s, program step "),
                     begin = end == std::string::npos ? end : failure.rfind(" at ", end);
@@ -169,8 +168,7 @@ double length_of(const std::vector<SpanPreview>& spans) {
   return length;
 }
 
-/// Of "... 0.42 m from its base clamp", as the simulation words a place along a dresspack [m]; not a number:
-/// it names none.
+/// Returns the place along a dresspack in a message of the simulation, "... 0.42 m from its base clamp" [m]; NaN: none.
 double place_in(const std::string& refusal) {
   const std::size_t end = refusal.find(" m from its base clamp"),
                     begin = end == std::string::npos ? end : refusal.rfind(' ', end - 1);

@@ -1,5 +1,5 @@
-// The page of a job before its run, from the file of `dresslife-sim --preview`: robot, clamps, cell and each
-// dresspack as a smooth curve over the program; the refusal of the simulation, and suitable lengths.
+// The page of a job before its run, from the file of `dresslife-sim --preview`: robot, clamps, cell and each dresspack as a
+// smooth curve over the program; the reason if the simulation refuses the job, and suitable lengths.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,15 @@
 
 namespace dresslife::pipeline {
 
-/// Suitable lengths of each dresspack and their bend radius at rest, as sentences. Errors: InputError when the file
+/// Returns suitable lengths of each dresspack and their bend radius at rest, as sentences. Errors: InputError when the file
 /// cannot be read.
 std::vector<std::string> length_words(const std::filesystem::path& preview_file);
 
-/// Why the simulation refuses the job; empty: it accepts it.
+/// Returns the reason why the simulation refuses the job; empty: it accepts the job.
 std::string refusal_of(const std::filesystem::path& preview_file);
 
-/// The page as text. name: of the job; made_from: 32 digits, which made_from_of() of page_shell.h finds in
-/// it. failure: error of the simulation's run, shown if it did not refuse the job.
+/// Returns the page as text. name: name of the job; made_from: 32 digits, which made_from_of() of page_shell.h
+/// reads. failure: error of the simulation's run, shown if the simulation did not refuse the job.
 std::string preview_page(const std::filesystem::path& preview_file, const std::string& name,
                          const std::string& made_from, const std::string& failure = "");
 

@@ -29,12 +29,12 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A job's charts take about 60 kB: of a larger study only the best and the worst have them.
+/// The charts of a job take about 60 kB, so in a larger study only the best and the worst jobs have charts.
 constexpr std::size_t most_detailed = 40;
 constexpr std::size_t most_compared = 40;
-constexpr double least_shear_told = 5e-5;  // what two decimals of a per cent show
+constexpr double least_shear_told = 5e-5;  // smallest value that is not 0 with two decimals of a per cent
 
-/// When the first wire of such dresspacks breaks, in 10 to 90 % of them.
+/// Returns the hours by which the first wire breaks in 10 to 90 % of such dresspacks.
 std::string first_break_cell(const RankingRow& row) {
   if (std::isnan(row.first_wire_hours[0])) return "";
   return std::isinf(row.first_wire_hours[0]) ? printed_life(row.first_wire_hours[0])
@@ -48,7 +48,7 @@ std::string place_words(const RankingRow& row) {
                      row.worst_dresspack.empty() ? "" : " of the " + escaped(row.worst_dresspack));
 }
 
-/// Of a page beside the job's results, as seen from the study's; empty where there is none.
+/// Returns the address of a page beside the job's results, relative to the study's page; empty if it does not exist.
 std::string page_address(const RankingRow& row, const std::string& page) {
   if (row.life_file.empty() || kind_of(row.life_file.parent_path() / page) != FileKind::file)
     return "";
@@ -67,7 +67,7 @@ std::string page_link(const RankingRow& row, const std::string& page, const std:
 
 // ---- ranking ----------------------------------------------------------------------------------------------
 
-/// What is warned of, and on request each warning in full.
+/// Returns the kinds of the warnings, and on request each warning in full.
 std::string warning_cell(const RankingRow& row) {
   const std::string kinds = warning_kinds(row);
   if (kinds.empty()) return row.warnings ? "" : "<span class=\"soft\">not known</span>";
@@ -77,13 +77,13 @@ std::string warning_cell(const RankingRow& row) {
                      list);
 }
 
-/// Data of a row of the table for sorting and comparing.
+/// Returns the begin of a table row, with data for sorting and comparing.
 std::string row_begin(const RankingRow& row, std::size_t rank) {
   return fmt::format("<tr data-rank=\"{}\" data-job=\"{}\" data-warnings=\"{}\">", rank, escaped(row.job),
                      warnings_of(row).size());
 }
 
-/// Where half and 90 % lie, and how sure the job's place is, below its life.
+/// Returns the 50 and 90 % lives, and below them the certainty of the job's rank.
 std::string certainty_cell(const RankingRow& row) {
   if (std::isnan(row.scatter_hours[0])) return "";
   std::string text = fmt::format("<br><span class=\"soft\">half failed {}<br>90 % failed {}",
@@ -92,7 +92,7 @@ std::string certainty_cell(const RankingRow& row) {
   return text + "</span>";
 }
 
-/// That a result is of other settings, and what changed.
+/// Returns a note that a result belongs to other settings, with the changes.
 std::string stale_note(const RankingRow& row) {
   if (!row.stale) return "";
   return fmt::format("<br><span class=\"failed\">stale</span> <span class=\"soft\">{}</span>{}",
@@ -150,13 +150,12 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
   return all;
 }
 
-/// Where a job's life lies for 10 to 90 % of such dresspacks: the planner's, of older files the first wire's.
+/// Returns the 10 to 90 % range of a job's life: planned_hours; in older files the life of the first wire.
 const std::array<double, 3>& spread_of(const RankingRow& row) {
   return row.planned() ? row.planned_hours : row.first_wire_hours;
 }
 
-/// Lives beside each other on one axis of decades: a dot, the bounds as a bar behind it, and what 10 to 90 %
-/// of such dresspacks reach.
+/// Returns lives on one logarithmic axis: a dot, the bounds as a bar behind it, and the lives of 10 to 90 % of such dresspacks.
 std::string comparison_chart(const std::vector<RankingRow>& rows) {
   std::vector<const RankingRow*> shown;
   double low = INFINITY, high = 0;
@@ -231,7 +230,7 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
 
 // ---- one job ----------------------------------------------------------------------------------------------
 
-/// The shortest life of each, where there are several.
+/// Returns the shortest life of each dresspack, if the job has several.
 std::string dresspack_table(const LifeSummary& life, const RankingRow& row) {
   if (life.dresspack.size() < 2 || life.dresspack_damage.size() != life.dresspack.size()) return "";
   std::string rows;
@@ -348,7 +347,7 @@ std::string facts(const RankingRow& row) {
 }
 
 std::string charts(const RankingRow& row) {
-  // A stage that ran again since may have left other strains beside the last result.
+  // A stage that ran again since may have replaced the strains of the last result.
   const LifeSummary life =
       read_life(row.life_file, row.stale ? "" : row.life_file.parent_path() / "strain.h5");
   return dresspack_table(life, row) +
@@ -368,7 +367,7 @@ std::string charts(const RankingRow& row) {
              escaped(life.job), escaped(life.history));
 }
 
-/// The worst moment as a picture; none when the motion file has been cleared away.
+/// Returns the picture of the worst moment; empty if the motion file was removed.
 std::string scene(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
   if (!row.damaged() || kind_of(motion) == FileKind::absent) return "";
@@ -381,7 +380,7 @@ std::string scene(const RankingRow& row) {
                    picture_in_page(picture);
 }
 
-/// What a cell designer asks; none when the motion file has been cleared away.
+/// Returns the table of checks for a cell designer; empty if the motion file was removed.
 std::string checks(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
   if (kind_of(motion) == FileKind::absent) return "";
@@ -389,14 +388,14 @@ std::string checks(const RankingRow& row) {
   return table.empty() ? "" : "<h3>Checks of the motion</h3>\n" + table;
 }
 
-/// problems: receives the reason if a section cannot be shown.
+/// problems: receives the reason if a section cannot be written.
 std::string job_section(const RankingRow& row, std::size_t rank, std::vector<ReportProblem>& problems) {
   std::string body;
   try {
     const std::string action = row.done() ? action_words(row) : "";
     if (!action.empty()) body += fmt::format("<p><b>{}</b> {}</p>\n", escaped(action), escaped(uncertainty_words(row)));
     body += page_link(row, "page.html", "See it move, and where and when the damage comes about") + facts(row);
-    // A stage that ran again since may have left another motion beside the last result.
+    // A stage that ran again since may have replaced the motion of the last result.
     if (!row.stale) body += scene(row) + checks(row);
     body += charts(row);
   } catch (const InputError& problem) {
@@ -436,7 +435,7 @@ std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows) {
   std::vector<bool> detailed(rows.size(), false);
   for (std::size_t i = 0; i < done; ++i)
     detailed[i] = (done <= most_detailed || i < most_detailed / 2 || i >= done - most_detailed / 2) &&
-                  !rows[i].life_file.empty();  // else a study that keeps lives alone
+                  !rows[i].life_file.empty();  // rows without a life file belong to a study that keeps only lives
   return detailed;
 }
 

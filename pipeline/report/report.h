@@ -1,6 +1,6 @@
-// report.html: the results of a study for programmers of robots and planners of maintenance. One complete page without
-// requests; a script only sorts, filters and compares. It follows the reader's light or dark scheme. It reads the life
-// files, and the motion file beside each for the picture of the worst moment.
+// report.html: the results of a study for robot programmers and maintenance planners. One complete page without
+// requests; a script only sorts, filters and compares. The page follows the reader's light or dark scheme. Its sources are the
+// life files, and the motion file beside each for the picture of the worst moment.
 #pragma once
 
 #include <filesystem>
@@ -11,23 +11,23 @@
 
 namespace dresslife::pipeline {
 
-/// A job whose section could not be made.
+/// A job whose section could not be written.
 struct ReportProblem {
   std::string job, words;
 };
 
-/// The page as text. rows: of read_ranking(), longest life first. A damaged life file is named in its section and in
-/// `problems`. The same files give the same bytes. Errors: DiskError.
+/// Returns the page as text. rows: result of read_ranking(), longest life first. A damaged life file is named in its section and
+/// in `problems`. The same files give the same bytes. Errors: DiskError.
 std::string report_page(const std::string& study, const std::vector<RankingRow>& rows);
 std::string report_page(const std::string& study, const std::vector<RankingRow>& rows,
                         std::vector<ReportProblem>& problems);
 
-/// Writes the page if it changed. Returns the jobs that could not be shown.
-/// Errors: DiskError; InputError when it cannot be written.
+/// Writes the page if it changed. Returns the jobs whose sections could not be written. Errors: DiskError; InputError when the
+/// page cannot be written.
 std::vector<ReportProblem> write_report(const std::filesystem::path& file, const std::string& study,
                                         const std::vector<RankingRow>& rows);
 
-/// Jobs with a section in the report and a page: all with a result, or of more than 40 the 20 best and the 20 worst.
+/// Returns which jobs have a section and a page: all jobs with a result; of more than 40 the 20 best and the 20 worst.
 std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows);
 
 }  // namespace dresslife::pipeline

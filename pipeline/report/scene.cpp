@@ -17,10 +17,10 @@ namespace {
 
 constexpr double picture_width = 860, scene_margin = 24;  // [px]
 constexpr double most_height = 620;                 // [px]
-constexpr double azimuth = -62, elevation = 16;     // of the viewer, from +x and above the floor [deg]
-constexpr double piece = 0.06;  // thick parts are cut into pieces to sort them by depth [m]
+constexpr double azimuth = -62, elevation = 16;     // direction of view: angle from +x, and angle above the floor [deg]
+constexpr double piece = 0.06;  // thick parts are divided into pieces of this length, which are sorted by depth [m]
 
-/// A stroke with round ends from one point to another.
+/// A line with round ends.
 struct Stroke {
   Vector3d from, to;  ///< [m]
   double radius;      ///< [m]
@@ -66,7 +66,7 @@ void add_robot(std::vector<Stroke>& strokes, const FileReader& file, const Robot
   }
 }
 
-/// Guide rings and the clamps between the ends, as circles of short strokes about the hose.
+/// Adds guide rings and intermediate clamps, as circles of short strokes around the hose.
 void add_rings(std::vector<Stroke>& strokes, const FileReader& file, const Setup& setup, std::size_t sample) {
   if (!file.has("/robot/link_pose")) return;
   constexpr int corners = 20;
@@ -97,7 +97,7 @@ void add_rings(std::vector<Stroke>& strokes, const FileReader& file, const Setup
   }
 }
 
-/// Of each dresspack.
+/// Returns the points of each dresspack.
 std::vector<std::vector<Vector3d>> hose_points(const FileReader& file, std::size_t sample) {
   std::vector<double> clamps, centres;
   file.read_rows("/clamp/position", sample, 1, clamps);
@@ -107,7 +107,7 @@ std::vector<std::vector<Vector3d>> hose_points(const FileReader& file, std::size
   return points;
 }
 
-/// Segment i reaches half way to its neighbours.
+/// Adds a dresspack. Segment i extends half way to its neighbours.
 void add_hose(std::vector<Stroke>& strokes, const std::vector<Vector3d>& points, double radius,
               int worst_from_tool) {
   const int segments = static_cast<int>(points.size()) - 2;
@@ -146,7 +146,7 @@ View fit(const std::vector<Stroke>& strokes, double& height) {
   return view;
 }
 
-/// A bar of one metre (or a tenth for small scenes) in the lower left corner.
+/// Returns a bar of one metre (or a tenth of a metre for small scenes) for the lower left corner.
 std::string scale_bar(const View& view, double height) {
   const double length = view.scale > 600 ? 0.1 : 1;
   const double y = height - 10;

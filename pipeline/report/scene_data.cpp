@@ -12,7 +12,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// 24 characters of the page for a triangle: 0.7 MB for all meshes of a robot together.
+/// A triangle takes 24 characters of the page: 0.7 MB for all meshes of a robot together.
 constexpr std::size_t most_triangles = 30'000;
 
 Json pose(const Vector3d& position, const Vector3d& roll_pitch_yaw) {

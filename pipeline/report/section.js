@@ -1,5 +1,5 @@
-// Across the chosen segment: the whole dresspack and one of its cables larger, every wire coloured by its damage, and the wires
-// that are damaged most.
+// Cross-section of the chosen segment: the whole dresspack and one of its cables enlarged, every wire coloured by its damage, and
+// a list of the most damaged wires.
 class CrossSection {
   constructor(of) {
     this.of = of;
@@ -7,7 +7,7 @@ class CrossSection {
     this.wires = [];
     this.collect(of.parts, 0, 0, of.name ? of.name + '/' : '', []);
   }
-  // Of each part its place [m], path and the parts that hold it.
+  // For each part its position [m], its path and the parts that contain it.
   collect(layers, x, y, before, holders) {
     for (const layer of layers)
       for (let k = 0; k < layer.count; ++k) {
@@ -26,9 +26,9 @@ class CrossSection {
       }
   }
   whole() { return {x: 0, y: 0, radius: this.of.radius}; }
-  // What is shown larger around a wire: the widest part that holds it and is much narrower than all.
+  // Returns the part that is enlarged around a wire: the widest part that contains it and is much narrower than the dresspack.
   nearPart(wire) { return wire && wire.holders.find(part => part.radius < .5 * this.of.radius) || this.whole(); }
-  // The smallest thing at a place [m]; null: none.
+  // Returns the smallest part at a position [m]; null: none.
   at(x, y, among) {
     const inside = part => Math.hypot(part.x - x, part.y - y) <= part.radius;
     return among.filter(inside).reduce((least, part) => !least || part.radius < least.radius ? part : least, null);
@@ -40,7 +40,7 @@ function prepareSections() {
   sectionScale = new Scale('damage per repeat', sequentialStops, data.section.low, data.section.high, true);
 }
 
-// Damage of each wire of a segment's row, 0: less than the scale begins with.
+// Returns the damage of each wire of a segment's row; 0: below the begin of the scale.
 function damagesOf(row, count) {
   const bytes = new Uint8Array(bytesOf(row.levels)), {steps, low, high} = data.section;
   return Array.from({length: count}, (_, k) => {

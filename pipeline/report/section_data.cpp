@@ -13,10 +13,10 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr int steps = 15;                    // four bits, and none
-constexpr double least_share = 1e-4;         // of the largest damage
-constexpr std::size_t most_bytes = 260'000;  // a third more as base64
-constexpr std::size_t listed_wires = 5;      // of each segment
+constexpr int steps = 15;                    // four bits: 15 steps and zero
+constexpr double least_share = 1e-4;         // share of the largest damage
+constexpr std::size_t most_bytes = 260'000;  // base64 adds a third
+constexpr std::size_t listed_wires = 5;      // per segment
 constexpr std::size_t no_wire = static_cast<std::size_t>(-1);
 
 Json parts_json(const std::vector<Component>& components) {
@@ -43,13 +43,13 @@ Json dresspack_json(const Setup& setup, std::size_t d) {
           {"parts", parts_json(dresspack.components)}};
 }
 
-/// Sites of a segment lie together, those of one dresspack's segments alike.
+/// Map from sites to wires. The sites of a segment are consecutive, and all segments of one dresspack have the same sites.
 struct Wires {
-  std::vector<std::size_t> of_site;  ///< (site of a segment) wire; no_wire: of the hose's wall
+  std::vector<std::size_t> of_site;  ///< (site of a segment) index of the wire; no_wire: a site of the hose's wall
   std::size_t count = 0;
 };
 
-/// By the sites of one of its segments; without wires where they are not those of the dresspack.
+/// Returns the map from the sites of one segment; without wires if the sites do not belong to the dresspack.
 Wires wires_of(const FileReader& life, const Setup& setup, std::size_t d, std::size_t first_site,
                std::size_t sites) {
   const std::string name = name_among(setup, d), before = name.empty() ? "" : name + "/";
@@ -65,10 +65,10 @@ Wires wires_of(const FileReader& life, const Setup& setup, std::size_t d, std::s
       wires.of_site[k] = found->second;
       ++known;
     }
-  return known < number.size() ? Wires{} : wires;  // each has a fibre at least
+  return known < number.size() ? Wires{} : wires;  // every wire must have at least one fibre
 }
 
-/// (wire) of its most damaged fibre.
+/// Returns, (wire), the damage of its most damaged fibre.
 std::vector<double> damage_of_wires(const Wires& wires, const double* damage) {
   std::vector<double> most(wires.count, 0.0);
   for (std::size_t k = 0; k < wires.of_site.size(); ++k)
@@ -88,7 +88,7 @@ std::string levels_of(const std::vector<double>& damage, double most) {
   return bytes;
 }
 
-/// Wires and their damages.
+/// Returns the worst wires and their damages.
 Json worst_json(const std::vector<double>& damage) {
   std::vector<std::size_t> order = indices_of(damage.size());
   const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(listed_wires, order.size()));

@@ -1,4 +1,4 @@
-// The job whose text a result file holds.
+// The job in the text of a result file.
 #pragma once
 
 #include "pipeline/files/files.h"
@@ -6,7 +6,7 @@
 
 namespace dresslife::pipeline {
 
-/// Resolved, as it ran. Errors: InputError, which names the file.
+/// Returns the resolved job with which the file was made. Errors: InputError, which names the file.
 inline Node stored_job(const FileReader& file) {
   return parse_yaml(file.text_attribute("job"), file.where().file + " (attribute job)");
 }

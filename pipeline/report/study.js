@@ -1,8 +1,8 @@
-// The table of a page, sorted by any column and filtered by words; two jobs of a study side by side. Without scripts the
-// table stands as it was written.
+// The table of a page, sorted by any column and filtered by words; a comparison of two jobs of a study. Without scripts the
+// table stays as it was written.
 const table = document.getElementById('ranking'), body = table.tBodies[0];
 const more = document.getElementById('more-jobs');
-// In their order on the page. Of thousands of rows a browser lays out those that are shown.
+// Rows in their order on the page. Of thousands of rows a browser lays out only those that are shown.
 const rowsAtOnce = 100;
 let rows = [...body.rows, ...(more ? more.content.children : [])], most = rowsAtOnce;
 const heads = [...table.tHead.rows[0].cells];
@@ -17,7 +17,7 @@ function made(name, attributes = {}, ...children) {
 
 // ---- sorting ----------------------------------------------------------------------------------------------------------
 
-// The number of a cell, else its text; null: nothing to sort by, always last.
+// Returns the number of a cell, else its text; null: no value, always sorted last.
 function valueOf(row, column) {
   const cell = row.cells[column];
   if (!cell || cell.colSpan > 1) return null;
@@ -69,7 +69,7 @@ function button(words, action) {
 }
 const counted = number => number.toLocaleString('en-US');
 
-// The first of the rows that are asked for.
+// Shows the first of the requested rows.
 function show() {
   const wanted = words.value.toLowerCase().split(/\s+/).filter(Boolean);
   const found = rows.filter(
@@ -99,9 +99,9 @@ const onlyWarned = areJobs ? [made('label', {}, warned, ' with warnings only')] 
 table.parentElement.before(made('div', {class: 'tools'}, words, ...onlyWarned, count));
 table.parentElement.after(rest, compared);
 
-// ---- two jobs side by side --------------------------------------------------------------------------------------------
+// ---- comparison of two jobs -------------------------------------------------------------------------------------------
 
-// Of settings as dresslife writes them: "fatigue.stress" -> "cyclic", "dresspack.components.0.count" -> "4".
+// Reads settings in the format of dresslife: "fatigue.stress" -> "cyclic", "dresspack.components.0.count" -> "4".
 function settingsOf(text) {
   const values = new Map(), counts = new Map(), stack = [];
   const last = () => stack[stack.length - 1], path = () => stack.map(part => part.key).join('.');
@@ -128,7 +128,7 @@ function settingsOf(text) {
 
 const settingsText = row => document.querySelector(`#job-${row.dataset.rank} pre.settings`)?.textContent;
 
-// Of a row that is not laid out, too.
+// Works also for a row that is not laid out.
 function wordsOf(cell) {
   if (!cell) return '';
   const copy = cell.cloneNode(true);

@@ -15,7 +15,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// What a browser lays out at once; it asks for the others.
+/// Rows that a browser lays out at first; the reader can request the others.
 constexpr std::size_t rows_at_once = 100;
 
 constexpr const char* table_style = R"(

@@ -7,15 +7,15 @@
 
 namespace dresslife::pipeline {
 
-/// title, head: plain text; body: HTML.
+/// Returns a page. title, head: plain text; body: HTML.
 std::string table_page(const std::string& title, const std::string& head, const std::string& body);
 
-/// The table with the id "ranking". heads: its "<th>"s; rows: whole "<tr>"s with data-rank, their place from 1; things: what
-/// a row is about ("jobs"); file: in which all rows are. Beyond the first 100, rows are laid out when the reader asks.
+/// Returns the table with the id "ranking". heads: its "<th>"s; rows: whole "<tr>"s with data-rank, their rank from 1; things:
+/// name of the rows' subject ("jobs"); file: table file with all rows. Rows after the first 100 are laid out on request.
 std::string sorted_table(const std::string& heads, const std::vector<std::string>& rows, const std::string& things,
                          const std::string& file);
 
-/// The attribute of a cell that it is sorted by; not a number: nothing.
+/// Returns the attribute of a cell by which it is sorted; empty for NaN.
 std::string sorted_by(double value);
 std::string number_cell(double value, const std::string& words);
 

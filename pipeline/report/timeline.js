@@ -1,12 +1,12 @@
-// Histories over time, one panel above the other: strain, damage, shape, joints and the program. A click or drag moves the
-// time, the wheel zooms into it, two clicks show all of it.
+// Histories over time, one panel above the other: strain, damage, shape, joints and the program. A click or drag changes the
+// time, the wheel zooms in time, a double click shows the whole time.
 const jointColours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#8c6d1f', '#56b4e9', '#7b5ea7'];
 const leftMargin = 64, rightMargin = 10, panelGap = 22, lineHeight = 15;
 
 const labelFont = '12px system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif';
 
 class Timeline {
-  // duration [s]; onTime(time): the reader chose one.
+  // duration [s]; onTime(time): called when the reader chooses a time.
   constructor(place, duration, onTime) {
     this.canvas = document.createElement('canvas');
     this.canvas.tabIndex = 0;
@@ -61,7 +61,7 @@ class Timeline {
     const words = this.panels.map(panel => panel.words && panel.words(time)).filter(Boolean);
     this.hint.textContent = `${time.toFixed(2)} s   ${words.join('   ')}`;
   }
-  // panels: {title, brief (where the title does not fit), height, low, high, curves: [{time, values, colour, name}] or
+  // panels: {title, brief (used if the title does not fit), height, low, high, curves: [{time, values, colour, name}] or
   // draw(context, panel), words(time)}
   setPanels(panels) {
     this.panels = panels;
@@ -108,7 +108,7 @@ class Timeline {
     this.still.getContext('2d').drawImage(this.canvas, 0, 0);
     this.drawNow();
   }
-  // The histories as they were drawn last, and a line at the time.
+  // Redraws the stored picture of the histories, and a line at the chosen time.
   drawNow() {
     const context = this.canvas.getContext('2d'), ratio = Math.min(window.devicePixelRatio || 1, 2), x = this.xAt(this.now);
     context.setTransform(1, 0, 0, 1, 0, 0);
@@ -127,7 +127,7 @@ class Timeline {
     const fits = panel.brief === undefined || leftMargin + context.measureText(panel.title).width < this.width - rightMargin;
     return fits ? panel.title : panel.brief;
   }
-  // Behind the title, and where the width does not hold them in lines below it.
+  // Draws the legend behind the title, or on lines below it if the width is too small.
   namesOf(context, panel, title) {
     const names = [];
     let x = leftMargin + context.measureText(title).width + 14, line = 0;
@@ -179,7 +179,7 @@ class Timeline {
       context.fillText(String(Number((k * step).toPrecision(6))), leftMargin - 5, y + 4);
     }
   }
-  // All extremes are seen: of the samples under one pixel the least and the largest.
+  // Shows all extremes: the least and the largest of the samples under one pixel.
   drawCurve(context, panel, curve) {
     context.strokeStyle = curve.colour;
     context.lineWidth = 1.2;
@@ -217,7 +217,7 @@ class Timeline {
   }
 }
 
-// 1, 2 or 5 times a power of ten, not below.
+// Returns the smallest 1, 2 or 5 times a power of ten that is not below the value.
 function roundStep(least) {
   const power = 10 ** Math.floor(Math.log10(least || 1));
   return [1, 2, 5, 10].map(factor => factor * power).find(step => step >= least * (1 - 1e-9));

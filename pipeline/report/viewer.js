@@ -1,4 +1,4 @@
-// The 3D view: robot, cell and dresspacks at one moment, turned with the mouse, fingers or keys. Lengths in metres, z up.
+// The 3D view: robot, cell and dresspacks at one moment, turned with mouse, fingers or keys. Lengths in metres, z up.
 const tubeCorners = 12, ringsPerSegment = 4;
 
 function capsuleGeometries(from, to, radius) {
@@ -42,7 +42,7 @@ function addShapes(group, shapes, material) {
   }
 }
 
-// A dresspack's line as a round tube, coloured segment by segment. places: of its points, in segments.
+// A dresspack's line as a round tube, coloured by segment. places: positions of its points, in segments.
 class Tube {
   constructor(places, segments, radius, material) {
     this.places = places;
@@ -68,8 +68,8 @@ class Tube {
   segmentOfFace(face) { return this.segmentOfRing(Math.floor(face / (2 * tubeCorners))); }
   ringOfSegment(segment) { return Math.round((segment + .5) * ringsPerSegment); }
 
-  // A cubic between neighbouring points, its slope at each that of the line through both neighbours; x y z of the points
-  // after each other from `at` on.
+  // Cubic interpolation between neighbouring points; the slope at each point is that of the line through both neighbours. The
+  // points are stored as x y z from index `at`.
   move(numbers, at) {
     const last = this.places.length - 1;
     const slope = (i, x) => {
@@ -92,7 +92,7 @@ class Tube {
     }
     this.skin();
   }
-  // Rings across the tangents, carried on without turning about them.
+  // Rings perpendicular to the tangents, transported without rotation about them.
   skin() {
     const position = this.geometry.attributes.position, normal = this.geometry.attributes.normal;
     const side = new THREE.Vector3(), other = new THREE.Vector3(), out = new THREE.Vector3();
@@ -177,7 +177,7 @@ class Viewer {
       addShapes(group, link.shapes, greys[k % 2]);
       const axes = new THREE.AxesHelper(.25);
       axes.visible = false;
-      axes.material.depthTest = false;  // they begin inside of their links
+      axes.material.depthTest = false;  // the axes begin inside their links
       axes.renderOrder = 1;
       group.add(axes);
       this.scene.add(group);
@@ -232,7 +232,7 @@ class Viewer {
       return tube;
     });
   }
-  // A ring around a segment, with a word beside it; hidden until it is put somewhere.
+  // A ring around a segment, with a label; hidden until it has a position.
   addMark(colour, word) {
     const mark = new THREE.Mesh(new THREE.TorusBufferGeometry(1.4, .24, 12, 40), new THREE.MeshBasicMaterial({color: colour}));
     mark.visible = false;
@@ -260,7 +260,7 @@ class Viewer {
     mark.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), tube.tangents[ring]);
     mark.scale.setScalar(tube.radius);
   }
-  // Everything to the motion's row; colour of each segment of the file.
+  // Moves all objects to a row of the motion; colour: colour of each segment of the file.
   pose(row, colourOfSegment) {
     const positions = this.motion.group('link_positions'), turns = this.motion.group('link_quaternions');
     if (positions)
@@ -278,7 +278,7 @@ class Viewer {
       if (mark.visible) this.mark(mark, mark.segment);
     this.dirty = true;
   }
-  // Places of the dresspacks over the motion, and corners around the links as they stand at first; the box around them.
+  // Positions of the dresspacks over the motion, corners around the links in their first pose, and the box around all of these.
   findBox() {
     this.box = new THREE.Box3();
     this.found = [];
@@ -300,7 +300,7 @@ class Viewer {
           }
     }
   }
-  // The camera to a side of everything, or near the worst or the chosen place.
+  // Moves the camera to one side of all objects, or near the worst or the chosen place.
   look(where) {
     const directions = {overview: [.45, -.85, .28], front: [1, 0, .02], side: [0, -1, .02], top: [0, -.02, 1]};
     const mark = [this.chosen, this.worst].find(one => one.visible);
@@ -313,7 +313,7 @@ class Viewer {
     this.controls.update();
     this.dirty = true;
   }
-  // From where all that was found lies in the picture, seen along `direction` at the centre.
+  // Extent in the picture of all these points, seen along `direction` at the centre.
   distanceOfAll(direction, center) {
     const out = direction.clone().normalize(), right = new THREE.Vector3().crossVectors(this.camera.up, out);
     if (right.lengthSq() < 1e-6) right.set(1, 0, 0);
@@ -337,7 +337,7 @@ class Viewer {
     this.camera.position.copy(this.controls.target).add(new THREE.Vector3(to.x, -to.z, to.y));
     this.controls.update();
   }
-  // Segment of the file under a place of the canvas [px]; -1: none.
+  // Returns the segment of the file at a point of the canvas [px]; -1: none.
   segmentAt(x, y) {
     const ray = new THREE.Raycaster(), size = this.canvas.getBoundingClientRect();
     ray.setFromCamera(new THREE.Vector2(2 * x / size.width - 1, 1 - 2 * y / size.height), this.camera);
@@ -348,7 +348,7 @@ class Viewer {
           nearest = {distance: hit.distance, segment: tube.first + tube.segmentOfFace(hit.faceIndex)};
     return nearest ? nearest.segment : -1;
   }
-  // Where a segment stands on the canvas [px].
+  // Returns the position of a segment on the canvas [px].
   placeOf(segment) {
     const tube = this.tubeOf(segment), at = tube.centres[tube.ringOfSegment(segment - tube.first)].clone().project(this.camera);
     const size = this.canvas.getBoundingClientRect();
@@ -364,7 +364,7 @@ class Viewer {
     this.dirty = true;
   }
   warnOf(links) {
-    // What lies in them is seen.
+    // The inside of these objects is visible.
     const material = new THREE.MeshLambertMaterial({color: 0xd97a3a, transparent: true, opacity: .4, depthWrite: false});
     this.links.forEach((link, k) => {
       if (links[k])
@@ -392,7 +392,7 @@ class Viewer {
       const seen = wanted && place.z < 1 && Math.abs(place.x) < 1 && Math.abs(place.y) < 1;
       label.element.hidden = !seen;
       if (!seen) continue;
-      // Below the labels that are in its way.
+      // Moved below the labels that overlap it.
       const widest = this.place.clientWidth - label.element.offsetWidth - 20;
       const left = Math.min((place.x + 1) / 2 * this.place.clientWidth, widest), right = left + label.element.offsetWidth;
       let top = (1 - place.y) / 2 * this.place.clientHeight;
@@ -400,7 +400,7 @@ class Viewer {
            tries < 8 && taken.some(other => left < other.right && right > other.left && Math.abs(top - other.top) < 17); ++tries)
         top += 17;
       taken.push({left, right, top});
-      // In shares of the picture, which paper makes narrower.
+      // In shares of the picture, because paper makes the picture narrower.
       label.element.style.left = `${100 * left / this.place.clientWidth}%`;
       label.element.style.top = `${100 * top / this.place.clientHeight}%`;
     }

@@ -30,14 +30,14 @@ namespace fs = std::filesystem;
 struct Stage {
   const char* name;
   JobPart part;
-  const char* input;  ///< in the job's folder
+  const char* input;  ///< file name in the job's folder
   const char* output;
 };
 constexpr std::array<Stage, stage_count> stages{Stage{"sim", JobPart::sim, "job.yaml", "motion.h5"},
                                                 Stage{"strain", JobPart::strain, "motion.h5", "strain.h5"},
                                                 Stage{"fatigue", JobPart::fatigue, "strain.h5", "life.h5"}};
 
-/// In the job's folder: what is not for people.
+/// Returns the path, in the job's folder, of an internal file of a stage.
 fs::path beside(const Stage& stage, const char* ending) {
   return fs::path(".stage") / (std::string(stage.name) + ending);
 }
@@ -47,7 +47,7 @@ fs::path launcher_log(const Stage& stage) { return beside(stage, ".launcher"); }
 constexpr const char* failure_file = ".stage/failure";
 std::string program_name(const Stage& stage) { return std::string("dresslife-") + stage.name; }
 
-/// Of all stages, behind links. Errors: InputError when one is missing.
+/// (stage) path of the program, with links resolved. Errors: InputError when a program is missing.
 using Programs = std::array<fs::path, stage_count>;
 Programs found_programs(const StudyPlaces& places) {
   Programs programs;
@@ -63,7 +63,7 @@ Programs found_programs(const StudyPlaces& places) {
   return programs;
 }
 
-/// What a job's stages are to be made from.
+/// Sets the recipe of each stage: digests of the settings, files and program that the stage reads.
 void set_recipes(JobState& state, const Job& job, const Programs& programs, Digests& digests) {
   const std::vector<fs::path> files = files_beside(job);
   std::string all;
@@ -77,7 +77,7 @@ void set_recipes(JobState& state, const Job& job, const Programs& programs, Dige
   state.settings = recipe_of(all, files, {}, digests).substr(0, digits);
 }
 
-/// Whether the receipts name all stages' outputs, each made from the one before, as far as these exist.
+/// Sets `next` to the first stage whose receipt does not name the present recipe, input and output.
 void follow_receipts(JobState& state, const fs::path& folder) {
   state.inputs = {"-"};
   for (state.next = 0; state.next < stage_count; ++state.next) {
@@ -86,7 +86,7 @@ void follow_receipts(JobState& state, const fs::path& folder) {
     if (!receipt || receipt->recipe != state.recipes[state.next] ||
         receipt->input != state.inputs[state.next])
       return;
-    // After a failure the bytes are always compared: a stage may have found damage that no file time shows.
+    // After a failure the bytes are always compared: a stage may have found damage that the file times do not show.
     if (!state.failure.empty()) receipt->state = {};
     const FileState now = state_of(folder / stage.output);
     const bool removed = !now.exists() && may_lack(state.keep, state.next);
@@ -104,8 +104,7 @@ void follow_receipts(JobState& state, const fs::path& folder) {
   }
 }
 
-/// The result of other settings that is still there: as its receipt notes it, or, where a stage began to make
-/// another and failed, by its own checksum.
+/// Finds an existing result of other settings: by its receipt, or by its own checksum if a stage began a new result and failed.
 void find_last(JobState& state, const fs::path& folder) {
   state.has_last = false;
   state.changed.clear();
@@ -114,7 +113,7 @@ void find_last(JobState& state, const fs::path& folder) {
   const bool there = state_of(folder / last.output).exists();
   const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(last));
   if (!receipt) {
-    // A user's file of that name has no checksum, and is no result.
+    // A user's file with this name has no checksum, so it is not taken for a result.
     state.has_last =
         there && begins_with_checksum(folder / last.output) && checksum_of(folder / last.output).has_value();
     return;
@@ -126,7 +125,7 @@ void find_last(JobState& state, const fs::path& folder) {
 
 std::string failure_key(const JobState& state) { return joined(state.recipes, " "); }
 
-/// The reason of the last attempt, if it was one with these recipes.
+/// Returns the reason why the last attempt failed, if that attempt had the present recipes.
 std::string noted_failure(const JobState& state, const fs::path& folder) {
   if (!state_of(folder / failure_file).exists()) return "";
   std::istringstream lines(read_text(folder / failure_file));
@@ -136,8 +135,9 @@ std::string noted_failure(const JobState& state, const fs::path& folder) {
   return key == failure_key(state) ? reason : "";
 }
 
-/// The words before a stage's program, quoted for Ninja. The stage writes its log where it runs. Messages of launchers
-/// (srun also reports exit statuses) go to a separate file, because their order relative to the log is unknown.
+/// Returns the words in front of a stage's program, quoted for Ninja. The stage writes its log on the node where it runs.
+/// Messages of launchers (srun also reports exit statuses) go to a separate file, because their order relative to the log is
+/// unknown.
 std::string launching(const std::string& launcher, const Stage& stage) {
   if (launcher.empty()) return "";
   std::string words = "env -u DRESSLIFE_PARENT ";
@@ -148,11 +148,10 @@ std::string launching(const std::string& launcher, const Stage& stage) {
 std::string rules(const StudyPlaces& places, const StageLimits& limits, const std::string& launcher) {
   std::string text = fmt::format("ninja_required_version = 1.8\nbuilddir = {}\n\n", places.notes().string());
   for (const Stage& stage : stages) {
-    // The stage before is checked against the same job, so the settings come from job.yaml at every stage.
+    // Each stage after the first reads its settings from job.yaml, because the previous output is checked against the same job.
     const std::string job = stage.part == JobPart::sim ? "" : " --job $job/job.yaml";
-    // `exec`: the shell's process becomes the stage's, which then ends with Ninja. `3>&1`: Ninja takes the
-    // end of its pipe for the end of the stage and waits for that stage alone, so the pipe must live as long
-    // as the stage.
+    // `exec`: the process of the shell becomes the process of the stage, so the stage ends with Ninja. `3>&1`: Ninja takes the
+    // end of its pipe for the end of the stage, so the pipe must stay open as long as the stage runs.
     text += fmt::format(
         "rule {0}\n  command = exec {9}\"$$DRESSLIFE_PROGRAMS/{1}\" $job/{2}{3} -o $job/{4} --receipt $job/{5} "
         "{10}--quiet --job-time {6} --job-memory {7}$likes 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
@@ -167,7 +166,7 @@ std::string target_of(const Stage& stage, const std::string& job) {
   return job + "/" + beside(stage, ".ran").string();
 }
 
-/// By job and stage, the other jobs that get the output: lines of folders.
+/// (job, stage) folders of the other jobs that get the output, one per line.
 using Likes = std::vector<std::array<std::string, stage_count>>;
 Likes likes_of(const Study& study, const std::vector<JobState>& states, const std::vector<Makers>& makers) {
   Likes likes(states.size());
@@ -177,7 +176,7 @@ Likes likes_of(const Study& study, const std::vector<JobState>& states, const st
   return likes;
 }
 
-/// The stages that a job runs itself, each after the stage that makes its input.
+/// Returns the build statements of the stages that a job runs itself, each after the stage that makes its input.
 std::string chain_of(const Study& study, const StudyPlaces& places, const JobState& state, std::size_t k,
                      const std::vector<Makers>& makers, const Likes& likes) {
   std::string text;
@@ -196,7 +195,7 @@ std::string chain_of(const Study& study, const StudyPlaces& places, const JobSta
   return text;
 }
 
-/// The first line of a log with an error, else nothing.
+/// Returns the first line with an error in a log; empty if no line has one.
 std::string error_line(const fs::path& log) {
   std::istringstream lines(read_text(log));
   for (std::string line; std::getline(lines, line);)
@@ -204,12 +203,12 @@ std::string error_line(const fs::path& log) {
   return "";
 }
 
-/// What a stage was made with that was otherwise when the run began: "cell.src was new".
+/// Returns the inputs of a stage that changed after the start of the run: "cell.src was new".
 std::string changed_since(const Receipt& receipt, const fs::path& folder, const Digests& before) {
   const auto whole = [](const fs::path& file) { return fs::absolute(file).lexically_normal(); };
   std::map<fs::path, std::string> digests, programs;
   for (const auto& [file, digest] : before.all()) {
-    if (file.empty()) continue;  // of settings alone
+    if (file.empty()) continue;  // an entry without a file is a digest of settings
     digests[whole(file)] = digest;
     programs[file.filename()] = digest;
   }
@@ -227,7 +226,7 @@ std::string changed_since(const Receipt& receipt, const fs::path& folder, const 
   return "a file that the program reads was removed";
 }
 
-/// Why a job is not done after a run.
+/// Returns the reason why a job is not done after a run.
 std::string reason_of(const JobState& state, const fs::path& folder, const BuildResult& result,
                       const Digests& before) {
   const Stage& stage = stages[state.next];
@@ -237,12 +236,12 @@ std::string reason_of(const JobState& state, const fs::path& folder, const Build
     begun = true;
     const std::string line = error_line(folder / log);
     if (!line.empty())
-      return log == log_file(stage) ? line : line + then_run_again;  // a launcher knows nothing of jobs
+      return log == log_file(stage) ? line : line + then_run_again;  // a launcher's message contains no advice on jobs
   }
   if (!begun)
     return result.words.empty() ? "it was not reached"
                                 : "it was not reached: " + result.words + "; run again";
-  // From here on the stage said nothing; a receipt may be older than this run.
+  // Below this line the stage wrote no error. The receipt may be older than this run.
   if (!result.words.empty())
     return fmt::format("{} was broken off: {}; run again", program_name(stage), result.words);
   const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
@@ -252,7 +251,7 @@ std::string reason_of(const JobState& state, const fs::path& folder, const Build
   return fmt::format("{} ended without a message (killed, or out of memory?)", program_name(stage));
 }
 
-/// What a stage said is said to all for whom it worked.
+/// Copies the logs of a stage to the folder of a job that shares its output.
 void give_log(const fs::path& from, const fs::path& to, const Stage& stage) {
   for (const fs::path& log : {log_file(stage), launcher_log(stage)}) copy_if_there(from / log, to / log);
 }
@@ -267,11 +266,12 @@ void join_logs(const fs::path& folder) {
   write_text_if_changed(folder / "log", text, Sync::never);
 }
 
-/// A Ninja process and what it says.
+/// A Ninja process and its output.
 class Ninja {
  public:
   Ninja(const StudyPlaces& places, int parallel) {
-    const Programs programs = found_programs(places);  // each stage would read all of its own
+    // their digests are computed once here, so that not every stage reads its whole program
+    const Programs programs = found_programs(places);
     const std::string digests = note_digests({programs.begin(), programs.end()});
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
@@ -286,7 +286,7 @@ class Ninja {
   }
   ~Ninja() {
     if (said_) std::fclose(said_);
-    if (process_ > 0) {  // this program gives up before Ninja is through
+    if (process_ > 0) {  // this program ends before Ninja has finished
       ::kill(process_, SIGTERM);
       ::waitpid(process_, nullptr, 0);
     }
@@ -302,7 +302,7 @@ class Ninja {
     }
     return !line.empty();
   }
-  /// The status of waitpid().
+  /// Waits for Ninja. Returns its status as from waitpid().
   int finish() {
     int status = 0;
     while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
@@ -318,10 +318,10 @@ class Ninja {
   [[noreturn]] static void become_ninja(const StudyPlaces& places, int parallel, const std::string& digests,
                                         int said) {
     const pid_t runner = ::getppid();
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);      // by which it ends its stages and waits for them
-    if (::getppid() != runner) ::_exit(1);   // it died before that was said
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);      // on SIGTERM Ninja ends its stages and waits for them
+    if (::getppid() != runner) ::_exit(1);   // the parent process died before prctl()
     ::setenv("NINJA_STATUS", "@%f/%t ", 1);  // a line "@finished/total description" per stage
-    // Through the environment goes whatever a folder may be named.
+    // Environment variables can hold every path; the graph cannot.
     ::setenv("DRESSLIFE_PROGRAMS", fs::absolute(places.programs).c_str(), 1);
     ::setenv("DRESSLIFE_DIGESTS", digests.c_str(), 1);
     ::setenv("DRESSLIFE_PARENT", std::to_string(::getpid()).c_str(), 1);
@@ -383,7 +383,7 @@ void look_at(JobState& state, const fs::path& folder) {
   state.damaged.clear();
   state.compared.clear();
   state.results.clear();
-  if (kind_of(folder) == FileKind::absent) {  // of thousands that are new
+  if (kind_of(folder) == FileKind::absent) {  // quick return for thousands of new jobs
     state.failure.clear();
     state.changed.clear();
     state.has_results = state.has_last = false;
@@ -398,7 +398,7 @@ void look_at(JobState& state, const fs::path& folder) {
   });
   follow_receipts(state, folder);
   find_last(state, folder);
-  // What is to run reads the output before it, which may have been removed.
+  // The next stage reads the output of the previous stage, which may have been removed. Then that stage runs again.
   while (!state.done() && state.next > 0 && !state_of(folder / stages[state.next - 1].output).exists())
     --state.next;
 }
@@ -424,7 +424,7 @@ std::uintmax_t remove_unkept(const JobState& state, const fs::path& folder) {
     const fs::path output = folder / stages[k].output;
     const FileState file = state_of(output);
     if (!may_lack(state.keep, k) || !file.exists()) continue;
-    // Under other jobs' names it stays.
+    // A file that other jobs also have a link to does not free space.
     const bool is_last_name = fs::hard_link_count(output) == 1;
     if (remove_ours(output) && is_last_name) freed += static_cast<std::uintmax_t>(file.size);
   }
@@ -462,14 +462,14 @@ void renew_receipts(const Study& study, const StudyPlaces& places, const std::ve
 
 void write_build_graph(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states,
                        const StageLimits& limits, const std::string& launcher) {
-  // What is written after the stages is checked before they run.
+  // Check now that the files that are written after the stages can be replaced.
   for (const char* result : {"ranking.csv", "report.html"}) check_replaceable(places.folder / result);
   const fs::path notes = places.folder / places.notes();
   make_notes(places.folder / ".stage");
   fs::create_directories(notes);
   check_notes(places.folder / ".stage");
   check_notes(notes);
-  for (const char* memory : {".ninja_log", ".ninja_deps"})  // of times, which decide nothing here
+  for (const char* memory : {".ninja_log", ".ninja_deps"})  // they record times, which this graph does not use
     remove_ours(notes / memory);
   renew_receipts(study, places, states);
   std::string graph = rules(places, limits, launcher);
@@ -538,7 +538,8 @@ void close_run(const Study& study, const StudyPlaces& places, const BuildResult&
     join_logs(folder);
   }
   for (const std::size_t k :
-       unfinished) {  // after all states are known: removing a hard link changes the file times of the others
+       // in a second loop, after all states are known, because removing a hard link changes the times of the other links
+       unfinished) {
     const fs::path folder = places.job(study.jobs[k].name);
     remove_unkept(states[k], folder);
     if (states[k].done()) continue;

@@ -62,20 +62,20 @@ class Comparison {
   }
 };
 
-/// Keys of the last result's settings that have other values now. Nothing where its file is not kept.
+/// Returns the keys whose values differ between the last result and the present settings. Empty if life.h5 is not kept.
 std::vector<std::string> changed_settings(const StudyJob& job, const StudyPlaces& places) {
   const fs::path life = places.life(job.name);
   if (!state_of(life).exists()) return {};
   const std::string was =
       FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("job");
   const fs::path settings =
-      places.job(job.name) / "job.yaml";  // of a study that was not expanded, as it is now
+      places.job(job.name) / "job.yaml";  // the present settings of a study that was not expanded
   const std::string now = job.job ? stored_job_text(*job.job, places.job(job.name)) : read_text(settings);
   return changed_keys(parse_yaml(was, life.string()), parse_yaml(now, settings.string()));
 }
 
-/// Programs and files that are not those of which the last result was made. A stage that ran again since has
-/// a receipt of another result.
+/// Returns the programs and files that changed after the last result was made. Ignores a stage that ran again since, because
+/// its receipt belongs to another result.
 std::vector<std::string> changed_files(const StudyJob& job, const StudyPlaces& places, Digests& digests) {
   const fs::path folder = places.job(job.name);
   std::vector<std::string> changed;
@@ -91,7 +91,7 @@ std::vector<std::string> changed_files(const StudyJob& job, const StudyPlaces& p
       const char* how = program ? "is another program" : now == "absent" ? "is gone" : "has changed";
       changed.push_back(fmt::format("{} {}", program ? what : file.string(), how));
     }
-    // The files beside a job are of its first stage.
+    // The files beside a job belong to its first stage.
     for (const fs::path& file : stage == 0 && job.job ? files_beside(*job.job) : std::vector<fs::path>{})
       if (const std::string seen = as_seen_from(folder, file).string();
           std::ranges::none_of(receipt->made_with, [&](const auto& noted) { return noted.first == seen; }))
@@ -103,13 +103,13 @@ std::vector<std::string> changed_files(const StudyJob& job, const StudyPlaces& p
   return changed;
 }
 
-/// A key of names or sources, which changes no life.
+/// Returns whether the changed key is a name or a source, which have no influence on a life.
 bool is_prose(const std::string& change) {
   const std::string key = change.substr(0, change.find(' '));
   return key.ends_with("source") || key.ends_with(".name");
 }
 
-/// changed: at least one.
+/// Returns the changes as text. Precondition: `changed` is not empty.
 std::string words_of(std::vector<std::string> changed) {
   constexpr std::size_t named = 3;
   std::stable_partition(changed.begin(), changed.end(),
@@ -151,7 +151,7 @@ std::vector<std::string> changed_keys(const Node& was, const Node& now) {
 }
 
 void report_changes(const Study& study, const StudyPlaces& places, std::vector<JobState>& states) {
-  constexpr std::size_t most = 50;  // 10 ms each where programs are long
+  constexpr std::size_t most = 50;  // limits the time: 10 ms per job if programs are long
   std::size_t named = 0;
   Digests digests;
   for (std::size_t k = 0; k < states.size() && named < most; ++k) {
@@ -161,7 +161,7 @@ void report_changes(const Study& study, const StudyPlaces& places, std::vector<J
     try {
       std::vector<std::string> changed = changed_settings(job, places);
       for (std::string& file : changed_files(job, places, digests)) changed.push_back(std::move(file));
-      if (changed.empty())  // neither a key of the old settings nor a file
+      if (changed.empty())  // neither a key of the old settings nor a file changed
         changed.push_back(state_of(places.life(job.name)).exists()
                               ? "its last run did not end"
                               : "its settings have changed (keep: lives keeps no old ones)");

@@ -1,4 +1,4 @@
-// Why a result is stale: the keys, files or programs that changed since it was made.
+// The reasons why a result is stale: the keys, files or programs that changed after it was made.
 #pragma once
 
 #include <filesystem>
@@ -15,17 +15,17 @@ namespace dresslife::pipeline {
 
 struct Node;
 
-/// A file that a search needs changed while it ran: lives before and after it are not comparable.
+/// A file that a search needs changed while the search ran: lives before and after the change are not comparable.
 class FilesChanged : public MachineFault {
  public:
   using MachineFault::MachineFault;
 };
 
-/// The robot programs, meshes and recorded poses of a search's jobs, as they were at its start.
+/// The robot programs, meshes and recorded poses of a search's jobs, as they were at the start of the search.
 class FilesAtStart {
  public:
   explicit FilesAtStart(std::vector<std::shared_ptr<const Job>> jobs);
-  /// Errors: FilesChanged, which names the file; DiskError.
+  /// Compares the files with their state at the start. Errors: FilesChanged with the name of a changed file; DiskError.
   void check() const;
 
  private:
@@ -33,9 +33,9 @@ class FilesAtStart {
   std::map<std::filesystem::path, std::pair<FileState, std::string>> files_;  ///< state, digest
 };
 
-/// The keys whose values differ between two documents, in the order of the first:
-/// "routing.free_length_m 2.035 -> 2.1". Lists of one length are compared item by item
-/// ("motion.steps[3].dwell_s 0 -> 2"), others by their lengths.
+/// Returns the keys whose values differ between two documents, in the order of the first document:
+/// "routing.free_length_m 2.035 -> 2.1". Lists of equal length are compared item by item
+/// ("motion.steps[3].dwell_s 0 -> 2"), other lists by their lengths.
 std::vector<std::string> changed_keys(const Node& was, const Node& now);
 
 /// Sets `changed` of the first 50 stale jobs: compares the settings in life.h5 with the present ones key by key, and

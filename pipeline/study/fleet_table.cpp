@@ -13,14 +13,14 @@ namespace {
 
 constexpr const char* name_column = "name";
 
-/// Where `program` stands for it.
+/// Returns the key path of a column: for `program` "motion" or "motion.program", by the ending of the value.
 std::string path_of(const std::string& title, const std::string& value) {
   if (title != "program") return title;
   const std::string ending = std::filesystem::path(value).extension();
   return ending.empty() || ending == ".yaml" ? "motion" : "motion.program";
 }
 
-/// A cell as what it would be in a job.
+/// Returns the value of a cell, parsed as in a job.
 Node value_of(const CsvCell& cell, const Where& where) {
   Node value;
   try {

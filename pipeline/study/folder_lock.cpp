@@ -25,7 +25,7 @@ constexpr const char* lock_name = ".lock";
 
 constexpr std::size_t note_bytes = 21;  // a process number, blanks and a line feed
 
-/// The process that took the lock last; 0: not known. Errors: InputError when it is a file of another kind.
+/// Returns the process that took the lock last; 0: not known. Errors: InputError when the lock is not a plain file.
 long owner_of(int descriptor, const fs::path& file) {
   char text[note_bytes + 2] = "";
   const bool is_plain = state_of(descriptor, file).exists();
@@ -73,12 +73,11 @@ void take(int descriptor, const fs::path& folder, int how) {
 FolderLock::FolderLock(const fs::path& folder, Mode held) {
   fs::create_directories(folder);
   descriptor_ = ::open((folder / lock_name).c_str(), O_CREAT | O_RDWR | O_NOFOLLOW | O_NONBLOCK,
-                       0644);  // passes to the stages
+                       0644);  // the stages inherit the descriptor
   if (descriptor_ < 0) refuse(folder);
   owner_of(descriptor_, folder / lock_name);
   take(descriptor_, folder, held == Mode::alone ? LOCK_EX : LOCK_SH);
-  // As long for every process: over an earlier one's there is room on a full disk, too, which `clean` would
-  // empty.
+  // Every note has the same length, so that it overwrites an earlier note also on a full disk, where `clean` must run.
   const std::string own = fmt::format("{:<20}\n", held == Mode::alone ? std::to_string(::getpid()) : "");
   if (::pwrite(descriptor_, own.data(), own.size(), 0) != static_cast<ssize_t>(own.size())) refuse(folder);
   remove_leftovers(folder);

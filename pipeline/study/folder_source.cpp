@@ -18,7 +18,7 @@ fs::path note_of(const fs::path& folder) { return folder / ".stage" / "source"; 
 
 void check_source(const fs::path& folder, const fs::path& file) {
   if (replaces_files_of_others() || !state_of(note_of(folder)).exists()) return;
-  std::error_code failure;  // what cannot be followed is no other file that is known to exist
+  std::error_code failure;  // a path that cannot be resolved is not an existing other file
   const fs::path other = fs::weakly_canonical(folder, failure) / read_text(note_of(folder));
   if (kind_of(other) != FileKind::file || inode_of(other) == inode_of(file)) return;
   throw InputError({folder.string()},
@@ -30,7 +30,7 @@ void check_source(const fs::path& folder, const fs::path& file) {
 void claim_folder(const fs::path& folder, const fs::path& file) {
   check_source(folder, file);
   make_notes(folder / ".stage");
-  // Relative: a copy of the folder together with its file stays theirs.
+  // A relative path stays valid in a copy of the folder together with its file.
   write_text_if_changed(note_of(folder), fs::proximate(fs::canonical(file), fs::canonical(folder)).string(), Sync::never);
 }
 

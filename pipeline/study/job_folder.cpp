@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a run writes into a job's folder. All else in it is the user's.
+/// Files that a run writes into a job's folder. All other files in it are the user's.
 constexpr std::array<const char*, 7> own_files{"job.yaml", "motion.h5", "strain.h5",   "life.h5",
                                                "log",      "page.html", "preview.html"};
 

@@ -1,4 +1,4 @@
-// The folder of a job's results, and how it is removed.
+// The folder of a job's results, and its removal.
 #pragma once
 
 #include <cstdint>
@@ -6,11 +6,11 @@
 
 namespace dresslife::pipeline {
 
-/// Whether a run made this folder for a job.
+/// Returns whether a run made this folder for a job.
 bool is_job_folder(const std::filesystem::path& folder);
 
-/// Removes files of runs, and the folder if it is then empty. Returns the freed bytes.
-/// Errors: InputError when a file cannot be removed.
+/// Removes the files that runs wrote, and the folder if it is then empty. Returns the number of freed bytes. Errors: InputError
+/// when a file cannot be removed.
 std::uintmax_t remove_job(const std::filesystem::path& folder);
 
 }  // namespace dresslife::pipeline

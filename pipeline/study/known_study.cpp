@@ -29,15 +29,15 @@ fs::path settings_of(const StudyPlaces& places, const std::string& job) {
   return places.job(job) / "job.yaml";
 }
 
-/// Digest of all inputs of the expansion that are in no file.
+/// Returns a digest of all inputs of the expansion that are in no file.
 std::string digest_of(const StudyRequest& request) {
   Xxh3 digest;
   const auto add =
-      [&](const std::string& text) {  // lengths before texts: no two lists run into the same bytes
+      [&](const std::string& text) {  // the length stands before each text, so that different lists never give the same bytes
         const std::string whole = fmt::format("{}:{}", text.size(), text);
         digest.add(whole.data(), whole.size());
       };
-  add(xxh3_of_file(program_file()));  // which expands it
+  add(xxh3_of_file(program_file()));  // this program does the expansion
   add(fs::absolute(request.file).string());
   add(fs::absolute(request.programs).string());
   add(fs::current_path().string());
@@ -51,7 +51,7 @@ std::string noted(const std::string& found) { return found == "yes" || found == 
 
 constexpr std::string_view first_line = "dresslife study 3";
 
-/// Whether the search that a line notes gives the same result now.
+/// Returns whether the search noted in a line still has the same result.
 bool finds_the_same(Words& line) {
   const auto kind = static_cast<Sources::Kind>(line.number<int>(' '));
   const std::string_view found = line.until(' ');
@@ -107,10 +107,10 @@ std::optional<StudyState> recalled(const StudyRequest& request, const StudyPlace
   return standing;
 }
 
-/// The file of a search or digest, or the varied key, at the end of a line.
+/// Returns whether a path contains no line feed, so that it can end a line of the note.
 bool fits_a_line(const std::string& path) { return path.find('\n') == std::string::npos; }
 
-/// Nothing of a study that would not be read back as it is.
+/// Returns the note of a study; std::nullopt if the note could not be read back exactly.
 std::optional<std::string> text_of(const StudyRequest& request, const StudyState& standing) {
   std::string text = digest_of(request) + '\n';
   for (const auto& [look, found] : standing.looks) {
@@ -129,7 +129,7 @@ std::optional<std::string> text_of(const StudyRequest& request, const StudyState
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
     const JobState& state = standing.states[k];
-    // Of what has ratings their rigs follow from the jobs themselves, which are not noted.
+    // A job with ratings needs its own settings to derive the rigs, and the note does not contain them.
     if (!job.failure.empty() || (job.job && has_ratings(*job.job))) return std::nullopt;
     const FileState settings = state_of(settings_of(standing.places, job.name));
     text += fmt::format("job {} {} {} {} {} {} {} {} {}\n", job.name, state.settings, state.recipes[0],
@@ -188,7 +188,7 @@ void remember(const StudyRequest& request, const StudyState& standing) {
     remove_ours(memory);
     return;
   }
-  // Younger than every job.yaml by the file system's clock, which ticks every 1 .. 10 ms.
+  // The note must be younger than every job.yaml by the file system's clock, which ticks every 1 .. 10 ms.
   std::this_thread::sleep_for(std::chrono::milliseconds(10));
   write_text_if_changed(memory, *text, Sync::never);
   ::utimensat(AT_FDCWD, memory.c_str(), nullptr, 0);

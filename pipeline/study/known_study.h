@@ -1,9 +1,9 @@
 // The noted expansion of a study: names, recipes and settings of all jobs, and every file that was read or searched for
-// them. While all of these are unchanged, the study need not be expanded again. 10,000 jobs: 0.6 s in place of 3.5 to
+// them. While all of these are unchanged, the study need not be expanded again. 10,000 jobs: 0.6 s instead of 3.5 to
 // 5 s (two idle cores, pipeline/study/README.md).
 //
-// Texts are compared by their digests, searches by their results, not by file times. Exception: a job.yaml that the run
-// wrote is unchanged if size, inode and both times are as noted and the note is younger (pipeline/files/receipt.h).
+// Texts are compared by their digests and searches by their results, not by file times. Exception: a job.yaml that the run
+// wrote is unchanged if its size, inode and both times equal the note and the note is younger (pipeline/files/receipt.h).
 #pragma once
 
 #include <filesystem>
@@ -19,8 +19,8 @@ namespace dresslife::pipeline {
 struct StudyRequest {
   std::filesystem::path file;
   std::vector<std::string> sets;
-  std::filesystem::path out;       ///< folder of studies
-  std::filesystem::path programs;  ///< folder of the stages
+  std::filesystem::path out;       ///< folder that contains the folders of studies
+  std::filesystem::path programs;  ///< folder of the stage programs
 };
 
 /// A study and the states of its jobs.
@@ -28,27 +28,29 @@ struct StudyState {
   Study study;
   StudyPlaces places;
   std::vector<JobState> states;
-  bool remembered = false;  ///< not expanded: its jobs are names
-  // Of an expanded one:
+  bool remembered = false;  ///< from the note, not expanded: its jobs have names but no settings
+  // Only of an expanded study:
   Sources::Looks looks{};
-  Digests digests{};  ///< of programs, and of files beside the jobs
+  Digests digests{};  ///< digests of the programs and of the files beside the jobs
 
   bool all_done() const;
 };
 
-/// From the note if it is valid, else expanded. Errors: as read_study() and states_of().
+/// Returns the study and its states from the note if the note is valid; otherwise expands the study. Errors: those of
+/// read_study() and states_of().
 StudyState standing_of(const StudyRequest& request);
-/// Always expanded.
+/// Returns the study and its states. Always expands the study.
 StudyState expanded(const StudyRequest& request);
 
-/// Gives the jobs of a remembered study their settings, from the job.yaml of each: one for all jobs with the same recipes.
-/// Precondition: jobs with a result each. Errors: InputError.
+/// Reads the settings of a remembered study's jobs from job.yaml; jobs with the same recipes share one object.
+/// Precondition: every job has a result. Errors: InputError.
 void read_jobs(StudyState& standing);
 
-/// Updates the states after another run.
+/// Updates the states after another program has run stages in the folder.
 void look_again(StudyState& standing);
 
-/// Notes an expanded study in its folder, after write_build_graph(). A study with an invalid job is not noted.
+/// Writes the note of an expanded study into its folder. A study with an invalid job gets no note. Precondition:
+/// write_build_graph() was called.
 void remember(const StudyRequest& request, const StudyState& standing);
 
 }  // namespace dresslife::pipeline

@@ -14,13 +14,13 @@ bool is_buckling(const UnvalidatedMode& mode) {
   return mode.mode == UnvalidatedMode::corkscrew || mode.mode == UnvalidatedMode::kink;
 }
 
-/// A life by a mode; of a corkscrew and a kink, which occur or not, "none".
+/// Returns the life by a mode as text; "none" for a corkscrew or kink that does not occur.
 std::string mode_life(const RankingRow& row, const UnvalidatedMode& mode, double hours) {
   if (std::isnan(hours) || !is_credible(mode)) return "-";
   return std::isinf(hours) && is_buckling(mode) ? "none" : shown_life(row, hours);
 }
 
-/// "abrasion† on link_4"
+/// Returns "abrasion† on link_4".
 std::string mode_name(const UnvalidatedMode& mode) {
   const std::string name = mode.mode + "†" + (mode.dresspack.empty() ? "" : " (" + mode.dresspack + ")");
   if (mode.mode == UnvalidatedMode::wall) return name;

@@ -1,5 +1,5 @@
-// The ways in which a dresspack fails, a line each: the wires, whose law is validated, and the modes whose law no test confirms. For the
-// terminal and the pages.
+// Table of the failure modes of a dresspack, one mode per line, for the terminal and the pages: the wires, whose law is
+// validated, and the modes whose law no test confirms.
 #pragma once
 
 #include <array>
@@ -12,25 +12,27 @@ namespace dresslife::pipeline {
 
 /// One mode in words.
 struct ModeLine {
-  std::string mode;                  ///< "wires of signal cable 7", "abrasion* on link_4"; *: the headline leaves it out
-  std::array<std::string, 3> hours;  ///< by then 10, 50, 90 % of such dresspacks have failed by it; beyond the robot's life "over 40,000"
-  std::string before_wires;          ///< "57 %": of the samples in which it comes before the wires; of the wires empty
-  std::string with_it;               ///< 'replace after' if this mode counted, too
-  std::string from_tool;             ///< "0.40": its place [m]; empty: not known
-  std::string time;                  ///< "23.1": when it is loaded most [s]; empty: not known
-  std::string step;                  ///< the program line that runs then; empty: none
+  std::string mode;                  ///< "wires of signal cable 7", "abrasion* on link_4"; *: not included in the headline
+  /// hours by which 10, 50, 90 % have failed by this mode; "over 40,000" beyond the robot's life
+  std::array<std::string, 3> hours;
+  /// "57 %": share of the samples in which the mode comes before the wires; empty for the wires
+  std::string before_wires;
+  std::string with_it;               ///< 'replace after' if this mode were included
+  std::string from_tool;             ///< "0.40": place of the mode, from the tool clamp [m]; empty: not known
+  std::string time;                  ///< "23.1": time of its largest load [s]; empty: not known
+  std::string step;                  ///< program line that runs at `time`; empty: none
   std::string note;                  ///< further sentences; empty: none
-  bool early = false;                ///< 1 of 10 fails by it within the robot's life
+  bool early = false;                ///< whether 1 of 10 fails by this mode within the robot's life
 };
 
-/// The wires first. Empty: the row has no percentiles and no other mode.
+/// Returns one line per mode, the wires first. Empty: the row has no percentiles and no other mode.
 std::vector<ModeLine> mode_lines(const RankingRow& row);
 
-/// The same as a table with its legend, and the notes of early modes below it. Lines of at most width columns, each begun with indent.
-/// Empty: no lines.
-/// What "none" and "-" mean, where a line has them; begins with a space.
+/// Returns the meaning of "none" and "-" if a line has such a cell; begins with a space.
 std::string cell_legend(const std::vector<ModeLine>& lines);
 
+/// Returns the lines as a table with a legend, and below it the notes of early modes. Each line begins with `indent` and has at
+/// most `width` columns. Empty: no modes.
 std::string mode_table(const RankingRow& row, std::size_t width, const std::string& indent);
 
 }  // namespace dresslife::pipeline

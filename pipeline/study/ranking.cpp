@@ -31,7 +31,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Root attributes of a life file: from its receipt, else from the file.
+/// Root attributes of a life file: from its receipt, or from the file if the receipt has none.
 class LifeRoot {
  public:
   explicit LifeRoot(const JobResult& result) : result_(result) {
@@ -69,7 +69,7 @@ void read_scatter(const LifeRoot& file, RankingRow& row) {
   const auto read = [&](const std::string& name, double& value) {
     if (file.has_attribute(name)) value = file.number_attribute(name);
   };
-  const bool plans = file.has_attribute("first_wire_life_hours_p10");  // else life_hours_p10 is the first wire's
+  const bool plans = file.has_attribute("first_wire_life_hours_p10");  // in older files life_hours_p10 belongs to the first wire
   for (std::size_t i = 0; i < ends.size(); ++i) {
     read(fmt::format("life_hours_{}", ends[i]), plans ? row.planned_hours[i] : row.first_wire_hours[i]);
     if (plans) read(fmt::format("first_wire_life_hours_{}", ends[i]), row.first_wire_hours[i]);
@@ -112,7 +112,7 @@ int count_attribute(const LifeRoot& file, const std::string& name) {
   return static_cast<int>(value);
 }
 
-/// Files of before unvalidated_modes tell of the hose's wall alone.
+/// Reads the unvalidated modes. Files without `unvalidated_modes` contain only the hose's wall.
 void read_unvalidated(const LifeRoot& file, RankingRow& row) {
   if (file.has_attribute("unvalidated_modes")) {
     try {
@@ -185,7 +185,7 @@ RankingRow read_row(const JobResult& result) {
   return row;
 }
 
-/// (sample) log10 hours of a row; empty: not known. A response that cannot be read makes a failed row.
+/// Returns log10 hours of a row, (sample); empty: not known. A response that cannot be read makes a failed row.
 std::vector<double> lives_of(RankingRow& row, std::size_t samples) {
   if (!row.done() || row.life_response.empty()) return {};
   try {
@@ -200,7 +200,7 @@ std::vector<double> lives_of(RankingRow& row, std::size_t samples) {
   }
 }
 
-/// (job) how many others it outlives in the mean over the samples; of equal lives each outlives the other by half.
+/// Returns, (job), the number of other jobs it outlives, mean over the samples; equal lives count half for each.
 std::vector<double> outlived(std::span<const std::vector<double>> lives) {
   std::vector<double> count(lives.size(), 0.0);
   std::vector<std::size_t> order = indices_of(lives.size());
@@ -217,8 +217,8 @@ std::vector<double> outlived(std::span<const std::vector<double>> lives) {
   return count;
 }
 
-/// Jobs whose p10 is longer than the robot's life need no replacement, and their p10 is not shown. They follow each
-/// other as in most of the samples, of which the certainty of the order is a share. lives: (row, sample).
+/// Orders the jobs whose p10 is longer than the robot's life. They need no replacement, and their p10 is not shown, so they
+/// are ordered by the number of jobs that they outlive, mean over the samples. lives: (row, sample).
 void order_beyond_robot(std::vector<RankingRow>& rows, std::vector<std::vector<double>>& lives) {
   std::size_t beyond = 0;
   while (beyond < rows.size() && !lives[beyond].empty() &&
@@ -234,9 +234,9 @@ void order_beyond_robot(std::vector<RankingRow>& rows, std::vector<std::vector<d
   std::move(sorted_lives.begin(), sorted_lives.end(), lives.begin());
 }
 
-/// Order of the jobs beyond the robot's life, ranks, and the share of samples in which each job outlives the next.
-/// Parameters that jobs share have the same samples in both. A job shares the rank of the first job before it from
-/// which it cannot be separated. More jobs have fewer samples; more than `most` jobs are not compared.
+/// Sets the order of the jobs beyond the robot's life, the ranks, and the share of samples in which each job outlives the next.
+/// Parameters that jobs share have the same samples in all of them. A job shares the rank of the first job before it from
+/// which it cannot be separated. More jobs have fewer samples each; more than `most` jobs are not compared.
 void report_orders(std::vector<RankingRow>& rows) {
   // 500 samples: a share of 90 % is known to 1.3 %. 10,000 jobs then take 1.5 s for each failure mode.
   constexpr std::size_t most = 20'000, samples_in_all = 2'000'000, fewest = 500;
@@ -285,7 +285,7 @@ std::string planned_text(const RankingRow& row, std::size_t share) {
   return row.planned() ? shown_life(row, row.planned_hours[share]) : "-";
 }
 
-/// What stands below the table of one job, a paragraph each.
+/// Returns the paragraphs below the table of one job.
 std::vector<std::string> paragraphs(const RankingRow& row) {
   std::vector<std::string> all;
   if (row.stale)
@@ -418,7 +418,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
 }
 
 std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width) {
-  constexpr std::size_t shown_at_length = 3;  // jobs of a long ranking with sentences on the terminal
+  constexpr std::size_t shown_at_length = 3;  // number of jobs of a long ranking that have sentences on the terminal
   std::array<Column, 7> columns{{{"", true, {}},
                                  {"job", false, {}},
                                  {"replace after [h]", true, {}},
@@ -442,7 +442,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
                                                       "", "", "", ""};
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(cells[i]);
   }
-  // A name for which the table has no room stands in a line of its own, above the job's numbers.
+  // A name that does not fit into the table is printed on its own line above the job's numbers.
   std::size_t numbers = 0;
   for (std::size_t i = 0; i < columns.size(); ++i) numbers += i == 1 ? 0 : columns[i].width() + 2;
   std::vector<std::string> above(selected.indices.size());

@@ -17,14 +17,14 @@ std::string cell(const std::optional<double>& value) { return value ? shortest_t
 std::string cell(int value) { return std::to_string(value); }
 std::string cell(const std::string& value) { return value; }
 
-/// Its cells are a member of the row.
+/// Returns a column whose cells are a member of the row.
 template <class Member>
 RankingColumn of(std::string name, std::string unit, std::string meaning, Member RankingRow::*member) {
   return {std::move(name), std::move(unit), std::move(meaning),
           [member](const RankingRow& row) { return cell(row.*member); }};
 }
 
-/// Its cells are computed for some rows; the others have empty ones.
+/// Returns a column whose cells are computed for some rows and empty for the others.
 template <class Applies, class Value>
 RankingColumn where(std::string name, std::string unit, std::string meaning, Applies applies, Value value) {
   return {std::move(name), std::move(unit), std::move(meaning),
@@ -33,7 +33,7 @@ RankingColumn where(std::string name, std::string unit, std::string meaning, App
 
 bool always(const RankingRow&) { return true; }
 bool evaluated(const RankingRow& row) { return row.worst_segment_from_tool > 0; }
-/// Its cells are of an unvalidated mode; of rows without it they are empty.
+/// Returns a column whose cells describe an unvalidated mode; empty in rows without this mode.
 template <class Value>
 RankingColumn of_mode(std::string name, std::string unit, std::string meaning, const char* mode, Value value) {
   return {std::move(name), std::move(unit), std::move(meaning), [=](const RankingRow& row) {
@@ -96,7 +96,7 @@ class Table {
   void add(RankingColumn column) { columns.push_back(std::move(column)); }
 
   static constexpr std::array<const char*, 3> ends{"p10", "p50", "p90"}, shares{"10 %", "50 %", "90 %"};
-  /// Of the first column the whole meaning, in which {} is 10 %.
+  /// Returns the whole meaning for the first column, with 10 % in place of {}; for the others a short one.
   static std::string meaning_of(const char* meaning, std::size_t i) {
     return i == 0 ? fmt::format(fmt::runtime(meaning), shares[i]) : fmt::format("the same for {}", shares[i]);
   }
@@ -287,7 +287,7 @@ class Table {
     }));
     for (int k = 0; k < warning_kinds_count; ++k) {
       const auto kind = static_cast<WarningKind>(k);
-      if (kind == WarningKind::force) continue;  // force_ok
+      if (kind == WarningKind::force) continue;  // the column force_ok contains it
       add(where(
           fmt::format("{}_ok", word(kind)), "yes or no",
           fmt::format("no: it has a warning of kind {}", title(kind)), known, [kind](const RankingRow& row) {

@@ -1,4 +1,4 @@
-// The columns of ranking.csv: one table for header, cells and page.
+// The columns of ranking.csv: one table that gives the header, the cells and the manual page.
 #pragma once
 
 #include <functional>
@@ -13,13 +13,13 @@ struct RankingColumn {
   std::string name, unit;  ///< unit: "h", "m", "1", "text", "yes or no"
   std::string meaning;
   std::function<std::string(const RankingRow&)>
-      cell;  ///< of a row with a result; empty: unknown or not applicable
+      cell;  ///< returns the cell of a row with a result; empty: unknown or not applicable
 };
 
-/// In the order of the file. New columns are added at the end; other programs read columns by their names.
+/// Returns the columns in the order of the file. New columns are added at the end; other programs read columns by name.
 const std::vector<RankingColumn>& ranking_columns();
 
-/// The table as Markdown.
+/// Returns the table of columns as Markdown.
 std::string ranking_manual();
 
 }  // namespace dresslife::pipeline

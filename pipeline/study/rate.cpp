@@ -40,12 +40,12 @@ class RatedStudyMaker {
   RatedStudyMaker(const fs::path& file, const std::vector<std::string>& sets)
       : file_(file), sets_{"uncertainty.enabled=false"} {
     sets_.insert(sets_.end(), sets.begin(),
-                 sets.end());  // a rating stands beside the model's own, by the scatter of wires
+                 sets.end());  // the rating is compared with the model's life by the scatter of wires only
   }
 
   RateStudy make(const fs::path& rigs) {
     made_.study.name = "rate_" + fit_for_a_folder(file_.stem().string());
-    Node job;  // only for names in the dresspack
+    Node job;  // used only to look up names in the dresspack
     job.where = {file_.string()};
     job["dresspack"] = read_yaml(file_);
     const Node& written = *job.find("dresspack");
@@ -64,7 +64,7 @@ class RatedStudyMaker {
   }
 
  private:
-  /// A fault of all jobs is one of what they have in common: settings or the dresspack.
+  /// Throws if all jobs have the same fault, which then lies in their common input: settings or the dresspack.
   void refuse_common_fault() const {
     const std::vector<StudyJob>& jobs = made_.study.jobs;
     const std::string& fault = jobs.front().failure;
@@ -124,7 +124,7 @@ const RankingRow* row_of(const std::vector<RankingRow>& rows, const std::string&
   return found == rows.end() ? nullptr : &*found;
 }
 
-/// "respected" where half of such cables reach what the maker promises.
+/// Returns "respected" if half of such cables reach the maker's rating.
 std::string verdict(double rated, double predicted) {
   if (rated == 0 || std::isnan(predicted)) return "";
   if (predicted >= rated) return "respected";

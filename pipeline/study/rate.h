@@ -1,5 +1,5 @@
-// Lives of a cable in the standard test rigs beside its ratings: a study of the catalogue's rigs and of the cable's
-// ratings, one job each, for every cable of a dresspack.
+// Lives of a cable in the standard test rigs, compared with its ratings: a study with one job for every cable of a dresspack
+// in every rig of the catalogue and of the cable's ratings.
 #pragma once
 
 #include <filesystem>
@@ -14,46 +14,45 @@ namespace dresslife::pipeline {
 
 /// One cable in one rig.
 struct RatedTest {
-  std::string job;          ///< in the study
-  std::string cable;        ///< its name
-  std::string rig;          ///< in words: "torsion, 180 deg/m to either side"
-  double rated_cycles = 0;  ///< stated by its maker; 0: none
+  std::string job;          ///< name of the job in the study
+  std::string cable;        ///< name of the cable
+  std::string rig;          ///< description: "torsion, 180 deg/m to either side"
+  double rated_cycles = 0;  ///< cycles that the maker states; 0: no rating
   std::string source;       ///< source of the rating
 };
 
 struct RateStudy {
   Study study;
-  std::vector<RatedTest> tests;  ///< one per job of the study, in its order
+  std::vector<RatedTest> tests;  ///< one test per job of the study, in the order of the jobs
 };
 
-/// Every cable of a dresspack's file in every rig of `rigs` (a folder of jobs) and in those of its ratings.
-/// Conductors and wires slide with friction if the cable has its keys, else freely. sets: `--set` for every job.
-/// Errors: InputError for a file without cables.
+/// Returns a study of every cable of a dresspack's file in every rig of `rigs` (a folder of jobs) and in the rigs of its
+/// ratings. Conductors and wires slide with friction if the cable has the keys of friction, else without friction.
+/// sets: `--set` for every job. Errors: InputError for a file without cables.
 RateStudy rate_study(const std::filesystem::path& file, const std::filesystem::path& rigs,
                      const std::vector<std::string>& sets);
 
-/// Cycles of a rig: median of the worst wire, and the cycles by which 10, 50 and 90 % of such cables have a conductor that lost
-/// its share of wires at one place.
+/// Cycles of a rig: worst_wire is the median until the worst wire breaks. `conductor` contains the cycles by which 10, 50 and
+/// 90 % of such cables have a conductor that lost its share of wires at one place.
 struct CycleLives {
   double worst_wire = 0;
-  /// conductor[1] if the inside is glued, and if it slips freely; of files without a distribution the worst wire's median.
+  /// conductor[1] if the inside is glued, and if it slips freely; of files without a distribution the median of the worst wire.
   double all_stick = 0, all_free = 0;
   std::array<double, 3> conductor{};  ///< NaN: not known
 };
 CycleLives cycles_of(const RankingRow& row);
 
-/// The tests for a terminal, in their order, and as CSV: rate.csv. rows: of the study's jobs, in any order.
+/// Return the tests for a terminal, in their order, and as the CSV file rate.csv. rows: rows of the study's jobs, in any order.
 std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& rows);
 std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows);
 
-/// strain.slip for a job of this cable alone: free, then friction if all its parts have the keys of friction, else
-/// free.
+/// Returns strain.slip for a job of this cable alone: "free", then "friction" if all its parts have its keys, else "free".
 std::string slip_of_cable(const Node& cable_alone);
 
-/// Levels of parts in a component, including itself.
+/// Returns the number of levels of parts in a component, including itself.
 int levels_of(const Node& component);
 
-/// A rig in words, with its unit-bearing keys: "torsion: length_m 1, twist_deg_per_m 180".
+/// Returns a rig as text, with its keys that have units: "torsion: length_m 1, twist_deg_per_m 180".
 std::string rig_words(const Rig& rig);
 
 }  // namespace dresslife::pipeline

@@ -20,13 +20,13 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// One word per level of the cable alone, outermost first.
+/// Returns strain.slip of the cable alone: one word per level, outermost first.
 std::string slip_alone(const Job& job, const Node& alone, bool is_part, bool was_alone) {
   std::vector<Slip> slip = job.strain.slip;
   const auto levels = static_cast<std::size_t>(levels_of(alone.find("components")->items.front()));
   if (slip.size() == 1) slip.resize(levels, slip.front());
   if (!is_part && !was_alone)
-    slip.insert(slip.begin(), Slip::free);  // its jacket has become a level of its own
+    slip.insert(slip.begin(), Slip::free);  // the cable's jacket is now a separate level
   slip.resize(levels, slip.back());
   std::vector<std::string> words;
   for (const Slip one : slip) words.emplace_back(word(one));
@@ -93,7 +93,7 @@ class CableStudyMaker {
   std::set<std::string> known_;
 };
 
-/// Whether a conductor's path lies in this cable: "signal cable 3/conductor 2" in "signal cable".
+/// Returns whether the path of a conductor lies in this cable: "signal cable 3/conductor 2" in "signal cable".
 bool lies_in(std::string_view path, const RatedCable& rated) {
   for (const std::string& part : {rated.dresspack, rated.cable}) {
     if (part.empty()) continue;
@@ -110,7 +110,7 @@ bool lies_in(std::string_view path, const RatedCable& rated) {
   return true;
 }
 
-/// Repeats until the worst of these conductors fails at one place, by medians. NaN: not known.
+/// Returns the repeats until the worst of these conductors fails at one place, from median lives. NaN: not known.
 double place_life(const std::filesystem::path& life, const RatedCable& where) {
   const FileReader file(life, life_format());
   if (!file.has("/conductor/place_life")) return RankingRow::unknown;
@@ -128,7 +128,7 @@ RankingRow* row_of(std::vector<RankingRow>& rows, const std::string& job) {
   return found == rows.end() ? nullptr : &*found;
 }
 
-/// Returns why it says nothing; empty: it stands in the row.
+/// Sets the relative life of a row. Returns the reason if this is not possible; else empty.
 std::string relate_one(const RatedCable& rated, const RankingRow& rig, RankingRow& row) {
   if (!rig.done()) return rig.failure;
   const double program = place_life(row.life_file, rated), cycles = place_life(rig.life_file, {});
@@ -155,7 +155,7 @@ bool has_ratings(const Job& job) {
 RatedStudy rated_study(const Study& study) {
   CableStudyMaker maker;
   if (study.keep == Keep::lives)
-    return maker.take();  // a relative life needs the damage of every place, in life.h5
+    return maker.take();  // a relative life needs the damage of every place, which only life.h5 contains
   for (const StudyJob& job : study.jobs)
     if (job.failure.empty() && job.job && has_ratings(*job.job)) maker.add(job);
   return maker.take();

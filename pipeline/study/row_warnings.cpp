@@ -18,7 +18,7 @@ std::string line_of(const RankingRow& row, const Warning& warning) {
   return fmt::format("{}: warning: {}\n", row.job, warning.text());
 }
 
-/// The first warning of a kind, and how many jobs have one.
+/// Returns the first warning of a kind, with the number of jobs that have such a warning.
 std::string line_of_kind(const std::vector<RankingRow>& rows, WarningKind kind) {
   std::string first;
   std::size_t jobs = 0;

@@ -8,14 +8,14 @@
 
 namespace dresslife::pipeline {
 
-/// Warnings of a row. Of an older file without warnings: the one of its forces.
+/// Returns the warnings of a row; for an older file without warnings the warning about its forces.
 std::vector<Warning> warnings_of(const RankingRow& row);
 
-/// "bend radius, program x3"; empty: none, or not known.
+/// Returns the kinds of the warnings: "bend radius, program x3"; empty: none, or not known.
 std::string warning_kinds(const RankingRow& row);
 
-/// Every warning with its job, a line each. Of more than a dozen: the first of each kind, the number of jobs, and the
-/// file with the others. Empty: none.
+/// Returns every warning with its job, one per line. For more than a dozen: the first warning of each kind, the number of jobs,
+/// and the file with the other warnings. Empty: none.
 std::string warning_lines(const std::vector<RankingRow>& rows);
 
 }  // namespace dresslife::pipeline

@@ -31,7 +31,7 @@ bool is_damaged(const RankingRow& row) { return !row.worst_component.empty() && 
 std::string cause_words(const RankingRow& row) {
   if (!(row.measure_next_share > 0)) return "";
   const UncertainParameter* const cause = parameter_of(row.measure_next);
-  // life_shares is rounded so that its numbers add up to 100 %.
+  // Prefer the number in life_shares, which is rounded so that all shares add up to 100 %.
   const std::size_t listed = ("; " + row.life_shares).find("; " + row.measure_next + " ");
   const double percent = listed == std::string::npos ? 100 * row.measure_next_share
                                                      : std::strtod(row.life_shares.c_str() + listed + row.measure_next.size() + 1, nullptr);
@@ -49,7 +49,7 @@ std::string test_words(const RankingRow& row) {
 
 std::string error_words(const RankingRow& row) {
   constexpr std::array shares{10, 50, 90};
-  constexpr double none = 1.05;  // would be printed as 1
+  constexpr double none = 1.05;  // a smaller factor would be printed as 1
   std::string words;
   for (std::size_t i = 0; i < shares.size(); ++i)
     if (std::isfinite(row.planned_errors[i]) && row.planned_errors[i] >= none)
@@ -69,17 +69,17 @@ std::string joined_words(const std::vector<std::string>& sentences) {
 
 namespace {
 
-/// "2,000 .. 90,000 h (10 .. 90 %, not validated)". Old files state the median alone.
+/// Returns "2,000 .. 90,000 h (10 .. 90 %, not validated)". Old files contain only the median.
 std::string wall_life(const UnvalidatedMode& mode) {
   if (!std::isfinite(mode.hours[0])) return hours_text(mode.hours[1]) + " (not validated)";
   return fmt::format("{} (10 .. 90 %, not validated)", range_text(mode.hours[0], mode.hours[2]));
 }
 
-/// ", abrasion: from 25,000 h": the modes after earlier_unvalidated() that also come before the headline and the robot's life, the
-/// earliest first. Empty: none do.
+/// Returns the modes after earlier_unvalidated() that also come before the headline and within the robot's life, the
+/// earliest first: ", abrasion: from 25,000 h". Empty: none.
 std::string further_unvalidated(const RankingRow& row) {
   const double end = std::min(row.headline_hours(), row.robot_life_hours);
-  std::map<std::string, double> hours;  // of several parts the earliest
+  std::map<std::string, double> hours;  // of several parts the earliest hours
   for (const UnvalidatedMode& mode : row.unvalidated)
     if (mode.early_hours() < end && is_credible(mode))
       hours[mode.mode] = hours.contains(mode.mode) ? std::min(hours[mode.mode], mode.early_hours()) : mode.early_hours();
@@ -92,7 +92,7 @@ std::string further_unvalidated(const RankingRow& row) {
   return text;
 }
 
-/// What the first unvalidated mode may do before the row's headline, and what to do. Empty: none may.
+/// Returns the possible failure by the first unvalidated mode before the row's headline, and the action. Empty: none.
 std::string first_inspection_words(const RankingRow& row) {
   const UnvalidatedMode* const mode = earlier_unvalidated(row);
   if (!mode) return "";
@@ -138,7 +138,7 @@ const UnvalidatedMode* earlier_unvalidated(const RankingRow& row) {
 
 std::string unvalidated_legend(const std::vector<RankingRow>& rows) {
   std::vector<std::string> modes;
-  std::map<std::string, int> first;  // jobs in which this mode may come first
+  std::map<std::string, int> first;  // (mode) number of jobs in which the mode may come first
   for (const RankingRow& row : rows) {
     if (!row.has_result()) continue;
     if (plan_mark(row) == "*") ++first[earlier_unvalidated(row)->mode];
@@ -163,7 +163,7 @@ std::string plan_mark(const RankingRow& row) {
 }
 
 std::string marks_note(const std::vector<RankingRow>& rows) {
-  std::map<std::string, std::vector<std::string>> jobs;  // by their mark
+  std::map<std::string, std::vector<std::string>> jobs;  // (mark) jobs with this mark
   for (const RankingRow& row : rows)
     if (const std::string mark = plan_mark(row); !mark.empty())
       jobs[mark].push_back((rows.size() > 1 ? row.job + ", " : "") + (mark == "!" ? warning_kinds(row) : earlier_words(row)));
@@ -184,7 +184,7 @@ std::string range_text(double low_hours, double high_hours) {
 }
 
 std::string shown_life(const RankingRow& row, double hours) {
-  // Where some of the samples fail, one without damage is one that lasts longer than the robot.
+  // If some samples fail, a life without damage means a life longer than the robot's.
   const bool longer = std::isfinite(row.headline_hours()) && hours > row.robot_life_hours;
   return longer || outlives_robot(row, hours) ? "over " + readable(row.robot_life_hours) : life_text(hours);
 }
@@ -211,9 +211,9 @@ std::string uncapped_words(const RankingRow& row) {
   return text + ".";
 }
 
-/// Of a life that equals one of its bounds, as strain.slip free or stick makes it. Empty: it lies between them.
+/// Returns a sentence if a life equals one of its bounds, for example with strain.slip free or stick. Empty: it lies between.
 std::string bound_words(const RankingRow& row) {
-  constexpr double bounds_apart = 1.1;  // closer ones leave nothing to choose
+  constexpr double bounds_apart = 1.1;  // closer bounds give the user no choice
   constexpr double same = 0.01;         // a job with everything free differs from the bound by at most 0.8 % (strain/measurements.md)
   const double life = row.life_repeats, glued = row.life_repeats_all_stick, free = row.life_repeats_all_free;
   if (!(glued > 0) || !(free > bounds_apart * glued) || !std::isfinite(life)) return "";
@@ -301,7 +301,7 @@ std::string different_repeats_words(const std::vector<RankingRow>& rows) {
     shortest = std::min(shortest, row.repeat_seconds);
     longest = std::max(longest, row.repeat_seconds);
   }
-  constexpr double alike = 1.02;  // below it hours and repeats give the same order, beside the uncertainty
+  constexpr double alike = 1.02;  // below this ratio hours and repeats give the same order within the uncertainty
   if (!(longest > alike * shortest)) return "";
   return fmt::format("Repeats take {} .. {} s. Compare jobs that do the same work by repeats, not by hours.", readable(shortest),
                      readable(longest));
@@ -312,7 +312,8 @@ std::string own_values_words(const RankingRow& row) {
   const std::string words = fmt::format("With the job's own values, by the scatter of wires alone, a first wire breaks after {} (10 .. 90 %).",
                                         range_text(row.first_wire_hours[0], row.first_wire_hours[2]));
   constexpr double decade = 10;
-  if (std::isinf(row.scatter_hours[1])) return words;  // a tenth of a conductor's wires is not damaged: nothing to compare with
+  // infinite: a tenth of a conductor's wires has no damage, so no life to compare with
+  if (std::isinf(row.scatter_hours[1])) return words;
   const double times = row.planned_hours[1] / row.scatter_hours[1];
   if (std::isinf(times)) return words + " Half of the samples are not damaged: most other values damage the wires less.";
   if (times > decade)

@@ -23,7 +23,7 @@ struct Bounds {
 };
 void describe(Fields& f, Bounds& bounds) { f.numbers("uniform", bounds.values, Need::required, "low, high"); }
 
-/// A tree with one key, so that errors name it.
+/// Returns a tree with one key, so that errors contain the name of the key.
 Node under(const char* key, const Node& value) {
   Node root;
   root[key] = value;
@@ -61,7 +61,7 @@ Distribution::Normal Distribution::normal_from(const std::string& path, const No
   const auto below = [&](double value) { return normal_share((value - normal.mean) / normal.deviation); };
   normal.share_below = normal.at_least ? below(*normal.at_least) : 0;
   normal.share_within = (normal.at_most ? below(*normal.at_most) : 1) - normal.share_below;
-  constexpr double least_share = 1e-6;  // below it quantiles would be made of the rounding of shares
+  constexpr double least_share = 1e-6;  // below this share the rounding of shares would dominate the quantiles
   if (!(normal.share_within >= least_share))
     throw InputError(written.where,
                      fmt::format("between at_least and at_most of {} lies none of its !normal", path),
@@ -115,7 +115,7 @@ std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, cons
   if (method == SamplingMethod::random) return drawn;
   for (std::size_t k = 0; k < count; ++k)
     drawn[k] = (static_cast<double>(k) + drawn[k]) / static_cast<double>(count);
-  for (std::size_t k = count; k > 1; --k)  // after Fisher and Yates
+  for (std::size_t k = count; k > 1; --k)  // shuffle of Fisher and Yates
     std::swap(drawn[k - 1], drawn[static_cast<std::size_t>(numbers.uniform() * static_cast<double>(k))]);
   return drawn;
 }

@@ -40,7 +40,7 @@ int shards_needed(const StudyState& standing, int most_stages) {
 
 void keep_shard(StudyState& standing, const Shard& shard) {
   const std::size_t jobs = standing.states.size();
-  std::unordered_map<std::string, std::size_t> firsts;  // of each simulation
+  std::unordered_map<std::string, std::size_t> firsts;  // (simulation) index of its first job
   std::vector<std::size_t> group(jobs);
   for (std::size_t k = 0; k < jobs; ++k)
     group[k] = firsts.emplace(standing.states[k].recipes[0], k).first->second;

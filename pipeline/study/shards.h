@@ -1,4 +1,4 @@
-// Shards of a study for parallel runs, if one run cannot start all stages, as in an allocation of Slurm.
+// Shards of a study: parts for parallel runs, for the case that one run cannot start all stages (an allocation of Slurm).
 #pragma once
 
 #include <string>
@@ -7,22 +7,22 @@
 
 namespace dresslife::pipeline {
 
-/// The shard `index` of `count`, 1 first.
+/// Shard `index` of `count`; the first index is 1.
 struct Shard {
   int index = 1, count = 1;
-  /// As a name of its files: "2_of_8".
+  /// Returns the name for its files: "2_of_8".
   std::string name() const;
 };
 
-/// "2/8". Errors: InputError when it is none; where: origin of the text, for the message.
+/// Reads a shard from text such as "2/8". where: origin of the text, for the message. Errors: InputError for other text.
 Shard shard_from(const std::string& text, const std::string& where);
 
-/// Number of shards so that every run starts at most `most_stages`, counting all jobs. 1 if the stages that are not
-/// up to date fit into one run.
+/// Returns the number of shards with which every run starts at most `most_stages` stages, counting all jobs. 1 if the stages
+/// that are not up to date fit into one run.
 int shards_needed(const StudyState& standing, int most_stages);
 
-/// Removes the jobs of other shards. Every job is in one shard, independent of finished jobs; jobs with the same
-/// simulation are in neighbouring places.
+/// Removes the jobs of other shards. Every job belongs to one shard, independent of finished jobs; jobs with the same
+/// simulation belong to the same or neighbouring shards.
 void keep_shard(StudyState& standing, const Shard& shard);
 
 }  // namespace dresslife::pipeline

@@ -14,15 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a job's stages up to one are made from.
+/// Returns the recipes of a job's stages up to `stage`, as one text.
 std::string recipes_up_to(const JobState& state, std::size_t stage) {
   std::string all;
   for (std::size_t k = 0; k <= stage; ++k) all += state.recipes[k] + ' ';
   return all;
 }
 
-/// Whether the job has what its stages up to this one made: the last of it as a file, and before it what is
-/// kept.
+/// Returns whether a job has the results of its stages up to `stage`: the last output as a file, and the earlier outputs if
+/// the study keeps them.
 bool has_up_to(const JobState& state, const fs::path& folder, std::size_t stage) {
   if (state.next <= stage) return false;
   for (std::size_t k = 0; k <= stage; ++k)
@@ -31,14 +31,14 @@ bool has_up_to(const JobState& state, const fs::path& folder, std::size_t stage)
   return true;
 }
 
-/// Stages that a study takes from another one. The last one takes seconds, and is made again.
+/// Number of stages that a study takes from another study. The last stage is computed again, because it takes only seconds.
 constexpr std::size_t taken_count = stage_count - 1;
 
-/// The folder of a study's rigs, in the study's own (commands/making).
+/// Name of the folder of a study's rigs, inside the study's folder (commands/making).
 constexpr const char* rigs = ".rigs";
 
-/// Job folders with a simulation, of this study and of those beside it. What cannot be read is left out: it is no
-/// fault of this study.
+/// Returns the job folders with a simulation, of this study and of the studies beside it. Folders that cannot be read are left
+/// out, because they are no fault of this study.
 std::vector<fs::path> job_folders_beside(const fs::path& study_folder) {
   std::vector<fs::path> folders;
   const bool of_rigs = study_folder.filename() == rigs;
@@ -56,7 +56,7 @@ std::vector<fs::path> job_folders_beside(const fs::path& study_folder) {
   return folders;
 }
 
-/// Recipes up to each stage that a job of another study has receipts of, as recipes_up_to() has them.
+/// (stage) recipes up to a stage, from the receipts of a job of another study, in the format of recipes_up_to().
 std::vector<std::string> noted_recipes(const fs::path& folder) {
   std::vector<std::string> keys;
   std::string recipes, input = "-";
@@ -72,8 +72,8 @@ std::vector<std::string> noted_recipes(const fs::path& folder) {
   return keys;
 }
 
-/// Gives a job the outputs up to a stage from the folder of another study, in which another run may be at work. So
-/// nothing is written there, and the bytes are compared when they have a name here. False: they were others.
+/// Links the outputs up to a stage from the folder of another study into a job's folder. Another run may use that study, so
+/// nothing is written there, and the bytes are compared after linking. Returns false if they differ from the receipt.
 bool take_up_to(const fs::path& from, const fs::path& to, const JobState& state, std::size_t last) {
   const auto needed = [&](std::size_t stage) { return stage == last || !may_lack(state.keep, stage); };
   for (std::size_t stage = state.next; stage <= last; ++stage)
@@ -88,7 +88,7 @@ bool take_up_to(const fs::path& from, const fs::path& to, const JobState& state,
     remove_ours(to / files.receipt);
     if (needed(stage)) {
       give_second_name(from / files.output, to / files.output);
-      if (checksum_of(to / files.output) != receipt->output) {  // another run or its owner was faster
+      if (checksum_of(to / files.output) != receipt->output) {  // another run or the user has replaced the file
         remove_ours(to / files.output);
         return false;
       }
@@ -100,13 +100,14 @@ bool take_up_to(const fs::path& from, const fs::path& to, const JobState& state,
   return true;
 }
 
-/// Whether a job may take stages from another study.
+/// Returns whether a job may take stages from another study.
 bool may_take(const StudyJob& job, const JobState& state) {
   return job.failure.empty() && state.next < taken_count && !state.recipes[0].empty() && !state.foreign;
 }
 
 void share_with_other_studies(const Study& study, const StudyPlaces& places, std::vector<JobState>& states) {
-  std::unordered_map<std::string, std::vector<fs::path>> havers;  // by the recipes that this study looks for
+  // job folders that have an output, by the recipes that this study needs
+  std::unordered_map<std::string, std::vector<fs::path>> havers;
   for (std::size_t k = 0; k < states.size(); ++k)
     for (std::size_t stage = states[k].next; may_take(study.jobs[k], states[k]) && stage < taken_count; ++stage)
       havers[recipes_up_to(states[k], stage)];
@@ -126,7 +127,7 @@ void share_with_other_studies(const Study& study, const StudyPlaces& places, std
   }
 }
 
-/// Who gets the outputs of a job, up to and with which stage.
+/// A job that gets the outputs of another job, and the last stage of these outputs.
 struct Receiver {
   std::size_t to, last;
 };
@@ -136,13 +137,13 @@ void give_stage(const fs::path& from, const std::vector<fs::path>& folders, std:
   const bool is_there = state_of(from / files.output).exists();
   for (const fs::path& to : folders) {
     make_notes(to / ".stage");
-    remove_ours(to / files.receipt);  // it is of a file that is about to go
+    remove_ours(to / files.receipt);  // the receipt describes a file that is replaced below
     if (is_there) give_second_name(from / files.output, to / files.output);
     copy_if_there(from / files.log, to / files.log);
     if (stage + 1 == stage_count) copy_if_there(from / "log", to / "log");
   }
   if (is_there)
-    renew_receipt(from / files.receipt, from / files.output);  // another name changed one of its times
+    renew_receipt(from / files.receipt, from / files.output);  // the new hard link changed one of the file's times
   const std::optional<Receipt> receipt = read_receipt(from / files.receipt);
   for (const fs::path& to : folders)
     if (receipt) write_receipt(to / files.receipt, *receipt, to / files.output);
@@ -159,7 +160,7 @@ void share_stages(const Study& study, const StudyPlaces& places, std::vector<Job
     for (std::size_t stage = 0; study.jobs[k].failure.empty() && stage < stage_count; ++stage)
       if (has_up_to(states[k], places.job(study.jobs[k].name), stage))
         havers.emplace(recipes_up_to(states[k], stage), k);
-  std::map<std::size_t, std::vector<Receiver>> gifts;  // by giving job
+  std::map<std::size_t, std::vector<Receiver>> gifts;  // (giving job) receivers
   for (std::size_t k = 0; k < states.size(); ++k) {
     if (!study.jobs[k].failure.empty()) continue;
     for (std::size_t stage = stage_count; stage-- > states[k].next;)

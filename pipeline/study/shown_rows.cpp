@@ -11,10 +11,10 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t short_ranking = 40;  // of two to four lines each: still read
+constexpr std::size_t short_ranking = 40;  // jobs of two to four lines each: a reader still reads them all
 constexpr std::size_t best = 3, worst = 10, failed = 10, warned = 10;
 
-/// How many of the rows [begin, end) `counts`; the first `most` of them are added to `shown`.
+/// Returns the number of rows in [begin, end) for which `counts` is true; appends the first `most` of them to `shown`.
 template <class Counts>
 std::size_t take(const std::vector<RankingRow>& rows, std::size_t begin, std::size_t end, std::size_t most,
                  std::set<std::size_t>& shown, const Counts& counts) {

@@ -1,4 +1,4 @@
-// The rows of a long ranking that the terminal shows. ranking.csv and the report contain all.
+// The rows of a long ranking that the terminal shows. ranking.csv and the report contain all rows.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 namespace dresslife::pipeline {
 
 struct ShownRows {
-  std::vector<std::size_t> indices;  ///< rising; all of a short ranking
-  std::string summary;               ///< one line on the rest, with a line feed; empty: nothing is left out
+  std::vector<std::size_t> indices;  ///< rising; of a short ranking all rows
+  std::string summary;               ///< one line about the other rows, with a line feed; empty: all rows are shown
 };
 
-/// Of a long ranking: the best, the worst, the first failed jobs and the first with warnings. rows: best first, failed
-/// last.
+/// Selects from a long ranking the best jobs, the worst jobs, the first failed jobs and the first jobs with warnings. rows: best
+/// first, failed last.
 ShownRows shown_rows(const std::vector<RankingRow>& rows);
 
 }  // namespace dresslife::pipeline

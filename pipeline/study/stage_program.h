@@ -12,14 +12,13 @@ namespace dresslife::pipeline {
 
 enum class StageWords { shown, dropped };
 
-/// Runs the program of this name in the folder of this one, with the same streams. It ends with this program.
-/// dropped: its standard error goes nowhere. Returns its exit status. Errors: InputError when it cannot be started or
-/// is killed.
+/// Runs the program of this name from the folder of this program, with the same streams. It ends when this program ends.
+/// dropped: its standard error is discarded. Returns its exit status. Errors: InputError when it cannot be started or is killed.
 int run_stage_program(const std::string& program, const std::vector<std::string>& arguments,
                       StageWords said = StageWords::shown);
 
-/// A temporary file in its own folder (below TMPDIR, or /tmp) for the results of a program, removed with this object.
-/// Errors: InputError when it cannot be made.
+/// A temporary file in its own folder (in TMPDIR, or /tmp) for the results of a program, removed with this object.
+/// Errors: InputError when the file cannot be created.
 class PassingFile {
  public:
   explicit PassingFile(const std::string& name);

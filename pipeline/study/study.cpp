@@ -23,13 +23,13 @@ bool fits_a_folder(char c) {
 std::string folder_name(std::string text) {
   for (char& c : text)
     if (!fits_a_folder(c)) c = '_';
-  // Neither hidden nor a way out of the results, no option of a program and no formula of a spreadsheet.
+  // Prevents hidden files, paths out of the results folder, options of programs and formulas of spreadsheets.
   if (!text.empty() && std::string_view(".-+=").find(text[0]) != std::string_view::npos) text[0] = '_';
   return text;
 }
 
-/// "easy" for `motion: easy`, "segments=80" for a number, "routing=2" for the second of values that are no
-/// words.
+/// Returns the name of a value: "easy" for `motion: easy`, "segments=80" for a number, "routing=2" for the second of values
+/// that are not words.
 std::string value_name(const std::string& path, const Node& value, std::size_t index) {
   const std::string word = path.substr(path.rfind('.') == std::string::npos ? 0 : path.rfind('.') + 1);
   if (!value.is_scalar()) return fmt::format("{}={}", word, index + 1);
@@ -60,8 +60,7 @@ std::vector<Variant> named_changes(const Node* jobs) {
   return variants;
 }
 
-/// Every variant of the one with every one of the other, the latter fastest. where: of the section that is at
-/// fault.
+/// Combines every variant with every one of `others`; the index of `others` varies fastest. where: section for error messages.
 std::vector<Variant> combined(const std::vector<Variant>& variants, const std::vector<Variant>& others,
                               const Where& where) {
   if (variants.size() * others.size() > most_jobs)
@@ -109,7 +108,7 @@ std::vector<Variant> variants_of(const Node& study) {
   return variants;
 }
 
-/// What variants_of() combines, in its order.
+/// Returns the names of the parts that variants_of() combines, in its order.
 std::vector<std::string> varied_of(const Node& study) {
   std::vector<std::string> varied;
   for (const char* part : {"jobs", "table"})
@@ -120,7 +119,7 @@ std::vector<std::string> varied_of(const Node& study) {
   return varied;
 }
 
-/// Files of a job may have longer names than its folder; file systems take 255 letters.
+/// Longest name of a job's folder. File systems allow 255 letters, and files of a job have longer names than its folder.
 constexpr std::size_t longest_name = 200;
 
 StudyJob make_job(const Node& base, const Variant& variant, const std::string& fallback_name,
@@ -134,7 +133,7 @@ StudyJob make_job(const Node& base, const Variant& variant, const std::string& f
                        fmt::format("a job's name has {} letters (at most {} fit a folder)", made.name.size(), longest_name),
                        "name it under 'jobs', or shorten the values that make its name");
     Node document = base;
-    // A whole before its parts: `vary: {motion: ..}` would take away a job's motion.ramp_percent.
+    // Sets a section before its keys: otherwise `vary: {motion: ..}` would overwrite a job's motion.ramp_percent.
     std::vector<Change> changes = variant.changes;
     std::ranges::stable_sort(changes, {}, [](const Change& change) { return std::ranges::count(change.path, '.'); });
     for (const Change& change : changes) set_value(document, change.path, change.value, change.where);
@@ -175,7 +174,7 @@ struct Disk {
 
 void describe(Fields& f, Disk& disk) { f.choice("keep", disk.keep, ""); }
 
-/// A study's own settings.
+/// Returns the settings of a study itself.
 Disk disk_of(const Node& study) {
   Disk disk;
   if (const Node* keep = study.find("keep")) {
@@ -187,13 +186,13 @@ Disk disk_of(const Node& study) {
   return disk;
 }
 
-/// A job by itself is a study of one.
+/// Returns whether a document is a job, which is then a study of one job.
 bool is_job(const Node& document) {
   if (!document.is_map() || document.find("base")) return false;
   return document.find("motion") || document.find("robot") || document.find("routing");
 }
 
-/// The job from which the others deviate.
+/// Returns the base job, from which the other jobs deviate.
 Node base_of(const Node& study) {
   const Node& written = *study.find("base");
   return written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, study.where) : written;

@@ -28,8 +28,8 @@ struct Job;
 
 struct StudyJob {
   std::string name;                   ///< unique in the study, fit for a folder
-  std::shared_ptr<const Job> job;     ///< if valid, in an expanded study
-  std::string failure;                ///< why it is invalid, a line for each problem; empty: it is valid
+  std::shared_ptr<const Job> job;     ///< only of a valid job in an expanded study
+  std::string failure;                ///< reasons why the job is invalid, one line per problem; empty: it is valid
   std::vector<std::string> values{};  ///< (varied) values of the varied keys, as in the name
 };
 
@@ -43,19 +43,20 @@ constexpr std::string_view word(Keep value) { return word_at({"all", "histories"
 
 struct Study {
   std::string name;
-  std::vector<StudyJob> jobs;  ///< in the order of the file
+  std::vector<StudyJob> jobs;  ///< jobs in the order of the file
   Keep keep = Keep::all;
-  std::vector<std::string> varied{};  ///< "jobs", "table", the keys of vary, "sample"; in the order of names
+  /// "jobs", "table", the keys of vary, "sample"; in the order in which they form the jobs' names
+  std::vector<std::string> varied{};
 };
 
-/// The name of a study, without expanding it. Errors: InputError.
+/// Returns the name of a study, without expanding it. Errors: InputError.
 std::string study_name(const std::filesystem::path& file);
 
-/// Reads and expands a study; a single job is a study of one. sets: `--set` for every job, after the
-/// study's own changes. Errors: InputError for the study itself. An invalid job has a `failure`.
+/// Reads and expands a study; a single job is a study of one job. sets: `--set` for every job, applied after the
+/// study's own changes. Errors: InputError for faults of the study itself. An invalid job has a `failure`.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
 
-/// The keys of a study file.
+/// Returns the keys of a study file.
 std::vector<KeyRow> study_keys();
 
 }  // namespace dresslife::pipeline

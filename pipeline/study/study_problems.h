@@ -8,10 +8,10 @@ namespace dresslife::pipeline {
 struct Study;
 struct StudyJob;
 
-/// One line: a job's first problem, and the number of others. Empty: it is valid.
+/// Returns one line: a job's first problem, and the number of its other problems. Empty: the job is valid.
 std::string first_problem(const StudyJob& job);
 
-/// Each problem of a study's jobs once, with its jobs, a line each. Empty if first_problem() of every job is complete.
+/// Returns each problem of a study's jobs once, with its jobs, one per line. Empty if first_problem() of every job is complete.
 std::string problem_words(const Study& study);
 
 }  // namespace dresslife::pipeline

@@ -9,7 +9,7 @@
 namespace dresslife::pipeline {
 
 struct Change {
-  std::string path;  ///< of the key, as set_value() takes it
+  std::string path;  ///< path of the key, in the form of set_value()
   Node value;
   Where where;  ///< place in the user's file
 };
@@ -17,9 +17,9 @@ struct Change {
 struct Variant {
   std::string name;
   std::vector<Change> changes;
-  std::vector<std::string> values;  ///< of each varied key, as in the name
+  std::vector<std::string> values;  ///< (varied) values of the varied keys, as in the name
 };
 
-inline constexpr std::size_t most_jobs = 100'000;  ///< of a study
+inline constexpr std::size_t most_jobs = 100'000;  ///< largest number of jobs of a study
 
 }  // namespace dresslife::pipeline

@@ -12,20 +12,20 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double longest_stand = 3;     // [s]
-constexpr double shortest_stand = 0.4;  // [s] of equal rows; shorter, they may be one step of an encoder
+constexpr double shortest_stand = 0.4;  // [s] of equal rows; shorter standstills may be one step of an encoder
 constexpr double gap_intervals = 5, shortest_gap = 0.5;  // [1], [s]
 constexpr double fine_rows = 0.04,
-                 knot_distance = 0.05;  // [s]: drives change their accelerations in 0.1 s and more
+                 knot_distance = 0.05;  // [s]: drives change their accelerations in 0.1 s or more
 constexpr int halvings = 2;
 
 struct Knot {
   double time;
   VectorXd angles;
-  double window;  // [s] half the part of the log from which the value is; 0: a row's own
+  double window;  // [s] half of the interval of the log that gives the value; 0: the value of a row
   std::size_t row;
 };
 
-/// Knots for the rows [begin, end] of a run.
+/// Computes the knots for the rows [begin, end] of a run.
 class Smoothing {
  public:
   Smoothing(const std::vector<double>& times, const std::vector<double>& angles, std::size_t axes,
@@ -94,13 +94,14 @@ class Smoothing {
     return {std::move(times), std::move(values), SplineEnds::at_rest};
   }
 
-  /// Between the last of the knots and `end`, where there is room: rows may be missing there.
+  /// Adds fitted knots between the last knot and `end` if the distance is large enough: rows may be missing there.
   void add_fitted(std::vector<Knot>& knots, double time, double window, double end) const {
     Knot knot = fitted(time, window);
     if (knot.time > knots.back().time && knot.time < end) knots.push_back(std::move(knot));
   }
 
-  /// The parabola a + b x + c x^2, x = (t - time)/window, at x = 0. Without two rows on either side: the next row.
+  /// Returns the knot from the parabola a + b x + c x^2, x = (t - time)/window, at x = 0. If a side has fewer than two rows: the
+  /// nearest row.
   Knot fitted(double time, double window) const {
     const std::size_t from = first_from(time - window), to = first_from(time + window),
                       nearest = first_from(time);
@@ -151,11 +152,11 @@ void Course::cut(const Recording& log, const pipeline::Robot& robot) {
       continue;
     }
     const double step = log.times[k] - log.times[k - 1];
-    double share = 0, needed = 0;  // of what two intervals allow; [s] for a move at half speed
+    double share = 0, needed = 0;  // share: of the largest distance in two intervals; needed: [s] for a move at half speed
     for (std::size_t i = 0; i < axes_; ++i) {
       const double way = std::abs(log.at(k)[i] - log.at(k - 1)[i]);
       share = std::max(share, way / (2 * log.interval * axes[i].speed));
-      needed = std::max(needed, 3 * way / axes[i].speed);  // 3/2 of the mean speed at its middle
+      needed = std::max(needed, 3 * way / axes[i].speed);  // the largest speed, at the middle, is 3/2 of the mean speed
     }
     log_seconds += step;
     if (share == 0 && step >= shortest_stand) {
@@ -163,7 +164,7 @@ void Course::cut(const Recording& log, const pipeline::Robot& robot) {
       time += std::min(step, longest_stand);
     } else if (step <= std::max(gap_intervals * log.interval, shortest_gap)) {
       time += step;
-    } else if (share <= 1) {  // a log of changes: it stood until shortly before
+    } else if (share <= 1) {  // a log that records only changes: the robot stood still until shortly before
       stand_seconds += step - log.interval;
       time += std::min(step - log.interval, longest_stand);
       add(time, log.at(k - 1), log.lines[k - 1], log.times[k] - log.interval);

@@ -1,16 +1,16 @@
-// The course of the axes in a log: smooth, without long stands, without gaps.
+// The course of the axes in a log: smooth, without long standstills and without gaps.
 //
-// Between two stands the course is a cubic spline (R5) at rest at both ends. A log with rows closer than 0.04 s is
+// Between two standstills the course is a cubic spline (R5) at rest at both ends. A log with rows closer than 0.04 s is
 // smoothed before: knots every 0.05 s, the value of each from a parabola through the rows within 0.05 s of it (least
-// squares). Where the course is further than the bound from a row, knots are put at half the distance, twice; if this
+// squares). If the distance between the course and a row exceeds the bound, knots are added at half the distance, twice; if this
 // is not enough, the rows themselves become knots. So noise of half the bound does not become acceleration, and no
-// row is further from the course than the bound. Rows of 0.04 s and more are knots: noise n there is an acceleration
-// of about 12 n / (0.04 s)^2, 380 deg/s2 for 0.05 deg and 60 deg/s2 at 10 Hz. Axes of robots reach 300 to 3,000
+// row is farther from the course than the bound. Rows at distances of 0.04 s or more are knots: there noise n gives an
+// acceleration of about 12 n / (0.04 s)^2, 380 deg/s2 for 0.05 deg, and 60 deg/s2 at 10 Hz. Axes of robots reach 300 to 3,000
 // deg/s2.
 //
-// Stands count at most 3 s: by then the hose hangs still. A gap, longer than 5 intervals and 0.5 s, in which the
-// robot got further than in two intervals at full speed, becomes a move from rest to rest at most at half the axes'
-// speeds; its time is not counted.
+// Standstills count at most 3 s, because then the hose is at rest. A gap is longer than 5 intervals and 0.5 s, and the
+// robot moved farther in it than in two intervals at full speed. It is replaced by a move from rest to rest with at most half the
+// axes' speeds; its time is not counted.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,37 +24,37 @@
 
 namespace dresslife::sim {
 
-/// The fastest moment of an axis beyond its limit.
+/// The fastest moment of an axis that exceeds its limit.
 struct TooFast {
   std::string axis;
   double speed = 0, limit = 0;  ///< [rad/s]
-  double time = 0;              ///< of the log [s]
+  double time = 0;              ///< time in the log [s]
   std::uint32_t line = 0;
-  std::size_t knots = 0;  ///< at which it is too fast
+  std::size_t knots = 0;  ///< number of knots with a speed above the limit
 };
 
 class Course {
  public:
-  /// still: the bound of smoothing [rad]. Errors: none; a recording of fewer than two rows has no course.
+  /// still: bound of the smoothing [rad]. A recording of fewer than two rows has no course. Throws no errors.
   Course(const Recording& log, const pipeline::Robot& robot, double still);
 
   std::size_t axes() const { return axes_; }
   double duration() const { return times_.empty() ? 0 : times_.back(); }  ///< [s]
   Eigen::VectorXd at(double time) const;                                  ///< (axis) [rad]
-  std::uint32_t line(double time) const;                                  ///< of the log, the last one before
+  std::uint32_t line(double time) const;                                  ///< line of the log, the last one before this time
   const std::vector<double>& knots() const { return times_; }             ///< [s]
   Eigen::VectorXd knot(std::size_t k) const {
     return Eigen::Map<const Eigen::VectorXd>(&angles_[k * axes_], static_cast<long>(axes_));
   }
-  /// Whether the robot stands still from knot k to the next.
+  /// Returns whether the robot stands still from knot k to the next.
   bool stands(std::size_t k) const;
 
-  double log_seconds = 0;    ///< of the log, without gaps
-  double stand_seconds = 0;  ///< of these the robot stands still
+  double log_seconds = 0;    ///< time of the log without gaps
+  double stand_seconds = 0;  ///< part of log_seconds in which the robot stands still
   int gaps = 0;
   double gap_seconds = 0;
-  double largest_smoothing = 0;   ///< distance of a row from the course [rad]
-  std::vector<TooFast> too_fast;  ///< one for each axis that is
+  double largest_smoothing = 0;   ///< largest distance of a row from the course [rad]
+  std::vector<TooFast> too_fast;  ///< one for each axis that exceeds its limit
   std::vector<double> fastest;    ///< (axis) [rad/s]
 
  private:

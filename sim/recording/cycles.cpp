@@ -12,17 +12,17 @@ namespace {
 using Eigen::VectorXf;
 
 constexpr double sample = 0.05;                                             // [s]
-constexpr double longest = 3600;                                            // [s] of a cycle
+constexpr double longest = 3600;                                            // [s] longest cycle
 constexpr double slowest_step = 0.4, fastest_step = 1.8, free_samples = 3;  // (L1)
-constexpr std::size_t at_the_end = 4;  // samples of the last pose, so that a cycle may end there
-constexpr float slow_step = 0.035f;    // [rad] (L2): 2 deg in a sample are 40 deg/s
+constexpr std::size_t at_the_end = 4;  // number of samples of the last pose that are added, so that a cycle may end there
+constexpr float slow_step = 0.035f;    // [rad] (L2): 2 deg per sample are 40 deg/s
 constexpr std::size_t tried_ends = 20,
-                      tried_repeats = 50;  // poses that are the same without the motion being it
+                      tried_repeats = 50;  // limits, because the robot may pass the same pose in other motions
 
-/// The course in samples of its motion.
+/// Samples of the motion in the course.
 struct Samples {
   Eigen::MatrixXf values;      // (axis, sample) [rad]
-  std::vector<double> begins;  // [s] of the course; of a sample behind a stand its end
+  std::vector<double> begins;  // [s] of the course; for a sample after a standstill the end of the standstill
   std::size_t count() const { return begins.size(); }
 
   Samples(const Course& course, float finest) {
@@ -35,7 +35,7 @@ struct Samples {
       poses.insert(poses.end(), pose.begin(), pose.end());
       last = pose;
     };
-    double next = 0;  // of motion, until the next sample
+    double next = 0;  // motion time of the next sample
     const std::vector<double>& knots = course.knots();
     for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
       if (course.stands(k)) continue;
@@ -60,7 +60,7 @@ struct Samples {
     const std::size_t k = std::min(static_cast<std::size_t>(position), count() - 2);
     return std::min(begins[k] + (position - static_cast<double>(k)) * sample, begins[k + 1]);
   }
-  /// Largest step of an axis around a sample.
+  /// Returns the largest step of an axis next to a sample.
   float step(std::size_t k) const {
     const long at = static_cast<long>(k), last = values.cols() - 1;
     const VectorXf here = values.col(at);
@@ -69,7 +69,7 @@ struct Samples {
   }
 };
 
-/// Samples by place: cells of the two axes that move most.
+/// Finds samples by their pose, with cells over the two axes that move most.
 class Places {
  public:
   Places(const Samples& samples, double bound) : samples_(samples), cell_(2 * bound) {
@@ -83,8 +83,8 @@ class Places {
     std::sort(sorted_.begin(), sorted_.end());
   }
 
-  /// Later samples, from `from` on, at which the axes come nearest to those of sample k, in their order:
-  /// one for each visit.
+  /// Returns later samples, from `from` on, at which the axes come nearest to those of sample k, in their order; one sample for
+  /// each visit.
   std::vector<std::size_t> visits(std::size_t k, std::size_t from, std::size_t most) const {
     std::vector<std::uint32_t> near;
     for (int a = -1; a <= 1; ++a)
@@ -127,11 +127,11 @@ class Places {
 };
 
 struct Match {
-  double end;         // position
+  double end;         // position of the end
   double difference;  // [rad]
 };
 
-/// A cycle by its first appearance.
+/// A cycle, defined by its first occurrence.
 struct Known {
   double begin;
   std::size_t length;  // samples
@@ -154,7 +154,7 @@ class Search {
   std::size_t known() const { return known_.size(); }
 
  private:
-  /// Nearest position to a pose around `expected`, between `low` and `high`.
+  /// Returns the position nearest to a pose, around `expected` and between `low` and `high`.
   double nearest(const VectorXf& pose, double expected, double low, double high) const {
     const float pull = static_cast<float>(0.01 * options_.bound * options_.bound);
     double best = expected, least = INFINITY;
@@ -172,7 +172,7 @@ class Search {
     return best;
   }
 
-  /// (L1) from a position near `at` on.
+  /// Returns the part (L1) that begins near the position `at`.
   std::optional<Match> match(const Known& cycle, double at) const {
     const double last = static_cast<double>(samples_.count() - 1);
     const double begin = nearest(samples_.at(cycle.begin), at, std::max(0.0, at - 1), std::min(last, at + 1));
@@ -193,7 +193,7 @@ class Search {
     return Match{position, difference};
   }
 
-  /// (L2) The cycle that begins at a sample; none is known that does.
+  /// Returns the cycle (L2) that begins at a sample. Precondition: no known cycle begins there.
   std::optional<Known> found_at(std::size_t k) const {
     const std::size_t least = static_cast<std::size_t>(options_.shortest / sample),
                       most = static_cast<std::size_t>(longest / sample);
@@ -238,7 +238,7 @@ class Search {
     return parts;
   }
 
-  /// The longest known cycle that begins at a position.
+  /// Returns the part that repeats the longest known cycle from a position.
   std::optional<Part> repeated(double position) const {
     std::optional<Part> best;
     const VectorXf here = samples_.at(position);

@@ -16,7 +16,7 @@ namespace {
 using pipeline::CsvCell;
 using pipeline::InputError;
 
-/// What a word says for the measured position of an axis; other words say 2 against it.
+/// Points of a word in favour of the measured position of an axis; every other word has -2 points.
 const std::map<std::string, int, std::less<>> weights{
     {"actual", 4},    {"act", 4},     {"ist", 4},     {"meas", 4},    {"measured", 4}, {"position", 2},
     {"positions", 2}, {"pos", 2},     {"q", 2},       {"angle", 2},   {"angles", 2},   {"joint", 1},
@@ -28,9 +28,9 @@ const std::map<std::string, int, std::less<>> weights{
 struct Group {
   int score = 0;
   std::vector<std::string> words;
-  std::map<int, std::size_t> columns;  // by their number
+  std::map<int, std::size_t> columns;  // (number in the name) column
 
-  /// The first `count` columns, if they are numbered from 0 or 1 on without a gap.
+  /// Returns the first `count` columns, if they are numbered from 0 or 1 without a gap.
   std::vector<std::size_t> first(std::size_t count) const {
     std::vector<std::size_t> found;
     if (columns.empty() || columns.begin()->first > 1) return found;
@@ -42,7 +42,7 @@ struct Group {
   }
 };
 
-/// "°" of a Latin-1 file, of a UTF-8 one, or none.
+/// Replaces "°" in Latin-1 or UTF-8, if the name contains it.
 std::string with_words(std::string name) {
   for (const char* sign : {"\xC2\xB0", "\xB0"})
     for (std::size_t at = name.find(sign); at != name.npos; at = name.find(sign))
@@ -124,7 +124,7 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
     if (tie) refuse(fmt::format("several groups of {} columns may be the angles of the axes", axes));
     if (best) {
       made.axes = best->first(axes);
-      // rostopic: field.position0 belongs to field.name0.
+      // in rostopic's format field.position0 belongs to field.name0
       for (const auto& [stem, group] : groups)
         if (!group.words.empty() && group.words.back() == "name" && best->words.back() == "position")
           made.names = group.first(axes);
@@ -145,7 +145,7 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
     if (unit != ColumnName::Unit::unknown)
       made.radians = unit == ColumnName::Unit::radians ? 1 : std::numbers::pi / 180;
   }
-  // RTDE's q and ROS' position are in rad.
+  // q of RTDE and position of ROS are in rad
   if (!made.radians && best && (best->words.back() == "q" || !made.names.empty())) made.radians = 1;
   return made;
 }

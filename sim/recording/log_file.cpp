@@ -21,20 +21,21 @@ using pipeline::CsvCell;
 using pipeline::CsvRow;
 using pipeline::InputError;
 
-constexpr double short_stand = 0.5;  // [s] stands shorter than this keep their rows
+constexpr double short_stand = 0.5;  // [s] shorter standstills keep their rows
 constexpr double start =
-    0.05;  // [s] at the end of a stand, whose rows are of the motion: a slow start is no jump
-constexpr double shortest_pause = 10, pause_intervals = 100;  // [s], [1]: dwells of a process are shorter, loggers skip a few rows
-constexpr double longest_interval = 2;            // [s]: a move of a robot takes as long
+    0.05;  // [s] rows at the end of a standstill that are kept, because a slow start is no jump
+// [s], [1]: waits of a process are shorter, and loggers skip only a few rows
+constexpr double shortest_pause = 10, pause_intervals = 100;
+constexpr double longest_interval = 2;            // [s]: a longer interval may hide a move of a robot
 constexpr double coarsest_clock = 1;              // [s] of logs with times of day
-constexpr double most_faults = 0.01;              // of the rows: more are another kind of file
-constexpr std::size_t few_faults = 10;            // that a short log may have, too
-constexpr std::size_t most_rows = 30'000'000;     // that move: 1.8 GB of six axes
-constexpr std::size_t rows_of_interval = 20'000;  // whose median is the log's
+constexpr double most_faults = 0.01;              // share of the rows: a larger share means another kind of file
+constexpr std::size_t few_faults = 10;            // number that is allowed in a short log, too
+constexpr std::size_t most_rows = 30'000'000;     // moving rows: 1.8 GB for six axes
+constexpr std::size_t rows_of_interval = 20'000;  // number of rows whose median interval is used for the log
 constexpr const char* separators = ";\t,| ";
 constexpr std::size_t sample_bytes = 65'536;  // some hundred rows
 
-/// Errors: InputError for files that other programs convert.
+/// Throws InputError for files that need a converter.
 void refuse_other_kinds(const std::filesystem::path& file, const std::string& begin) {
   const std::string ending = file.extension().string();
   const auto refuse = [&](const char* what, const char* remedy) {
@@ -56,7 +57,7 @@ void refuse_other_kinds(const std::filesystem::path& file, const std::string& be
   if (begin.find('\0') != begin.npos) refuse("is no text", "export the log as CSV");
 }
 
-/// Makes rows with increasing times, without standstill.
+/// Makes rows with increasing times and without standstills.
 class Rows {
  public:
   Rows(Recording& made, const std::filesystem::path& file, const pipeline::Robot& robot, double still)
@@ -119,7 +120,7 @@ class Rows {
     made_.line_of_pause = static_cast<int>(line);
   }
 
-  /// Rows of one stamp, until the next one.
+  /// Distributes rows with one stamp until the next stamp.
   void spread(double step) {
     const double share =
         std::min(step, coarsest_clock) / static_cast<double>(std::max<std::size_t>(1, same_.size()));
@@ -182,17 +183,17 @@ class Rows {
   double still_;
   StepFilter filter_;
   bool range_begun_ = false;
-  std::optional<LimitFault> outside_;  // the first one
+  std::optional<LimitFault> outside_;  // the first row outside
   std::uint32_t line_outside_ = 0;
   std::size_t rows_outside_ = 0;
   double begin_ = 0, last_stamp_ = 0;
-  std::vector<LogRow> same_;   // of one stamp
-  std::vector<LogRow> stand_;  // near the first of them; of a long stand the first and the last ones
+  std::vector<LogRow> same_;   // rows with one stamp
+  std::vector<LogRow> stand_;  // rows near the first row of a standstill; of a long standstill the first and the last rows
   bool is_long_ = false;
   std::vector<double> intervals_;
 };
 
-/// One pass through the file.
+/// Reads the file once.
 class Pass {
  public:
   Pass(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options)
@@ -216,14 +217,14 @@ class Pass {
     return columns_.radians;
   }
 
-  /// Every row: the function takes time [s], angles as written, and line.
+  /// Reads every row. take: called with time [s], angles as written, and line.
   template <class Take>
   void run(const std::function<void(double)>& progress, const Take& take) {
     run_some(progress, take);
     check_faults();
   }
 
-  /// Without an error for rows that cannot be read.
+  /// Reads rows without an error for rows that cannot be read.
   template <class Take>
   void run_some(const std::function<void(double)>& progress, const Take& take) {
     LogTime clock(columns_.seconds);
@@ -249,7 +250,7 @@ class Pass {
     clock_words_ = clock.words();
   }
 
-  /// Titles of columns that look like axes, beyond those of the robot.
+  /// Returns titles of columns that seem to be axes beyond those of the robot.
   std::vector<std::string> external() const {
     const auto stem = [](const std::string& title) {
       std::vector<std::string> words = words_of_name(title);
@@ -269,7 +270,8 @@ class Pass {
     return found;
   }
 
-  /// "separator ';', decimal commas; column Zeit: seconds; angles in degrees by the names of the columns". After run().
+  /// Returns "separator ';', decimal commas; column Zeit: seconds; angles in degrees by the names of the columns". Precondition:
+  /// run() was called.
   std::string words(bool unit_by_size) const {
     const char separator = log_.separator();
     std::string text = fmt::format("separator {}", separator == '\t'  ? "tab"
@@ -313,7 +315,7 @@ class Pass {
     return clock.read(text);
   }
 
-  /// The first row says which joint each column belongs to.
+  /// Assigns the columns to joints by the names in the first row.
   void order_by_names(const CsvRow& row) {
     if (columns_.names.empty()) return;
     std::vector<std::string> names;
@@ -363,10 +365,10 @@ class Pass {
   bool comma_seen_ = false;
 };
 
-/// Factor to rad of a log that does not say its unit: of angles too large for rad.
+/// Returns the factor to rad for a log without a unit: degrees if the angles are too large for radians.
 double unit_by_size(const std::filesystem::path& file, const pipeline::Robot& robot,
                     const LogOptions& options) {
-  constexpr double widest = 4 * std::numbers::pi;  // two turns either way
+  constexpr double widest = 4 * std::numbers::pi;  // two turns to either side
   double largest = 0;
   Pass(file, robot, options).run({}, [&](double, const std::vector<double>& angles, std::uint32_t) {
     for (const double angle : angles) largest = std::max(largest, std::abs(angle));
@@ -412,7 +414,7 @@ Recording read_log(const std::filesystem::path& file, const pipeline::Robot& rob
     rows.add(time, std::move(angles), line);
   });
   for (std::size_t i = 0; i < made.axes; ++i)
-    made.columns[i].column = pass.title(i);  // a row may name the joints
+    made.columns[i].column = pass.title(i);  // a row may contain the names of the joints
   made.format = pass.words(!known);
   made.external = pass.external();
   rows.finish();

@@ -12,15 +12,16 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double near_knots = 1e-3;                     // [s] closer ones would make a spline steep
-constexpr double ramp = 0.3;                            // [s] of motion that a robot needs to start or stop
-constexpr double slow = std::numbers::pi / 180;         // [rad/s] needs no ramp
+constexpr double near_knots = 1e-3;                     // [s] knots at a smaller distance would give a spline with a large slope
+constexpr double ramp = 0.3;                            // [s] that a robot needs to start or stop
+constexpr double slow = std::numbers::pi / 180;         // [rad/s] a smaller speed needs no ramp
 constexpr double settling = 1;                          // [s]
-// [s] The strain of a motion takes 3.4 MB for each second (ten loose cables, 64 segments): two of 300 s at a time take 2 GB.
+// [s] The strains of a motion take 3.4 MB per second (ten loose cables, 64 segments): two motions of 300 s at the same time take
+// 2 GB.
 constexpr double long_rest = 200, longest_rest = 300;
-constexpr std::size_t most_rows_of_a_motion = 50'000;               // half of what a motion may have
+constexpr std::size_t most_rows_of_a_motion = 50'000;               // half of the limit of a motion
 constexpr double damage_exponent = 5;
-constexpr std::size_t least_parts = 3;  // of a recording: where a cycle is rare, one is enough
+constexpr std::size_t least_parts = 3;  // for each recording: a rare cycle has only one recording
 
 struct StretchRows {
   std::vector<double> times;
@@ -48,7 +49,7 @@ StretchRows rows_between(const Course& course, double begin, double end) {
   return rows;
 }
 
-/// Sum of the fifth powers of successive ranges of each axis.
+/// Returns the sum of the fifth powers of successive ranges of each axis.
 double damage_of(const StretchRows& rows, double bound) {
   double sum = 0;
   for (long axis = 0; axis < rows.values.front().size(); ++axis) {
@@ -67,7 +68,7 @@ double damage_of(const StretchRows& rows, double bound) {
   return sum;
 }
 
-/// Slower near the ends, so that the speed there is 0: t' = 2 sqrt(P t) until t = P.
+/// Slows the motion near its ends, so that the speed there is 0: t' = 2 sqrt(P t) until t = P.
 void add_ramps(StretchRows& rows, bool begins_at_rest) {
   const double length = rows.times.back(), part = std::min(ramp, length / 3);
   const auto delay = [&](double t) { return t < part ? 2 * std::sqrt(part * t) - t : part; };  // t' - t
@@ -88,7 +89,7 @@ void close(StretchRows& rows) {
   rows.values.back() = rows.values.front();
 }
 
-/// Of a closed motion: it begins at another row.
+/// Returns a closed motion that begins at another row.
 StretchRows turned(const StretchRows& rows, std::size_t begin) {
   StretchRows made;
   const double length = rows.times.back(), start = rows.times[begin];
@@ -108,10 +109,10 @@ std::size_t best_begin(const StretchRows& rows) {
   return best;
 }
 
-/// Damage of a part of Cycles::parts, and its index.
+/// Damage of a part of Cycles::parts, and the part's index.
 using DamagedPart = std::pair<double, std::size_t>;
 
-/// The motion that stands for these parts.
+/// Returns the motion that represents these parts.
 LogMotion motion_for(const Course& course, const Cycles& cycles, std::span<const DamagedPart> damages) {
   LogMotion made;
   made.count = damages.size();
@@ -129,8 +130,8 @@ LogMotion motion_for(const Course& course, const Cycles& cycles, std::span<const
   StretchRows rows = rows_between(course, cycles.parts[made.part].begin, cycles.parts[made.part].end);
   close(rows);
   rows = turned(rows, best_begin(rows));
-  const bool stands = rows.values.back() == rows.values[rows.count() - 2];  // between its end and its begin
-  if (stands) {  // waits differ: no longer than the mean
+  const bool stands = rows.values.back() == rows.values[rows.count() - 2];  // a standstill between its end and its begin
+  if (stands) {  // waits differ between repeats: the wait is at most the mean
     const double wait = rows.times.back() - rows.times[rows.count() - 2];
     rows.times.back() -=
         std::clamp(rows.times.back() - seconds / static_cast<double>(made.count), 0.0, 0.9 * wait);
@@ -157,7 +158,7 @@ void add_cycle(const Course& course, const Cycles& cycles, std::size_t cycle, do
   }
 }
 
-/// Largest distance of a row from the first.
+/// Returns the largest distance of a row from the first row.
 double range_of(const StretchRows& rows) {
   double range = 0;
   for (const VectorXd& row : rows.values)
@@ -165,13 +166,13 @@ double range_of(const StretchRows& rows) {
   return range;
 }
 
-/// The rest, from its begin on, as motions of limited length.
+/// Collects the rest as motions of limited length.
 class Rest {
  public:
   Rest(std::vector<LogMotion>& made, double bound) : made_(made), bound_(bound) {}
 
   void add(const StretchRows& rows) {
-    if (range_of(rows) <= bound_) return;  // a stand between two cycles
+    if (range_of(rows) <= bound_) return;  // a standstill between two cycles
     if (rows_.count() == 0) rows_.add(0, rows.values.front());
     const VectorXd off = rows_.values.back() - rows.values.front();
     const double fade = std::min(settling, rows.times.back());

@@ -12,10 +12,10 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr std::size_t window = 5;        // rows
+constexpr std::size_t window = 5;        // number of rows
 constexpr double turn_margin = 1.1;      // of the speed (L3)
-constexpr std::size_t most_axes = 8;     // whose orders are tried: 40,320
-constexpr double speed_margin = 1.2;     // of an axis' limit: splines through rows swing over
+constexpr std::size_t most_axes = 8;     // of all orders of up to 8 axes: 40,320
+constexpr double speed_margin = 1.2;     // of an axis' limit, because splines through rows may overshoot
 
 }  // namespace
 
@@ -42,7 +42,8 @@ bool StepFilter::is_possible(const LogRow& before, const LogRow& row, const LogR
 void StepFilter::add(LogRow row) {
   rows_.push_back(std::move(row));
   if (rows_.size() < window) return;
-  const bool next_is_wrong = is_possible(rows_[1], rows_[2], rows_[4]);  // and is examined next
+  // This row is possible if the next row is left out. Then the next row is wrong, and the next call checks it.
+  const bool next_is_wrong = is_possible(rows_[1], rows_[2], rows_[4]);
   if (!next_is_wrong && !is_possible(rows_[1], rows_[2], rows_[3])) {
     const bool alone = is_reached(rows_[1], rows_[3]) && is_possible(rows_[0], rows_[1], rows_[3]) &&
                        is_possible(rows_[1], rows_[3], rows_[4]);

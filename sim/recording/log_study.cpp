@@ -14,13 +14,13 @@ namespace dresslife::sim {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-// Of a core, for a second of motion, with the samples of the uncertainty; cycles are simulated until they repeat. Measured on a
-// log of 8 h with 25 motions and on one of a day with 31 (gripper hose with three cables): 0.48 and 0.47. Other dresspacks
-// differ by factors.
+// Processor seconds per second of motion, with the samples of the uncertainty; cycles are simulated until they are periodic.
+// Measured on a log of 8 h with 25 motions and on one of a day with 31 (gripper hose with three cables): 0.48 and 0.47. Other
+// dresspacks differ by factors.
 constexpr double seconds_per_second = 0.5;
-constexpr double megabytes_per_second = 0.5;  // 399 MB for 834 s of motion of the same day
+constexpr double megabytes_per_second = 0.5;  // 399 MB for 834 s of motion of that day
 constexpr double reading_per_row = 8e-6;  // [s] of one core: a day at 10 Hz in 5.8 s, 8 h in 2.2 s
-constexpr double last_sample = 0.2;  // [s] by which a simulated motion may be longer: it ends with a sample
+constexpr double last_sample = 0.2;  // [s] by which a simulated motion may be longer, because it ends at a sample
 
 std::string time_words(double seconds) {
   constexpr double minute = 60, hour = 3600;
@@ -28,7 +28,7 @@ std::string time_words(double seconds) {
   return seconds < 2 * hour ? fmt::format("{:.3g} min", seconds / minute) : fmt::format("{:.3g} h", seconds / hour);
 }
 
-/// Of all motions together, each once.
+/// Returns the duration of all motions together, each counted once.
 double seconds_of(const std::vector<LogMotion>& motions) {
   double seconds = 0;
   for (const LogMotion& motion : motions) seconds += motion.duration();
@@ -82,10 +82,10 @@ std::string estimate_words(const std::filesystem::path& file, const LogSize& siz
 
 namespace {
 
-/// Angles that are probably radians under names in degrees; empty: they are not.
+/// Returns a warning for angles that are probably radians under names in degrees; empty: they are not.
 std::string radians_words(const Recording& log) {
   constexpr double turn = 2 * std::numbers::pi,
-                   moves = 0.1;  // [deg]: a turn in radians; less is a robot that stands
+                   moves = 0.1;  // [deg]: a full turn in radians; a smaller range means that the robot stands still
   double largest = 0, way = 0;
   for (const AxisOfLog& of : log.columns) {
     largest = std::max({largest, std::abs(of.low) * degrees, std::abs(of.high) * degrees});
@@ -98,9 +98,9 @@ std::string radians_words(const Recording& log) {
       largest, turn);
 }
 
-/// Times that are probably in a larger unit than their name says; empty: they are not.
+/// Returns a warning for times that are probably in a larger unit than their name; empty: they are not.
 std::string times_words(const Recording& log, const Course& course) {
-  constexpr double far_beyond = 10;  // of the limits: rows that are rounded or late are less
+  constexpr double far_beyond = 10;  // ratio to the limits: rounded or late rows give a smaller ratio
   double ratio = 0;
   for (std::size_t i = 0; i < std::min(course.fastest.size(), log.columns.size()); ++i)
     ratio = std::max(ratio, course.fastest[i] / log.columns[i].axis.speed);
@@ -129,7 +129,7 @@ std::vector<std::string> read_words(const Recording& log, const Course& course) 
                                 std::string(column - pipeline::columns_of(of), ' '), range, limits, speed,
                                 limit));
   };
-  const auto tenths = [](double angle) { return std::round(10 * angle * degrees) / 10 + 0.; };  // no -0.0
+  const auto tenths = [](double angle) { return std::round(10 * angle * degrees) / 10 + 0.; };  // + 0. avoids -0.0
   add("axis", "column", "range [deg]", "limits [deg]", "fastest [deg/s]", "limit [deg/s]");
   for (std::size_t i = 0; i < log.columns.size(); ++i) {
     const AxisOfLog& of = log.columns[i];

@@ -1,4 +1,4 @@
-// What a log becomes: a study with one job per motion, a file of duties with their numbers of repeats, and words for
+// The result of a log: a study with one job per motion, a file of duties with their numbers of repeats, and text for
 // the terminal.
 #pragma once
 
@@ -10,24 +10,25 @@
 
 namespace dresslife::sim {
 
-/// The jobs of a study: the base, with each of the motions. base: as seen from the study's folder. The dresspack is
-/// mounted once: mounting lists the keys of mounting poses that the base lacks, which are the log's first row, as if
-/// it were one motion (R7).
+/// Returns the study: the base job with each of the motions. base: path relative to the study's folder. The dresspack is
+/// mounted once: `mounting` lists the keys of mounting poses that the base does not have. They get the log's first row, as if
+/// the log were one motion (R7).
 std::string study_text(const std::string& name, const std::filesystem::path& base, const Recording& log,
                        const std::vector<std::string>& mounting, const std::vector<LogMotion>& motions);
 
-/// The duty of the log: each motion as often per hour as in the log, or, if ramps and gaps add time to motions
-/// without stands, as often as an hour takes. study: as seen from this file.
+/// Returns the duty of the log: each motion with its repeats per hour in the log; or, if ramps and gaps add time to motions
+/// without standstills, with the number that fits into an hour. study: path relative to this file.
 std::string duty_text(const std::string& name, const std::string& study, const Course& course,
                       const std::vector<LogMotion>& motions);
 
-/// Before a log is read: its size, and what it takes to read it and to run its study if nothing repeats.
+/// Returns text for the time before a log is read: its size, and the cost of reading it and of running its study if nothing
+/// repeats.
 std::string estimate_words(const std::filesystem::path& file, const LogSize& size);
 
-/// What was read: a line on the format, and a table of the axes.
+/// Returns a line on the format, and a table of the axes.
 std::vector<std::string> read_words(const Recording& log, const Course& course);
 
-/// What the log contains, one line each: rows that do not count, gaps, speeds, cycles, rest, time and disk of the
+/// Returns the content of the log, one line each: ignored rows, gaps, speeds, cycles, rest, time and disk of the
 /// study.
 std::vector<std::string> log_words(const Recording& log, const Course& course, const Cycles& cycles,
                                    const std::vector<LogMotion>& motions);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double day = 86'400;
 
-/// Whole numbers with one of these separators between them, at the beginning of a text, which is cut.
+/// Reads three integers with one of these separators from the begin of a text, and removes them from the text.
 std::optional<std::array<int, 3>> three_numbers(std::string_view& text, std::string_view separators) {
   std::array<int, 3> numbers{};
   std::string_view rest = text;
@@ -34,7 +34,7 @@ std::optional<std::array<int, 3>> three_numbers(std::string_view& text, std::str
   return numbers;
 }
 
-/// Days since 1970.
+/// Returns the days since 1970.
 std::optional<double> date_in(std::string_view& text) {
   std::string_view rest = text;
   const auto found = three_numbers(rest, "-/.");
@@ -52,7 +52,7 @@ std::optional<double> date_in(std::string_view& text) {
   return std::chrono::sys_days(date).time_since_epoch().count();
 }
 
-/// Seconds since midnight of a text that is nothing else.
+/// Returns the seconds since midnight for a text that contains only a time of day.
 std::optional<double> time_of_day_in(std::string_view text) {
   const auto found = three_numbers(text, ":");
   if (!found || (*found)[0] > 24 || (*found)[1] > 59 || (*found)[2] > 60) return {};

@@ -1,4 +1,4 @@
-// Time stamps of logs, as seconds: numbers (s, ms, us or ns), dates with times of day, times of day alone.
+// Time stamps of logs, converted to seconds: numbers (s, ms, us or ns), dates with times of day, times of day only.
 #pragma once
 
 #include <optional>
@@ -11,19 +11,19 @@ namespace dresslife::sim {
 /// 08:15:30.125 or with a comma, with Z or +01:00, or AM and PM. Between date and time: a blank or T.
 class LogTime {
  public:
-  /// seconds: of a unit of numbers; absent: the size of the first number decides (unit_of_clock).
+  /// seconds: seconds per unit of numbers; absent: the size of the first number decides (unit_of_clock).
   explicit LogTime(std::optional<double> seconds) : unit_(seconds) {}
 
-  /// Seconds from a fixed begin; a time of day before the last one by more than 12 h is of the next day.
-  /// Absent: no time.
+  /// Returns seconds from a fixed begin. A time of day more than 12 h before the previous one belongs to the next day.
+  /// Absent: the text is no time.
   std::optional<double> read(std::string_view text);
-  /// What the last time was: "numbers in ms", "dates with times of day".
+  /// Returns the format of the last time: "numbers in ms", "dates with times of day".
   std::string words() const;
 
  private:
   enum class Form { numbers, dates, times_of_day } form_ = Form::numbers;
   std::optional<double> unit_;
-  double days_ = 0;  ///< midnights since the first time of day, times 86,400 s
+  double days_ = 0;  ///< number of midnights since the first time of day, times 86,400 s
   std::optional<double> last_of_day_;
 };
 

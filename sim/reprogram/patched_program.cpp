@@ -15,9 +15,9 @@
 namespace dresslife::sim {
 namespace {
 
-/// Numbers that were written with six decimals of a millimetre or a degree [m, rad], and Fanuc's three [rad].
+/// Rounding of numbers that are written with six decimals of a millimetre or a degree [m, rad], and with Fanuc's three [rad].
 constexpr double written = 1e-8, written_by_fanuc = 1e-5;
-/// Fanuc's speeds are whole numbers.
+/// Rounding of Fanuc's speeds, which are integers.
 constexpr double rounded_speed = 0.5;
 
 double largest(const std::vector<double>& a, const std::vector<double>& b) {
@@ -48,7 +48,7 @@ bool same_frame(const std::vector<pipeline::MotionFrame>& a, const std::string& 
   return x->position == y->position && x->quaternion == y->quaternion && x->stationary == y->stationary;
 }
 
-/// In what two steps differ besides a change of the first one's line; empty: in nothing.
+/// Returns the difference between two steps apart from a change of the first one's line; empty: none.
 std::string difference(const pipeline::Motion& before, const pipeline::MotionStep& a,
                        const pipeline::Motion& after, const pipeline::MotionStep& b,
                        const LineChange* change) {

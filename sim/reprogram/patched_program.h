@@ -1,4 +1,4 @@
-// A robot program with changed lines: as text, read back, and as a patch.
+// A robot program with changed lines: as text that is read back, and as a patch.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 namespace dresslife::sim {
 
 struct PatchedProgram {
-  pipeline::Motion motion;  ///< of the patched program, read back
-  std::string patch;        ///< unified diff of all its files, with names below the program's folder
+  pipeline::Motion motion;  ///< motion of the patched program, read back
+  std::string patch;        ///< unified diff of all its files, with names relative to the program's folder
 };
 
-/// Errors: InputError where a line cannot be written, or where the program that is read back differs from what it was
-/// in more than what the way changes; the message says in what.
+/// Patches a program. Errors: InputError when a line cannot be written, or when the program that is read back differs from the
+/// original by more than the changes of `way`; the message names the difference.
 PatchedProgram patched(const pipeline::Job& job, const ReadProgram& read, const ProgramWay& way);
 
-/// What differs between two motions besides changes of these lines of the first; empty: nothing. Steps that a point
-/// adds stand before the line's own.
+/// Returns the difference between two motions apart from changes of these lines of the first; empty: none. Steps that a point
+/// adds stand before the line's own step.
 std::string other_difference(const pipeline::Motion& before, const pipeline::Motion& after,
                              const std::vector<LineChange>& changes);
 

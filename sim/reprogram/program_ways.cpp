@@ -18,11 +18,11 @@
 namespace dresslife::sim {
 namespace {
 
-/// A line of the program: all steps that come from one place of a file.
+/// A line of the program: all steps from one place of a file.
 struct Line {
   pipeline::Where where;
   std::string name;
-  std::vector<std::size_t> moves;  ///< steps
+  std::vector<std::size_t> moves;  ///< indices of steps
   double cost = 0;
 };
 
@@ -30,7 +30,7 @@ class Lines {
  public:
   Lines(const ReadProgram& read, const std::vector<double>& line_damage) {
     std::map<std::string, std::size_t> of_place;
-    std::set<std::string> numbered;  // as the simulation numbers lines: by place and text
+    std::set<std::string> numbered;  // numbering of the simulation: by place and text
     std::size_t before = 0;
     for (std::size_t k = 0; k < read.motion.steps.size(); ++k) {
       const pipeline::MotionStep& step = read.motion.steps[k];
@@ -43,7 +43,7 @@ class Lines {
       if (step.is_move()) lines_[place->second].moves.push_back(k);
       of_step_.push_back(place->second);
       if (step.is_move())
-        before = place->second;  // what happens while the robot stands was set going by a move
+        before = place->second;  // the damage while the robot stands is added to the previous move
       const std::size_t number = numbered.size();
       if (numbered.insert(key + ":" + step.text).second && number < line_damage.size())
         lines_[before].cost += line_damage[number];
@@ -94,7 +94,7 @@ class Ways {
     std::set<std::size_t> every;
     for (std::size_t k = 0; k < chain_of_.size(); ++k)
       if (read_.motion.steps[k].is_move()) every.insert(lines_.of_step(k));
-    const Language language = read_.language;  // what its lines can say
+    const Language language = read_.language;  // the language determines which changes a line can express
     const bool points = language == Language::rapid || language == Language::krl;
     const bool turns = points || language == Language::fanuc;
     for (const pipeline::NamedTurn& turn : turns_)
@@ -115,7 +115,7 @@ class Ways {
     return s.is_move() && !leads_tool(s.path);
   }
 
-  /// A chain begins at each joint move; the first step, too.
+  /// Numbers the chains. A chain begins at each joint move and at the first step.
   void find_chains() {
     std::size_t chain = 0;
     for (std::size_t k = 0; k < read_.motion.steps.size(); ++k) {
@@ -124,7 +124,7 @@ class Ways {
     }
   }
 
-  /// Lines of all chains that hold one of these lines; a line that runs in several chains brings them all.
+  /// Returns the lines of all chains that contain one of these lines; a line in several chains adds all of them.
   std::set<std::size_t> whole_chains(std::set<std::size_t> lines) const {
     for (std::size_t before = 0; before != lines.size();) {
       before = lines.size();
@@ -142,7 +142,7 @@ class Ways {
     return list.front();
   }
 
-  /// The same places by another turn of wrist or arm; absent: some line has none, or cannot say so.
+  /// Returns the same tool poses with another configuration of wrist or arm; absent: a line has none, or cannot express it.
   std::optional<ProgramWay> turned(const pipeline::NamedTurn& turn, const std::set<std::size_t>& from,
                                    bool all) const {
     const std::set<std::size_t> lines = whole_chains(from);
@@ -159,7 +159,7 @@ class Ways {
         change = std::move(here);
       }
       if (!change || (!change->configuration && change->joints.empty()))
-        continue;  // a path whose end says nothing
+        continue;  // the end of the path states no configuration
       any = true;
       way.changes.push_back(*std::move(change));
     }
@@ -181,16 +181,16 @@ class Ways {
     if (!programmed) return {};
     using Kind = ArmConfiguration::Kind;
     const bool watched = programmed->kind == Kind::abb || programmed->kind == Kind::fanuc;
-    if (leads_tool(step.path) && !watched) return change;  // the arm goes on as it came
+    if (leads_tool(step.path) && !watched) return change;  // the configuration follows from the begin of the path
     if (!watched && programmed->kind != Kind::kuka) return {};
     change.configuration =
         arm_.configuration(Eigen::Map<const Eigen::VectorXd>(other->data(), 6), programmed->kind);
     return change;
   }
 
-  /// Arm and wrist one after the other.
+  /// Returns a joint move through a point, so that arm and wrist move one after the other.
   std::optional<ProgramWay> by_a_point(std::size_t line, bool arm_first) const {
-    constexpr double none = degree;  // a part that moves less has no way of its own
+    constexpr double none = degree;  // smallest movement of a part
     std::optional<std::vector<double>> point;
     for (const std::size_t k : lines_.all()[line].moves) {
       const std::size_t from = move_before(k);
@@ -218,7 +218,7 @@ class Ways {
     return step;
   }
 
-  /// A weld's or a bead's speed is the process': RAPID's Arc and Disp instructions.
+  /// Returns whether the process determines the speed, as in a weld or a bead: RAPID's Arc and Disp instructions.
   static bool is_process(const std::string& text) {
     const std::size_t colon = text.rfind(": ");
     const std::string line = text.substr(colon == std::string::npos ? 0 : colon + 2);
@@ -242,7 +242,7 @@ class Ways {
   const Lines lines_;
   const InverseKinematics arm_;
   const std::vector<pipeline::NamedTurn> turns_;
-  std::vector<Eigen::VectorXd> joints_;  // (step) at its end; empty: no move
+  std::vector<Eigen::VectorXd> joints_;  // (step) joint angles at its end; empty: no move
   std::vector<std::size_t> chain_of_;    // (step)
 };
 

@@ -6,7 +6,7 @@
 namespace dresslife::sim {
 namespace {
 
-/// (line) What each line costs: the damage of the cycles that it closes and of those that it opens.
+/// Returns, (line), the damage of the cycles that a line closes plus that of the cycles that it opens.
 std::vector<double> cost_of_lines(const std::filesystem::path& life_file) {
   const pipeline::FileReader life(life_file, pipeline::life_format());
   std::vector<double> cost = life.read<double>("/program/damage");

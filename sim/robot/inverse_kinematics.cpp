@@ -13,24 +13,24 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double alignment =
-    1e-6;  // of axes that a closed form takes as parallel, perpendicular or meeting [1, m]
-/// The same where figures were rounded to two decimals (1.57 for a right angle): the closed form gives
+    1e-6;  // tolerance with which a closed form takes axes as parallel, perpendicular or intersecting [1, m]
+/// The same tolerance for numbers with two decimals (1.57 for a right angle), where the closed form only gives
 /// starts.
 constexpr double rounded_alignment = 5e-3;
 constexpr double no_direction =
-    1e-3;  // of singular values: an axis must move a thousand times as fast as the flange
+    1e-3;  // of the singular values: an axis would move a thousand times as fast as the flange
 constexpr double singular_wrist = 1e-9;  // sine between axes 4 and 6 below which q4 is free
 constexpr double out_of_reach = 1e-9;    // of a cosine: rounding at a stretched arm
 
 Quaternion turn(const Vector3& axis, double angle) { return Quaternion(Eigen::AngleAxisd(angle, axis)); }
 
-/// Angle of a turn about `axis` that takes `from` to `to`, both seen along the axis.
+/// Returns the angle of the rotation about `axis` from `from` to `to`, both projected along the axis.
 double turned(const Vector3& axis, const Vector3& from, const Vector3& to) {
   const Vector3 a = from - axis.dot(from) * axis, b = to - axis.dot(to) * axis;
   return std::atan2(axis.dot(a.cross(b)), a.dot(b));
 }
 
-/// q with a cos q + b sin q = c: none, or two (equal ones at the edge of reach).
+/// Returns q with a cos q + b sin q = c: none, or two (equal at the limit of reach).
 std::vector<double> angles(double a, double b, double c) {
   const double radius = std::hypot(a, b);
   if (radius < 1e-12) return {};
@@ -62,7 +62,7 @@ Frame InverseKinematics::flange(const VectorXd& axes) const {
   return to_program_ * frames.back() * flange_in_link_;
 }
 
-/// Where the flange would be if the robot stood where its external axes are 0.
+/// Returns the pose of the flange if all external axes were at 0.
 Frame InverseKinematics::on_tracks(const Frame& flange, const VectorXd& near) const {
   if (externals_ == 0 || near.size() != kinematics_.axes()) return flange;
   std::vector<Frame> frames(static_cast<std::size_t>(kinematics_.links()));
@@ -90,7 +90,7 @@ void InverseKinematics::check_geometry() {
     upper[i] = robot_.joints[i].upper;
   }
   numerical_.emplace(point_, axis_, zero_, lower, upper);
-  // The wrist centre: on axis 5 where axis 4 comes nearest; axis 6 must pass through it, too.
+  // The wrist centre lies on axis 5, where axis 4 is nearest; axis 6 must also pass through it.
   const Vector3 across = axis_[3].cross(axis_[4]);
   wrist_ = point_[4];
   if (across.norm() > rounded_alignment)
@@ -127,7 +127,7 @@ std::vector<VectorXd> InverseKinematics::arms(const Frame& flange, const VectorX
       for (double& angle : *arm) angle = wrapped(angle);
       found.push_back(*arm);
     }
-  if (auto arm = found.empty() ? numerical_->solve(flange, start) : std::nullopt) {  // at a singular wrist
+  if (auto arm = found.empty() ? numerical_->solve(flange, start) : std::nullopt) {  // e.g. at a singular wrist
     for (double& angle : *arm) angle = wrapped(angle);
     found.push_back(*arm);
   }
@@ -136,11 +136,12 @@ std::vector<VectorXd> InverseKinematics::arms(const Frame& flange, const VectorX
 
 std::vector<VectorXd> InverseKinematics::closed_arms(const Frame& flange, const VectorXd& near) const {
   std::vector<VectorXd> found;
-  // The flange's frame carries the wrist centre with it.
+  // The flange's frame determines the wrist centre.
   const Vector3 wrist = flange.point(inverse(zero_).point(wrist_));
   const Vector3 w1 = axis_[0], w2 = axis_[1], w3 = axis_[2];
   const Vector3 from = wrist - point_[0];
-  // (K1): w2.R1(-q) v = w2.(v cos q + (v x w1) sin q) for the part of v across w1; along w1 w2 has nothing.
+  // (K1): w2.R1(-q) v = w2.(v cos q + (v x w1) sin q) for the part of v perpendicular to w1; the part along w1 has no share in
+  // w2.
   const double beside = w2.dot(wrist_ - point_[0]);
   for (double q1 : angles(w2.dot(from), w2.dot(from.cross(w1)), beside)) {
     const Vector3 in_plane = point_[0] + turn(w1, -q1) * from;  // W' of (K2)
@@ -242,8 +243,8 @@ std::vector<VectorXd> InverseKinematics::with_turns(const VectorXd& arm) const {
   return list;
 }
 
-/// "joint_4 at 361.2 deg, 11.2 deg above its 350"; turns: by how many an axis may be turned to get nearer to its limits.
-/// most: gets the largest excess [rad].
+/// Returns "joint_4 at 361.2 deg, 11.2 deg above its 350". turns: number of full turns by which an axis may be rotated toward its
+/// limits. most: receives the largest excess [rad].
 std::string InverseKinematics::beyond_limits(const VectorXd& arm, int turns, double* most) const {
   std::string words;
   for (long axis = 0; axis < 6; ++axis) {
@@ -262,7 +263,7 @@ std::string InverseKinematics::beyond_limits(const VectorXd& arm, int turns, dou
   return words;
 }
 
-/// Of the arm that needs least.
+/// Returns the text of the arm with the least excess.
 std::string InverseKinematics::least_beyond(const std::vector<VectorXd>& arms) const {
   std::string words;
   double least = INFINITY;
@@ -274,7 +275,8 @@ std::string InverseKinematics::least_beyond(const std::vector<VectorXd>& arms) c
   return words;
 }
 
-/// Angles near a boundary of a quadrant or a sign may be meant on either side of it: written with few digits.
+/// Returns whether the angles match. Angles near a boundary of a quadrant or sign match on either side, because programs have few
+/// digits.
 bool InverseKinematics::matches(const VectorXd& joints, const ArmConfiguration& wanted,
                                 bool with_sides) const {
   constexpr double blur = 1e-3;  // [rad]
@@ -366,8 +368,8 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
   bool within_limits = false;
   for (bool with_sides : {true, false}) {
     if (best || (!with_sides && configuration.kind != ArmConfiguration::Kind::abb))
-      break;            // old ABB programs leave cfx 0
-    int different = 0;  // arms of this configuration
+      break;            // cfx is 0 in old ABB programs
+    int different = 0;  // number of arms with this configuration
     for (const VectorXd& arm : reaching) {
       bool fits = false;
       for (const VectorXd& joints : with_turns(arm)) {
@@ -377,7 +379,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
           continue;
         }
         fits = true;
-        // The slowest axis' time, and a little of every axis' so that none turns round for nothing.
+        // The time of the slowest axis, plus a small share of every axis' time, so that no axis makes an unnecessary turn.
         constexpr double share_of_others = 1e-3;
         double time = 0, sum = 0;
         for (long axis = 0; axis < 6; ++axis) {

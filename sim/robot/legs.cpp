@@ -18,23 +18,23 @@ using Eigen::VectorXd;
 using pipeline::MotionStep;
 using pipeline::PathKind;
 
-constexpr double point_distance = 0.01;      // largest between points of a path [m]
-constexpr double point_turn = 0.035;         // [rad]
-constexpr double point_change = 0.1;         // of any joint [rad]
-constexpr double shortest = 1e-4;            // share of a path below which it is not cut further
-constexpr double jump = 0.5;                 // of a joint between such points: no continuous path [rad]
-constexpr std::size_t most_moves = 200'000;  // in one repeat: at ten a second five hours
-constexpr int samples = 24;                  // of a joint move, for the tool's speed on it
+constexpr double point_distance = 0.01;      // largest distance between points of a path [m]
+constexpr double point_turn = 0.035;         // largest rotation between points [rad]
+constexpr double point_change = 0.1;         // largest change of any joint between points [rad]
+constexpr double shortest = 1e-4;            // share of a path that is not divided further
+constexpr double jump = 0.5;                 // change of a joint between such points at which the path is not continuous [rad]
+constexpr std::size_t most_moves = 200'000;  // in one repeat: five hours at ten moves per second
+constexpr int samples = 24;                  // points on a joint move for the tool's speed
 
-/// A line of the program on its way to legs.
+/// A line of the program during its conversion to legs.
 struct Move {
   const MotionStep* step = nullptr;
   int line = 0;
-  double dwell = 0;  // [s]; above 0: no move
+  double dwell = 0;  // [s]; above 0: this is no move
   VectorXd from, to;
   Tooling tooling;
-  std::optional<ToolPath> path;           // of a linear or circular move
-  double cut_before = 0, cut_behind = 0;  // shares of the path that the corners' curves replace
+  std::optional<ToolPath> path;           // path of a linear or circular move
+  double cut_before = 0, cut_behind = 0;  // shares of the path that the curves of the corners replace
   int chain = 0;                          // Leg::path
 
   bool is_path() const { return path.has_value(); }
@@ -72,7 +72,7 @@ class Layout {
   // ---- lines
   // ------------------------------------------------------------------------------------------------
 
-  /// Names every line once, depth first, and checks its waypoint.
+  /// Numbers every line once, depth first, and checks its waypoint.
   void number(const std::vector<MotionStep>& steps, const std::string& block) {
     for (const MotionStep& step : steps) {
       if (step.repeat > 0) {
@@ -83,7 +83,7 @@ class Layout {
       const int line = static_cast<int>(made_.texts.size());
       const std::string text = block + (step.text.empty() ? fmt::format("{} {}", kind, line + 1) : step.text);
       if (!step.joints.empty()) collect_limits(step, text);
-      // A program's loop runs the same line again.
+      // a loop of the program runs the same line again
       const auto [known, added] = line_of_.try_emplace(
           step.where.line > 0 && step.where.column > 0
               ? fmt::format("{}:{}:{}:{}", step.where.file, step.where.line, step.where.column, text)
@@ -165,7 +165,7 @@ class Layout {
     return false;
   }
 
-  /// Targets that are refused for one reason are one problem.
+  /// Reports targets that are refused for one reason as one problem.
   void throw_if_any() {
     for (const Refused& refused : refused_) {
       constexpr std::size_t most = 5;
@@ -185,14 +185,14 @@ class Layout {
     problems_.throw_if_any();
   }
 
-  /// All axes near `joints`, with the external axes at the share u of a move's way.
+  /// Returns all axes: `joints`, and the external axes at the share u of a move.
   VectorXd at_share(const Move& move, double u, VectorXd joints) const {
     const long external = static_cast<long>(axes_.size() - robot_.axes());
     joints.tail(external) = (1 - u) * move.from.tail(external) + u * move.to.tail(external);
     return joints;
   }
 
-  /// Where the external axes are at the end of a step; those that it does not name stay.
+  /// Returns the external axes at the end of a step; an axis that the step does not name keeps its value.
   VectorXd externals(const MotionStep& step, int line) {
     const long robot_axes = static_cast<long>(robot_.axes());
     const long count = static_cast<long>(axes_.size()) - robot_axes;
@@ -210,7 +210,7 @@ class Layout {
     return values;
   }
 
-  /// All axes: the robot's given ones, the external ones.
+  /// Joins the robot's axes and the external axes.
   static VectorXd joined(const VectorXd& joints, const VectorXd& external) {
     VectorXd whole(joints.size() + external.size());
     whole << joints, external;
@@ -236,11 +236,11 @@ class Layout {
       return;
     }
     made_.targets.push_back(move.to);
-    if (place_.size() == 0) {  // the robot starts here
+    if (place_.size() == 0) {  // start of the robot
       place_ = move.to;
       return;
     }
-    if ((move.to - move.from).lpNorm<Eigen::Infinity>() == 0) {  // to where the robot is: at most a stop
+    if ((move.to - move.from).lpNorm<Eigen::Infinity>() == 0) {  // the robot is already at the target: at most a stop
       if (zone_is_stop(step) && !moves_.empty()) stops_.push_back(moves_.size() - 1);
       return;
     }
@@ -248,7 +248,7 @@ class Layout {
     moves_.push_back(std::move(move));
   }
 
-  /// Controllers stop at a circular move without a circle.
+  /// Makes a move circular. Without a circle this is a problem, because controllers stop there.
   void bend(const MotionStep& step, int line, Move& move) {
     const auto& via = step.via_position;
     if (via.empty() || move.path->bend({via[0], via[1], via[2]})) return;
@@ -259,7 +259,7 @@ class Layout {
                   "correct the point on the way or the end, or write a straight move");
   }
 
-  /// Where the tool is at a step's circle_joints, with the external axes as at the move's end.
+  /// Returns the position of the tool at a step's circle_joints, with the external axes of the move's end.
   Vector3 circle_point(const MotionStep& step, const Tooling& tooling, const VectorXd& external) const {
     const auto& angles = step.circle_joints;
     return tooling
@@ -267,7 +267,7 @@ class Layout {
         .position;
   }
 
-  /// The end of a move to a pose; false: not reached.
+  /// Finds the end of a move to a pose. Returns false if it cannot be reached.
   bool reach(const MotionStep& step, int line, const VectorXd& external, Move& move) {
     const auto& p = step.position;
     const auto& q = step.quaternion;
@@ -281,7 +281,7 @@ class Layout {
     VectorXd near = joined(VectorXd::Zero(static_cast<long>(robot_.axes())), external);
     if (place_.size() > 0)
       near.head(place_.size() - external.size()) = place_.head(place_.size() - external.size());
-    // On a path the arm cannot change; its own continuation counts (lay_path).
+    // On a path the configuration cannot change; the end is found by following the path (lay_path).
     const auto joints =
         arm_.solve(move.tooling.flange(target), path ? ArmConfiguration{} : *configuration, near, reason);
     if (!joints) return refuse(step, line, reason);
@@ -298,7 +298,7 @@ class Layout {
     return true;
   }
 
-  /// The joints at the end of a path, by going along it.
+  /// Finds the joint angles at the end of a path by following it.
   void follow(Move& move) {
     VectorXd joints = move.from;
     double u = 0;
@@ -311,7 +311,7 @@ class Layout {
     move.to = joints;
   }
 
-  /// The next point of a path behind u, near enough for a straight leg; absent: no arm goes on.
+  /// Returns the next point of a path behind u, near enough for a straight leg; absent: no arm continues the path.
   std::optional<std::pair<double, VectorXd>> advance(const Move& move, double u, double end,
                                                      const VectorXd& joints) {
     const ToolPath& path = *move.path;
@@ -353,12 +353,12 @@ class Layout {
            zone_is_stop(*moves_[k].step) || std::find(stops_.begin(), stops_.end(), k) != stops_.end();
   }
 
-  /// The tool's zone at the end of move k [m].
+  /// Returns the tool's zone at the end of move k [m].
   double tool_zone(std::size_t k) const {
     const MotionStep& step = *moves_[k].step;
     if (step.tool_zone) return *step.tool_zone;
     if (!step.stop_zone) return 0;
-    // The way to a stop from the move's speed with what its axes can brake, v^2/(2 a).
+    // Braking distance from the move's speed with the acceleration of its axes, v^2/(2 a).
     const Move& move = moves_[k];
     const double way = tool_way(move);
     const double brake = axis_limit(move.to - move.from, accelerations_) * way;
@@ -374,7 +374,7 @@ class Layout {
                     1e-6);
   }
 
-  /// Largest rate of a share of `way` that no axis' limit exceeds.
+  /// Returns the largest rate of a share of `way` at which no axis exceeds its limit.
   static double axis_limit(const VectorXd& way, const VectorXd& limits) {
     double rate = INFINITY;
     for (long i = 0; i < way.size(); ++i)
@@ -382,7 +382,7 @@ class Layout {
     return rate;
   }
 
-  /// By the controller's speed override, which scales speeds and leaves accelerations and waits.
+  /// Returns the controller's speed override, which scales speeds but not accelerations and waits.
   double overridden() const { return motion_.override_percent / 100; }
 
   VectorXd speeds(const MotionStep& step) const {
@@ -394,7 +394,7 @@ class Layout {
     return limits * step.speed_percent.value_or(motion_.speed_percent) / 100;
   }
 
-  /// Numbers the chains of moves from stop to stop that hold a path.
+  /// Numbers the chains of moves from stop to stop that contain a path.
   void find_paths() {
     int paths = 0;
     for (std::size_t begin = 0, end; begin < moves_.size(); begin = end) {
@@ -422,7 +422,7 @@ class Layout {
   // ---- legs
   // -------------------------------------------------------------------------------------------------
 
-  /// How a leg is driven: limits of its move.
+  /// Limits of a leg, from its move.
   struct Limits {
     const MotionStep* step;
     int line;
@@ -447,7 +447,7 @@ class Layout {
     leg.jerk = step.jerk_percent.value_or(100) / 100;
     if (distance > 0) leg.tool_share = distance / length;
     if (chain_ == 0 && motion_.jerk) {
-      leg.acceleration /= 1 - motion_.ramp_percent / 100;  // a of A in (M2)
+      leg.acceleration /= 1 - motion_.ramp_percent / 100;  // acceleration a, from A in (M2)
       leg.jerk_limit = leg.jerk * axis_limit(leg.direction, jerks_);
     } else if (chain_ == 0) {
       std::tie(leg.ramp, leg.slowing) = ramp_of(motion_.ramp_percent / 100, leg.jerk);
@@ -506,7 +506,7 @@ class Layout {
     }
   }
 
-  /// The tool's way and turn along a joint move are those of its fastest part, so that no part is too fast.
+  /// Uses for a joint move the tool's distance and rotation in its fastest part, so that no part is too fast.
   void lay_joint(const Move& move, std::size_t k) {
     const VectorXd begin = move.from + move.cut_before * (move.to - move.from),
                    end = move.to - move.cut_behind * (move.to - move.from);
@@ -542,11 +542,11 @@ class Layout {
     }
   }
 
-  /// From rest to rest in the time T: L/v + tau(v) = T; the time L/v at the speed v that this takes.
+  /// Returns the time L/v at the speed v of a move from rest to rest in the time T: L/v + tau(v) = T.
   double cruise_time(const VectorXd& way, double time) const {
     const double length = way.lpNorm<Eigen::Infinity>();
     const double acceleration = axis_limit(way, accelerations_) * length;
-    if (motion_.jerk && length > 0) {  // L/v = T - tau(v) from below
+    if (motion_.jerk && length > 0) {  // L/v = T - tau(v), iterated from below
       Leg leg;
       leg.acceleration = acceleration / (1 - motion_.ramp_percent / 100);
       leg.jerk_limit = axis_limit(way, jerks_) * length;
@@ -555,17 +555,17 @@ class Layout {
       return std::max(0.0, left);
     }
     const double root = time * time - 4 * length / acceleration;
-    if (root < 0) return 0;  // as fast as the axes can
+    if (root < 0) return 0;  // the axes cannot be faster
     return length / ((time - std::sqrt(root)) * acceleration / 2);
   }
 
-  /// (M6): from where the path of move k was cut to where that of the next one goes on.
+  /// Adds a corner (M6): from the end of the cut path of move k to the begin of the next cut path.
   void lay_corner(std::size_t k) {
     const Move &move = moves_[k], &next = moves_[k + 1];
     const VectorXd begin = last_, corner = move.to;
     const bool straight = move.is_path() && next.is_path() && move.path->same_tooling(*next.path);
     VectorXd end = next.from + next.cut_before * (next.to - next.from);
-    if (next.is_path() && !arm_.without_closed_form().empty()) {  // on the branch that the corner is on
+    if (next.is_path() && !arm_.without_closed_form().empty()) {  // follow the next path on the branch of the corner
       end = corner;
       for (double u = 0; u < next.cut_before;) {
         const auto reached = advance(next, u, next.cut_before, end);
@@ -592,7 +592,7 @@ class Layout {
         std::string reason;
         const Frame pose = bezier(move.path->pose(1 - move.cut_behind), next.path->pose(0),
                                   next.path->pose(next.cut_before), u);
-        VectorXd near = joints;  // external axes change in the same way
+        VectorXd near = joints;  // external axes follow the same curve
         const long external = near.size() - static_cast<long>(robot_.axes());
         near.tail(external) = target.tail(external);
         const auto reached = arm_.follow(next.path->tooling().flange(pose), near, reason);
@@ -619,25 +619,25 @@ class Layout {
   InverseKinematics arm_;
   std::map<std::string, const pipeline::MotionFrame*> tools_, objects_;
   std::map<std::string, int> line_of_;
-  std::vector<int> numbers_;  // of the lines, depth first
+  std::vector<int> numbers_;  // numbers of the lines, depth first
   std::vector<Move> moves_;
-  std::vector<std::size_t> stops_;  // moves behind which the robot stops although their zone would not
+  std::vector<std::size_t> stops_;  // moves at whose end the robot stops in spite of their zone
   struct Refused {
-    pipeline::Where where;  // of the first target
+    pipeline::Where where;  // place of the first target
     std::string text, reason, remedy;
     std::vector<pipeline::Where> further;
   };
   std::vector<Refused> refused_;
   Problems problems_;
   VectorXd place_, last_;
-  int chain_ = 0;  // of the move being laid
+  int chain_ = 0;  // chain of the present move
   Legs made_;
 };
 
 }  // namespace
 
 std::pair<double, double> ramp_of(double ramp, double jerk) {
-  const double constant = jerk * (1 - ramp);  // over the ramp it is what the ramps leave between them, over one of them
+  const double constant = jerk * (1 - ramp);  // constant / ramp = (1 - r')/r', with r' of (M11)
   if (constant >= ramp) return {ramp / (ramp + constant), jerk / (ramp + constant)};
   return {0.5, 0.5 * std::sqrt(constant / ramp) / (1 - ramp)};
 }

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-// With ramps of the share r. Largest sigma': 1/(1 - r).
+// sigma' for ramps with the share r; its largest value is 1/(1 - r).
 double slope(double r, double u) { return std::min({u / r, 1.0, (1 - u) / r}) / (1 - r); }
 
 double rise(double r, double u) {
@@ -23,14 +23,14 @@ double rise(double r, double u) {
   return (u - r / 2) / (1 - r);
 }
 
-/// S(u), the integral of sigma from 0. Above the middle by the symmetry sigma(u) = 1 - sigma(1 - u).
+/// Returns S(u), the integral of sigma from 0. Above the middle it uses the symmetry sigma(u) = 1 - sigma(1 - u).
 double integrated_rise(double r, double u) {
   if (u < r) return u * u * u / (6 * r * (1 - r));
   if (u > 1 - r) return u - 0.5 + integrated_rise(r, 1 - u);
   return ((u - r) * u / 2 + r * r / 6) / (1 - r);
 }
 
-/// A_i (M2) of every axis [rad/s2].
+/// Returns A_i (M2) of every axis [rad/s2].
 VectorXd mean_accelerations(const pipeline::Motion& motion, const pipeline::Robot& robot) {
   const std::vector<Axis> axes = axes_of(robot);
   VectorXd accelerations(static_cast<long>(axes.size()));
@@ -39,28 +39,28 @@ VectorXd mean_accelerations(const pipeline::Motion& motion, const pipeline::Robo
   return accelerations;
 }
 
-/// The highest speed that a leg with a jerk limit reaches over this length between two speeds (M13): by bisection,
-/// because the way grows with it.
+/// Returns the highest speed that a leg with a jerk limit reaches over this length between two speeds (M13). Uses bisection,
+/// because the length increases with the speed.
 double reached_speed(const Leg& leg, double length, double v0, double v1) {
   const auto way = [&](double top) {
     return (v0 + top) / 2 * change_on(leg, top - v0).duration + (top + v1) / 2 * change_on(leg, top - v1).duration;
   };
   double low = std::max(v0, v1), high = std::max(leg.cruise, low);
   if (way(high) <= length) return high;
-  for (int i = 0; i < 50; ++i) {  // 2^-50 of the speed
+  for (int i = 0; i < 50; ++i) {  // relative error 2^-50
     const double middle = (low + high) / 2;
     (way(middle) <= length ? low : high) = middle;
   }
   return low;
 }
 
-/// How leg k goes over into leg k + 1.
+/// The transition from leg k to leg k + 1.
 struct Corner {
   double limit = 0;                                    // w [rad/s]
   double in = 0, out = 0;                              // speeds v, v' [rad/s]
   double duration = 0;                                 // tau [s]
   double ramp = 0;                                     // r
-  double before() const { return in * duration / 2; }  // where the blend begins and ends, from the waypoint
+  double before() const { return in * duration / 2; }  // begin and end of the blend, as distances from the waypoint
   double after() const { return out * duration / 2; }
 };
 
@@ -68,7 +68,7 @@ struct Corner {
 
 class CornerSpeeds {
  public:
-  /// jerks: J_i of (M13), and accelerations a_i then; empty: A_i.
+  /// jerks: J_i of (M13), then accelerations are a_i; empty: accelerations are A_i.
   CornerSpeeds(const std::vector<Leg>& legs, const VectorXd& accelerations, const VectorXd& jerks)
       : legs_(legs), accelerations_(accelerations), jerks_(jerks), corners_(legs.size()) {
     for (size_t k = 0; k + 1 < legs.size(); ++k) {
@@ -80,7 +80,7 @@ class CornerSpeeds {
     }
   }
 
-  /// Corner at the end of leg k; standing still before the first leg (k = -1) and after the last.
+  /// Returns the corner at the end of leg k; before the first leg (k = -1) and after the last the robot stands still.
   const Corner& at_end(int k) const { return k < 0 ? still_ : corners_[k]; }
 
  private:
@@ -105,13 +105,13 @@ class CornerSpeeds {
            c.after() <= std::min(legs_[k].zone_behind, legs_[k + 1].length / 2);
   }
 
-  /// The fastest corner up to `limit` that is good, by bisection; a stop when none is found.
+  /// Returns the fastest corner up to `limit` for which `good` is true, by bisection; a stop if none is found.
   template <class Good>
   Corner slowed(size_t k, double limit, const Good& good) const {
     if (const Corner fastest = corner(k, limit); good(fastest)) return fastest;
     Corner best;
     double low = 0, high = limit;
-    for (int i = 0; i < 50; ++i) {  // 2^-50 of the speed
+    for (int i = 0; i < 50; ++i) {  // relative error 2^-50
       const Corner middle = corner(k, (low + high) / 2);
       (good(middle) ? low : high) = middle.limit;
       if (good(middle)) best = middle;
@@ -126,11 +126,12 @@ class CornerSpeeds {
     return std::abs(v1 * v1 - v0 * v0) <= 2 * leg.acceleration * (leg.length - before - after);
   }
 
-  /// Slows the faster end of every leg that is too short to change speed. False when all are long enough.
+  /// Reduces the speed at the faster end of every leg that is too short to change speed. Returns false if all legs are long
+  /// enough.
   bool sweep() {
     bool changed = false;
     const int count = static_cast<int>(legs_.size());
-    for (int pass = 0; pass < 2; ++pass)  // forward: leaving too fast; backward: entering too fast
+    for (int pass = 0; pass < 2; ++pass)  // forward: too fast at the end of a leg; backward: too fast at its begin
       for (int i = 0; i < count; ++i) changed |= correct(pass == 0 ? i : count - 1 - i);
     return changed;
   }
@@ -139,7 +140,7 @@ class CornerSpeeds {
     if (legs_[k].dwell > 0) return false;
     const Corner entry = at_end(k - 1), exit = at_end(k);
     if (long_enough(k, entry.out, entry.after(), exit.in, exit.before())) return false;
-    // Slower by a thousandth at least, so that the sweeps end.
+    // At least a thousandth slower, so that the sweeps terminate.
     if (exit.in > entry.out) {
       corners_[k] = slowed(k, 0.999 * exit.limit, [&](const Corner& c) {
         return fits(k, c) &&
@@ -180,7 +181,7 @@ class Pieces {
     std::move(more.begin(), more.end(), std::back_inserter(pieces));
   }
 
-  /// The part of a leg between its blends: up to the top speed, along, and down (M3).
+  /// Adds the part of a leg between its blends: acceleration to the top speed, constant speed, deceleration (M3).
   void add_leg(const Leg& leg, const Corner& entry, const Corner& exit) {
     const double v0 = entry.out, v1 = exit.in, twice = 2 * leg.acceleration;
     const double length = leg.length - entry.after() - exit.before();
@@ -210,7 +211,7 @@ class Pieces {
 
 namespace {
 
-/// Legs none of which is part of a path, one by one.
+/// Adds legs that belong to no path, one by one.
 void add_legs(const std::vector<Leg>& legs, const VectorXd& accelerations, const VectorXd& jerks, Pieces& laid) {
   const CornerSpeeds corners(legs, accelerations, jerks);
   for (int k = 0; k < static_cast<int>(legs.size()); ++k) {
@@ -225,7 +226,7 @@ void add_legs(const std::vector<Leg>& legs, const VectorXd& accelerations, const
   }
 }
 
-/// (M12) The rows of a recording.
+/// Returns the motion through the rows of a recording (M12).
 std::vector<MotionPiece> spline_pieces(const pipeline::Motion& motion, const std::vector<VectorXd>& rows) {
   std::vector<double> times{0};
   for (std::size_t k = 1; k < motion.steps.size(); ++k) {
@@ -261,12 +262,12 @@ std::vector<MotionPiece> spline_pieces(const pipeline::Motion& motion, const std
   return pieces;
 }
 
-/// (M10) h of a chain: the acceleration of the tool builds up within 2 h.
+/// Returns h (M10) of a chain: the acceleration of the tool rises within 2 h.
 double smoothing_of(const pipeline::Motion& motion, const std::vector<Leg>& legs) {
   if (!motion.path_jerk) return motion.path_smoothing;
   double most = 0;  // acceleration of the tool [m/s2]
   for (const Leg& leg : legs) most = std::max(most, leg.tool_share * leg.acceleration);
-  constexpr double shortest = 1e-3;  // the least motion.path_smoothing_ms
+  constexpr double shortest = 1e-3;  // smallest value of motion.path_smoothing_ms
   return most > 0 ? std::max(shortest, most / (2 * *motion.path_jerk)) : motion.path_smoothing;
 }
 
@@ -302,7 +303,7 @@ JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& 
     begin = end;
   }
   duration_ = laid.time;
-  // The stand at the end (its duration does not matter); also the whole of a program that goes nowhere.
+  // The standstill at the end, of any duration; a program without motion consists of it.
   const int last = static_cast<int>(program.texts.size()) - 1;
   const VectorXd rest = VectorXd::Zero(program.place.size());
   laid.pieces.push_back({duration_, 1, program.place, rest, rest, last, last});
@@ -331,7 +332,7 @@ const MotionPiece& JointMotion::piece_at(double time) const {
 
 namespace {
 
-/// u of (M1).
+/// Returns u of (M1).
 double fraction(const MotionPiece& piece, double time) {
   return std::clamp((time - piece.start) / piece.duration, 0.0, 1.0);
 }

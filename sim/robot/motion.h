@@ -1,32 +1,32 @@
-// The time law of a joint program: where every axis is at any time, within its speed and acceleration limits.
+// The time law of a joint program: position of every axis at any time, within its limits of speed and acceleration.
 //
 // A program is a chain of straight legs in joint space. Leg k has direction D_k (1 for its largest axis, so
-// its length L_k and speed are those of that axis) and everything that happens is a change of velocity:
-// (M1) q'(t) = V0 + (V1 - V0) sigma(u),   q(t) = q0 + tau (V0 u + (V1 - V0) S(u)),   u = (t - t0)/tau,
-// with sigma rising from 0 to 1 with a trapezoidal acceleration: ramps of the fraction r of tau at both ends
-// (motion.ramp_percent; (M13) in legs.h), so that acceleration is continuous and jerk bounded. The largest is
+// its length L_k and speed are those of this axis). The motion consists of changes of velocity:
+// (M1) q'(t) = V0 + (V1 - V0) sigma(u),   q(t) = q0 + tau (V0 u + (V1 - V0) S(u)),   u = (t - t0)/tau.
+// sigma rises from 0 to 1 with a trapezoidal acceleration: ramps with the fraction r of tau at both ends
+// (motion.ramp_percent; (M13) in legs.h), so acceleration is continuous and jerk is bounded. The largest acceleration is
 // |V1 - V0| / (tau (1 - r)), so
 // (M2) tau = max_i |V1_i - V0_i| / A_i,   A_i = (1 - r) a_i.
-// Since S(1) = 1/2, a change between speeds v0 and v1 along a leg takes (v0 + v1) tau/2: all closed forms of
-// the trapezoidal law hold with A for the acceleration. With cruising speed c = fraction min_i v_i/|D_i|,
-// A = min_i A_i/|D_i|, and speeds v0, v1 where the leg is entered and left, the top speed is
+// Because S(1) = 1/2, a change between speeds v0 and v1 along a leg has the length (v0 + v1) tau/2: all closed forms of
+// the trapezoidal law hold with A as acceleration. With cruising speed c = fraction min_i v_i/|D_i|,
+// A = min_i A_i/|D_i|, and speeds v0, v1 at begin and end of the leg, the top speed is
 // (M3) v = min(c, sqrt((2 A L + v0^2 + v1^2)/2)).
 //
 // Zone blending: the velocity changes from V0 = v D_k to V1 = v' D_{k+1} by (M1) from tau/2 before the
-// waypoint to tau/2 after it, as if both legs were driven without slowing down.
-// (M4) The path leaves leg k at v tau/2 <= zone before the waypoint and joins leg k+1 as far behind it. In
-//      between it lies in the triangle of these three points (velocities are convex combinations), so no axis
+// waypoint to tau/2 after it, where tau/2 is measured at the unchanged speeds of both legs.
+// (M4) The path leaves leg k at v tau/2 <= zone before the waypoint and joins leg k+1 at v' tau/2 behind it. Between
+//      them it lies in the triangle of these three points (velocities are convex combinations), so no axis
 //      deviates by more than the zone, nor by more than half a leg.
 // (M5) Speeds v, v' = min(c_k, w), min(c_{k+1}, w) with the largest w for which (M4) holds and both legs are
-//      long enough to change speed; found corner by corner and swept until all legs agree. w = 0 (zone 0, a
+//      long enough to change speed; found for each corner and repeated in sweeps until all legs agree. w = 0 (zone 0, a
 //      dwell, the ends) is a full stop.
 //
-// A chain of moves without a stop that holds a tool path is laid out as a whole (legs.h: M6, M7;
-// path_motion.h). Recorded rows with motion.rows: spline have a law of their own:
-// (M12) q(t) is the cubic spline (R5) through the rows at their times, with q' = 0 at both ends and where two successive rows
-//       are equal. Limits of speed and acceleration do not apply: the robot has moved like this.
-// Assumption: axis limits only, as a controller without a dynamic model. The ramp fraction is an estimate; a program can lower
-// the jerk of its moves (M11, legs.h). (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for
+// A chain of moves without a stop that contains a tool path is computed as a whole (legs.h: M6, M7;
+// path_motion.h). Recorded rows with motion.rows: spline have another law:
+// (M12) q(t) is the cubic spline (R5) through the rows at their times, with q' = 0 at both ends and between two equal successive
+//       rows. Limits of speed and acceleration do not apply, because the robot has performed this motion.
+// ASSUMPTION: only axis limits, as in a controller without a dynamic model. The ramp fraction is an estimate; a program can
+// reduce the jerk of its moves (M11, legs.h). (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for
 // Automatic Machines and Robots, 2008, chapters 3 and 5; the unified form is derived above.)
 #pragma once
 
@@ -49,17 +49,17 @@ struct MotionPiece {
   int step = 0;                            ///< program line
   int step_after = 0;                      ///< program line of the second half: a blend belongs to two moves
   double ramp = 0.25;                      ///< r
-  Eigen::VectorXd acceleration{}, jerk{};  ///< of a cubic: at its begin, throughout (joint) [rad/s2, rad/s3]
+  Eigen::VectorXd acceleration{}, jerk{};  ///< of a cubic: acceleration at its begin, constant jerk (joint) [rad/s2, rad/s3]
 };
 
-/// A program laid out in time. Before 0 and after duration() the robot stands still.
+/// A program as a function of time. Before 0 and after duration() the robot stands still.
 class JointMotion {
  public:
-  /// Throws InputError where the motion lies in its file: a waypoint outside the joint limits or with the
+  /// Throws InputError at the place in the motion's file: a waypoint outside the joint limits or with the
   /// wrong number of angles, a first step that is no move.
   JointMotion(const pipeline::Motion& motion, const pipeline::Robot& robot);
 
-  /// Lets an axis stand still at the middle of its way. The others move as before, at the same times.
+  /// Holds an axis at the middle of its range in this motion. The other axes move as before, at the same times.
   /// Precondition: axis < axes of the robot.
   void hold(std::size_t axis);
 
@@ -68,7 +68,7 @@ class JointMotion {
   Eigen::VectorXd velocity(double time) const;      ///< (joint) [rad/s]
   Eigen::VectorXd acceleration(double time) const;  ///< (joint) [rad/s2]
   int step(double time) const;                      ///< index into step_texts()
-  /// One text per program line (blocks once, however often repeated): "block: step", or "move 3" without a
+  /// Returns one text per program line (each block once, independent of its repeats): "block: step", or "move 3" without a
   /// text.
   const std::vector<std::string>& step_texts() const { return step_texts_; }
   const std::vector<MotionPiece>& pieces() const { return pieces_; }

@@ -9,19 +9,20 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr int steps = 60;  // of one iteration: quadratic near a solution, slow only where the arm is singular
+constexpr int steps = 60;  // of one iteration: convergence is quadratic near a solution and slow only at a singular arm
 constexpr int starts = 240;         // at most
-constexpr int starts_in_vain = 60;  // an arm with a basin of 5 % of the box is missed by 0.95^60 = 5 %
+// without a new arm: one that is reached from 5 % of the box is missed with the probability 0.95^60 = 5 %
+constexpr int starts_in_vain = 60;
 constexpr double same_arm = 1e-6;   // [rad]
 
-/// (position [m], rotation [rad]) from one place to the other.
+/// Returns the difference (position [m], rotation [rad]) from one pose to the other.
 NumericalInverse::Angles apart(const Frame& from, const Frame& to) {
   NumericalInverse::Angles e;
   e << to.position - from.position, rotation_vector(to.orientation * from.orientation.conjugate());
   return e;
 }
 
-/// The n-th number of the van der Corput sequence to this base, in (0, 1).
+/// Returns the n-th number of the van der Corput sequence to this base, in (0, 1).
 double halton(int n, int base) {
   double value = 0, share = 1;
   for (; n > 0; n /= base) value += (share /= base) * (n % base);
@@ -80,7 +81,7 @@ std::optional<NumericalInverse::Angles> NumericalInverse::solve(const Frame& fla
       damping = std::max(damping / 10, 1e-15);
     } else {
       damping *= 10;
-      if (damping > 1e3) return {};  // no way down: a dead end
+      if (damping > 1e3) return {};  // no step reduces the error: the iteration fails
     }
   }
   return {};

@@ -9,11 +9,12 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double curvature_share = 0.7;   // of A_i, on the curvature of a path
-constexpr int rounds = 30;                // of lowering the speed where a limit is exceeded
-constexpr double least_lowering = 0.995;  // of a squared speed, so that the rounds get on
-constexpr double alike = 1.05;            // of squared speeds: of legs of one line, not of two speeds
-constexpr double slowest = 1e-9;          // of a leg's end inside a path [rad/s]: it never stands
+constexpr double curvature_share = 0.7;   // of A_i, for the acceleration by the curvature of a path
+constexpr int rounds = 30;                // of reducing the speed where a limit is exceeded
+constexpr double least_lowering = 0.995;  // of a squared speed, so that the rounds make progress
+// ratio of squared speeds: smaller differences belong to legs of one line, not to two programmed speeds
+constexpr double alike = 1.05;
+constexpr double slowest = 1e-9;          // speed at a leg's end inside a path [rad/s]: the robot never stands still there
 
 double quotient(const VectorXd& numerator, const VectorXd& denominator) {
   return numerator.cwiseAbs().cwiseQuotient(denominator).maxCoeff();
@@ -35,12 +36,12 @@ class Profile {
     }
   }
 
-  /// Speeds at the legs' ends and the times at which they are passed.
+  /// Computes the speeds at the legs' ends and the times at which they are passed.
   void lay_out() {
     const std::size_t n = legs_.size();
     squared_.assign(n + 1, 0);
     for (std::size_t k = 1; k < n; ++k) {
-      // Between legs of one line the mean is nearer to the tool's speed than the slower one.
+      // Between legs of one line the mean is nearer to the tool's speed than the lower speed.
       const double before = cap(k - 1), behind = cap(k), slower = std::min(before, behind);
       const double mean = (before + behind) / 2, cruise = mean < alike * slower ? mean : slower;
       const double bent = quotient(bend_[k], curvature_share * planned_);
@@ -68,17 +69,17 @@ class Profile {
            u * v * length * (v * slope_[k] - u * slope_[k + 1]);
   }
 
-  /// The squared speed on the legs passed between two times may only be this share of what it was.
+  /// Reduces the squared speed on the legs that are passed between two times to this share of its present value.
   void lower(double from, double to, double share) {
     for (std::size_t k = leg_at(from); k <= leg_at(to); ++k)
       lowered_[k] = std::min(lowered_[k], share * now(k));
   }
 
  private:
-  /// Largest squared speed on leg k.
+  /// Returns the largest squared speed on leg k.
   double cap(std::size_t k) const { return lowered_[k] * legs_[k].cruise * legs_[k].cruise; }
 
-  /// What is driven now, as a share of the cruising speed squared.
+  /// Returns the present squared speed as a share of the squared cruising speed.
   double now(std::size_t k) const {
     const double top = course(k).top;
     return std::min(lowered_[k], top * top / (legs_[k].cruise * legs_[k].cruise));
@@ -92,7 +93,7 @@ class Profile {
     return (behind * legs_[k - 1].direction + before * legs_[k].direction) / (before + behind);
   }
 
-  /// What leg k can change its speed with, from this squared speed on.
+  /// Returns the acceleration that leg k can use to change its speed, from this squared speed.
   double acceleration(std::size_t k, double squared) const {
     const VectorXd bend = bend_[k].cwiseMax(bend_[k + 1]);
     const VectorXd left = (planned_ - squared * bend).cwiseMax((1 - curvature_share) * planned_);
@@ -101,12 +102,13 @@ class Profile {
       if (const double way = std::abs(legs_[k].direction[i]); way > 0) least = std::min(least, left[i] / way);
     return least;
   }
-  /// The squared speed at the other end of leg k, from this one at one end.
+  /// Returns the squared speed that can be reached at the other end of leg k, from this squared speed at one end.
   double reachable(std::size_t k, double from) const {
     return from + 2 * acceleration(k, from) * legs_[k].length;
   }
 
-  /// On leg k: up to the top speed, along, and down. Only a whole joint move has a top of its own.
+  /// Motion on leg k: acceleration to the top speed, constant speed, deceleration. Only a whole joint move has a separate top
+  /// speed.
   struct Course {
     double acceleration, begin, top, end;  // speeds
     double up, along, down;                // times
@@ -115,7 +117,7 @@ class Profile {
   Course course(std::size_t k) const {
     const double low = std::min(squared_[k], squared_[k + 1]), high = std::max(squared_[k], squared_[k + 1]);
     const double length = legs_[k].length;
-    // Along one line the speed changes evenly, so that the tool's mean over a leg is what was asked for.
+    // Along one line the speed changes uniformly, so that the tool's mean speed over a leg is the programmed one.
     const bool even = !legs_[k].straight && high > low && high < alike * low;
     const double a = even ? (high - low) / (2 * length) : acceleration(k, low);
     double top = high;
@@ -154,7 +156,7 @@ class Profile {
 struct Controls {
   double step;  // h [s]
   std::vector<VectorXd> points;
-  std::vector<std::size_t> legs;  // that they lie on
+  std::vector<std::size_t> legs;  // index of the leg of each point
 };
 
 Controls controls_of(const Profile& profile, double step) {
@@ -172,7 +174,7 @@ Controls controls_of(const Profile& profile, double step) {
   return made;
 }
 
-/// How far control j exceeds what an axis can do: squared speeds, as a share of the allowed ones.
+/// Returns the violation at control point j: squared speeds as a share of the allowed ones.
 double excess(const Controls& c, std::size_t j, const AxisLimits& limits) {
   const double speed = quotient(c.points[j + 1] - c.points[j], limits.speed) / c.step;
   double worst = speed * speed;
@@ -200,7 +202,7 @@ std::vector<MotionPiece> path_pieces(std::span<const Leg> legs, const VectorXd& 
     for (std::size_t j = 0; j + 1 < controls.points.size(); ++j) {
       const double over = excess(controls, j, limits);
       worst = std::max(worst, over);
-      const double time = (static_cast<double>(j) - 2) * step;  // of control j
+      const double time = (static_cast<double>(j) - 2) * step;  // time of control point j
       if (over > 1)
         profile.lower(std::max(0.0, time - step), std::min(profile.duration(), time + step),
                       std::min(least_lowering, 1 / over));

@@ -1,13 +1,13 @@
-// Where a serial robot's links are: forward kinematics, and the check of joint limits.
+// Forward kinematics of a serial robot's links, and the check of joint limits.
 //
 // (R1) F_0 = tracks base,   F_k = F_{k-1} (o_k, R_k) (0, exp(q_k u_k)),   k = 1..J
 // o_k: joint origin [m], R_k: its frame (roll, pitch, yaw about fixed axes x, y, z), u_k: unit axis, q_k:
 // angle [rad]. The factor exp(q u) is the quaternion (cos q/2, u sin q/2), smooth in q over any number of
-// turns, so a link's quaternion never jumps in sign along a motion. A joint that follows joint j has
-// q_k = ratio q_j + offset. tracks: of each external axis that carries the robot (o, R) and its slide or
-// turn.
+// turns, so a link's quaternion never changes its sign by a jump along a motion. A joint that follows joint j has
+// q_k = ratio q_j + offset. tracks: for each external axis that carries the robot, (o, R) and its translation or
+// rotation.
 //
-// The axes of a robot, in this order everywhere: its driven joints, then its external axes [rad, m].
+// Order of the axes of a robot in all functions: its driven joints, then its external axes [rad, m].
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@
 
 namespace dresslife::sim {
 
-/// A drive: of a joint [rad], or an external axis [rad or m].
+/// A driven axis: a joint [rad], or an external axis [rad or m].
 struct Axis {
   std::string name;
   bool turns = true;
@@ -37,7 +37,7 @@ class RobotKinematics {
   int axes() const { return axes_; }
   int links() const { return static_cast<int>(joints_.size()) + 1; }
 
-  /// Frames of all links in the world. Precondition: one value per axis, one frame per link.
+  /// Computes the frames of all links in the world. Precondition: one value per axis, one frame per link.
   void link_frames(std::span<const double> axes, std::span<Frame> frames) const;
 
  private:
@@ -55,27 +55,27 @@ class RobotKinematics {
   int axes_ = 0;
 };
 
-/// Quaternion of roll, pitch, yaw about the fixed axes x, y, z [rad]: yaw after pitch after roll.
+/// Returns the quaternion of roll, pitch, yaw about the fixed axes x, y, z [rad]: yaw after pitch after roll.
 Quaternion from_roll_pitch_yaw(const Vector3& angles);
 
 struct LimitFault {
   std::string what, remedy;
 };
 
-/// Excess over a joint's limit that counts as rounding [rad, m]: degrees and millimetres in a file become radians and metres,
-/// and come back with a rounding error. A limit may be used to the full.
+/// Tolerance of a joint limit for rounding errors [rad, m]: degrees and millimetres in a file become radians and metres,
+/// and come back with a rounding error. The full range of a joint may be used.
 constexpr double limit_rounding = 1e-9;
 
-/// Absent, or why these angles [rad] are none of the robot's: another number than it has driven joints, or
-/// one outside its joint's limits, named with its angle and limits in degrees. `what`: "waypoint 'home'".
+/// Returns the reason why these angles [rad] are not valid for the robot: another number than its driven joints, or
+/// an angle outside its joint's limits, with angle and limits in degrees. Absent: they are valid. `what`: "waypoint 'home'".
 std::optional<LimitFault> limit_fault(const pipeline::Robot& robot, std::span<const double> joints,
                                       const std::string& what);
 
-/// The same thrown as InputError at `where`.
+/// Throws the fault of limit_fault() as InputError at `where`.
 void check_joint_limits(const pipeline::Robot& robot, std::span<const double> joints, const std::string& what,
                         const pipeline::Where& where);
 
-/// Index of the link of this name; throws InputError at `where` with the names that exist.
+/// Returns the index of the link of this name. Errors: InputError at `where` with the existing names.
 int find_link(const pipeline::Robot& robot, const std::string& name, const pipeline::Where& where);
 
 }  // namespace dresslife::sim

@@ -17,7 +17,8 @@ CubicSpline::CubicSpline(std::vector<double> times, Eigen::MatrixXd values, Spli
     find_second_derivatives();
 }
 
-/// Tridiagonal in all m; a knot beyond each end, infinitely near and of the same value, gives the slope 0.
+/// Solves the tridiagonal equations for all m. An additional knot with the same value at distance 0 beyond each end gives the
+/// slope 0.
 void CubicSpline::find_second_derivatives_at_rest() {
   const long last = static_cast<long>(times_.size()) - 1;
   const auto step = [&](long k) { return k < 0 || k == last ? 0 : times_[k + 1] - times_[k]; };
@@ -42,9 +43,9 @@ VectorXd CubicSpline::slope(long k) const {
   return (values_.col(k + 1) - values_.col(k)) / h - h / 6 * (2 * second_.col(k) + second_.col(k + 1));
 }
 
-/// The ends' conditions, (m_1 - m_0)/h_0 = (m_2 - m_1)/h_1, put m_0 = m_1 + (h_0/h_1)(m_1 - m_2) into the
-/// first equation, and the same at the other end; the rest is tridiagonal in m_1 .. m_n-1. With three
-/// knots both conditions fall together: m_0 = m_1 = m_2.
+/// The end conditions, (m_1 - m_0)/h_0 = (m_2 - m_1)/h_1, give m_0 = m_1 + (h_0/h_1)(m_1 - m_2) in the
+/// first equation, and likewise at the other end; the other equations are tridiagonal in m_1 .. m_n-1. With three
+/// knots both conditions are the same: m_0 = m_1 = m_2.
 void CubicSpline::find_second_derivatives() {
   const long last = static_cast<long>(times_.size()) - 1;
   const auto step = [&](long k) { return times_[k + 1] - times_[k]; };

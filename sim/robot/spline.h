@@ -5,7 +5,7 @@
 // with second derivatives m from continuous slopes, h_k-1 m_k-1 + 2 (h_k-1 + h_k) m_k + h_k m_k+1 =
 // 6 ((y_k+1 - y_k)/h_k - (y_k - y_k-1)/h_k-1), and, at both ends, a continuous third derivative ("not a
 // knot"), so that the error is of fourth order up to the ends. Three knots give a parabola, two a straight
-// line. Or the slopes at both ends are 0 (at_rest): 2 h_0 m_0 + h_0 m_1 = 6 (y_1 - y_0)/h_0, and the same mirrored.
+// line. Alternative: slopes of 0 at both ends (at_rest): 2 h_0 m_0 + h_0 m_1 = 6 (y_1 - y_0)/h_0, and its mirror image.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,12 +17,12 @@ enum class SplineEnds { not_a_knot, at_rest };
 
 class CubicSpline {
  public:
-  /// times: increasing (knot), at least one; values: (channel, knot).
+  /// times: (knot) increasing, at least one; values: (channel, knot).
   CubicSpline(std::vector<double> times, Eigen::MatrixXd values, SplineEnds ends = SplineEnds::not_a_knot);
 
-  /// (channel) at time t; outside the knots the value at the nearest end.
+  /// Returns the values, (channel), at time t; outside the knots the values at the nearest end.
   Eigen::VectorXd at(double time) const;
-  /// (channel) its slope behind knot k, which is not the last.
+  /// Returns the slopes, (channel), behind knot k. Precondition: k is not the last knot.
   Eigen::VectorXd slope(long k) const;
   const std::vector<double>& times() const { return times_; }
   const Eigen::MatrixXd& values() const { return values_; }              ///< (channel, knot)

@@ -1,5 +1,4 @@
-// The path of a tool: a straight line or an arc in the frame of a work object, with the orientation turning
-// evenly.
+// The path of a tool: a straight line or an arc in the frame of a work object, with uniform rotation of the tool.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +8,13 @@
 
 namespace dresslife::sim {
 
-/// Which tool moves in which work object: tool in the flange and object in the world, or, stationary, the
+/// Tool and work object of a move: tool in the flange and object in the world; if `stationary`, the
 /// tool in the world and the object in the flange.
 struct Tooling {
   Frame tool, object;
   bool stationary = false;
 
-  /// The flange in the world when the tool is at `pose` in the object, and back.
+  /// Return the flange in the world for a tool at `pose` in the object; and the inverse.
   Frame flange(const Frame& pose) const {
     return stationary ? tool * inverse(object * pose) : object * pose * inverse(tool);
   }
@@ -31,17 +30,17 @@ class ToolPath {
     turn_ = rotation_vector(from.orientation.conjugate() * to.orientation).norm();
   }
 
-  /// Makes it the arc through `via`; false: start, via and end give no circle, and the way stays straight.
+  /// Makes the path the arc through `via`. Returns false if start, via and end give no circle: then the path stays straight.
   bool bend(const Vector3& via) { return bend_round(via, to_.position); }
 
-  /// Makes it the arc of the circle through `other`, a point of the circle before the start or after the end.
+  /// Makes the path the arc of the circle through `other`, a point of the circle before the start or after the end.
   void bend_beside(const Vector3& other) { bend_round(to_.position, other); }
 
-  double length() const { return length_; }  ///< of the tool's way [m]
-  double turn() const { return turn_; }      ///< of its orientation [rad]
+  double length() const { return length_; }  ///< of the tool's path [m]
+  double turn() const { return turn_; }      ///< rotation of the tool [rad]
   const Tooling& tooling() const { return tooling_; }
 
-  /// Pose of the tool in the object at the share u of the way.
+  /// Returns the pose of the tool in the object at the share u of the path.
   Frame pose(double u) const {
     const Quaternion turned = from_.orientation.slerp(u, to_.orientation);
     if (angle_ == 0) return {from_.position + u * (to_.position - from_.position), turned};
@@ -59,19 +58,20 @@ class ToolPath {
   }
 
  private:
-  /// The arc to the end on the circle that leads from the start to p, then on to q.
+  /// Makes the path the arc to the end on the circle that leads from the start to p, then to q.
   bool bend_round(const Vector3& p, const Vector3& q) {
-    // The centre m of the circle through 0, a, b: 2 a.m = |a|^2, 2 b.m = |b|^2 and (a x b).m = 0, hence
+    // Centre m of the circle through 0, a, b: 2 a.m = |a|^2, 2 b.m = |b|^2 and (a x b).m = 0, hence
     // m = (|a|^2 b - |b|^2 a) x (a x b) / (2 |a x b|^2).
     const Vector3 a = p - from_.position, b = q - from_.position, n = a.cross(b);
-    // The largest side times the distance of the third point from it. Programs hold 0.01 or 0.001 mm.
+    // Limit of the largest side times the distance of the third point from it. Numbers in programs have steps of 0.01 or 0.001
+    // mm.
     constexpr double straight = 1e-5;  // [m]
     if (n.norm() <= straight * std::max({a.norm(), b.norm(), (b - a).norm()})) return false;
     centre_ = from_.position + (a.squaredNorm() * b - b.squaredNorm() * a).cross(n) / (2 * n.squaredNorm());
     axis_ = n.normalized();
     const Vector3 first = from_.position - centre_, last = to_.position - centre_;
     angle_ = std::atan2(axis_.dot(first.cross(last)), first.dot(last));
-    if (angle_ <= 0) angle_ += 2 * std::acos(-1.0);  // p, then q: less than a full turn about n
+    if (angle_ <= 0) angle_ += 2 * std::acos(-1.0);  // from p to q: less than a full turn about n
     length_ = angle_ * first.norm();
     return true;
   }
@@ -82,7 +82,7 @@ class ToolPath {
   Vector3 centre_ = Vector3::Zero(), axis_ = Vector3::UnitZ();
 };
 
-/// (M6): from a towards b, then to c.
+/// Returns the quadratic Bezier curve (M6) of a, b and c.
 inline Frame bezier(const Frame& a, const Frame& b, const Frame& c, double u) {
   const Vector3 position = (1 - u) * (1 - u) * a.position + 2 * u * (1 - u) * b.position + u * u * c.position;
   const Quaternion first = a.orientation.slerp(u, b.orientation),

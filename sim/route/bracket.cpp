@@ -12,8 +12,8 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double far_away = 1;  // [m], farther than any bracket: distances beyond it are not distinguished
-constexpr double clear = 0.3;   // [m] from a neighbour; meshes are the slower, the farther they are searched
+constexpr double far_away = 1;  // [m], larger than any bracket: distances beyond it are not computed exactly
+constexpr double clear = 0.3;   // [m] from a neighbour; the cost of meshes grows with this distance
 
 struct PlacedMesh {
   Mesh mesh;
@@ -109,7 +109,7 @@ BracketFit fit_of(const Carried& carried, const Surfaces& surfaces, std::span<co
 }
 
 std::string gripper_note(const pipeline::Setup& setup, const std::vector<Vector3>& tools) {
-  constexpr double short_tool = 0.1;  // [m]: measuring tips and suction cups; the hose bends wider
+  constexpr double short_tool = 0.1;  // [m]: measuring tips and suction cups; a hose bends with a larger radius
   if (setup.robot.links.empty()) return "";
   const pipeline::Robot& robot = setup.robot;
   const Eigen::Quaterniond turn = pipeline::from_roll_pitch_yaw(robot.flange_orientation);
@@ -126,10 +126,10 @@ std::string gripper_note(const pipeline::Setup& setup, const std::vector<Vector3
   const pipeline::Link& last = robot.links.back();
   const auto point = [&](double along) {
     const Vector3 at =
-        (1e3 * (robot.flange_position + turn * Vector3(0, 0, along))).array().round() / 1e3 + 0.0;  // no -0
+        (1e3 * (robot.flange_position + turn * Vector3(0, 0, along))).array().round() / 1e3 + 0.0;  // + 0.0 avoids -0
     return fmt::format("[{:g}, {:g}, {:g}]", at.x(), at.y(), at.z());
   };
-  const std::string shape =  // of the kind that the link lacks: a list replaces the one that is there
+  const std::string shape =  // the kind of shape that the link does not have, because a list replaces the existing one
       last.capsules.empty()
           ? fmt::format("capsules: [{{from_m: {}, to_m: {}, radius_mm: 60}}]", point(0.1 * longest),
                         point(0.8 * longest))

@@ -10,7 +10,7 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double from_limits = 2 * degree;  // that the moves keep
+constexpr double from_limits = 2 * degree;  // distance that the moves keep from the limits
 
 std::vector<Axis> driven_axes(const pipeline::Robot& robot) {
   std::vector<Axis> axes = axes_of(robot);
@@ -23,7 +23,7 @@ double within(const Axis& axis, double angle) {
   return std::clamp(angle, axis.lower + margin, axis.upper - margin);
 }
 
-/// How upright the upper arm stands and how level and far forward the forearm lies: 3 at best.
+/// Returns how vertical the upper arm and how horizontal and far forward the forearm is: at most 3.
 double likeness(const RobotKinematics& kinematics, const std::vector<double>& joints, std::size_t axes) {
   std::vector<double> all = joints;
   all.resize(axes, 0.0);

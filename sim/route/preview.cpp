@@ -19,10 +19,11 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr int most_shown = 240;  // of the program: 0.2 s of curves
+constexpr int most_shown = 240;  // moments of the program: 0.2 s of curves
 constexpr int fewest_shown = 24;
 constexpr double shown_a_second = 5;
-constexpr int tried_lengths = 16, tried_poses = 8;  // of each span: 0.4 s of equilibria; steps of 2 %, as remedies try them (sim/run/cures.cpp)
+// per span: 0.4 s of equilibria; steps of 2 %, as for remedies (sim/run/cures.cpp)
+constexpr int tried_lengths = 16, tried_poses = 8;
 constexpr double before_the_program = -1;          // time of the mounting pose [s]
 
 struct ShownMoment {
@@ -88,7 +89,7 @@ class Previewer {
     }
   }
 
-  /// Step by step, as the simulation looks for it: it may fall between other moments.
+  /// Finds the longest distance step by step, as the simulation does: it may occur between other moments.
   void find_longest() {
     longest_.assign(rod_.spans().size(), {});
     const double step = std::max(setup_.simulation.time_step, path_->duration() / 100'000);
@@ -126,8 +127,8 @@ class Previewer {
     file.append("/program/text", std::span<const std::string>(path_->step_texts()));
   }
 
-  /// Guide rings hold the curve where they are: pieces between them share its segments by their straight
-  /// ways.
+  /// Returns the curve through the guide rings. The pieces between them share the segments in proportion to their straight
+  /// distances.
   std::vector<Vector3> curve(std::size_t span, const Pose& pose) const {
     const Span& of = rod_.spans()[span];
     std::vector<Frame> ends{pose.clamps.end(static_cast<int>(2 * span))};
@@ -212,7 +213,7 @@ class Previewer {
     file.append("/span/working_length", std::span<const double>(working));
   }
 
-  /// The first, those with the nearest and the farthest clamps, and others evenly between.
+  /// Returns the first pose, those with the nearest and the farthest clamps, and others at equal distances between.
   std::vector<Pose> poses_to_try(std::size_t span) const {
     std::vector<Pose> poses{moments_.front().pose, path_->at(longest_[span].time)};
     std::size_t nearest = 0;
@@ -225,7 +226,7 @@ class Previewer {
   }
 
   void write_scan(pipeline::FileWriter& file) const {
-    constexpr int segments = 32;  // enough for a bend radius within a few percent
+    constexpr int segments = 32;  // enough for a bend radius with an error of a few percent
     std::vector<std::int32_t> spans;
     std::vector<double> lengths, radii;
     for (std::size_t span = 0; span < rod_.spans().size(); ++span) {
@@ -247,7 +248,7 @@ class Previewer {
                                                        pose.clamps.end(static_cast<int>(2 * span) + 1)}));
         spans.push_back(static_cast<std::int32_t>(span));
         lengths.push_back(of.length);
-        radii.push_back(1 / most);  // 0: no rest is found
+        radii.push_back(1 / most);  // 0: no equilibrium was found
       }
     }
     if (spans.empty()) return;
@@ -256,8 +257,8 @@ class Previewer {
     file.append("/scan/bend_radius", std::span<const double>(radii));
   }
 
-  /// The simulation's own words; the moment where a span lacks most is when the clamps are too far apart.
-  /// Beside a warning of slack no second search for a remedy.
+  /// Writes the refusal in the words of the simulation; if a span is too short, with the moment of the largest lack.
+  /// Without a second search for a remedy if a warning of slack exists.
   void write_refusal(const std::vector<pipeline::Warning>& warnings, pipeline::FileWriter& file) const {
     const bool warns_of_slack = std::any_of(warnings.begin(), warnings.end(), [](const pipeline::Warning& warning) {
       return warning.kind == pipeline::WarningKind::slack;

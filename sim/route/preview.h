@@ -1,5 +1,5 @@
-// What stands where before a run: the robot over its program, clamps, and each dresspack in a smooth curve of
-// its length; how far its clamps are apart, which lengths suit that, and how hard each would be bent at rest.
+// A preview before a run: the robot over its program, the clamps, and each dresspack as a smooth curve of
+// its length; the distance of its clamps, suitable lengths, and the bend of each length at rest.
 #pragma once
 
 #include "pipeline/files/files.h"
@@ -10,9 +10,9 @@ struct Setup;
 
 namespace dresslife::sim {
 
-/// Writes all of preview_format() but the stamp. The first sample stands at -1 s in the mounting pose where
-/// that is not the program's first. Errors: InputError for a motion that the robot cannot run; what the
-/// simulation itself refuses stands in the file.
+/// Writes all of preview_format() except the stamp. If the mounting pose is not the program's first pose, it is the first sample,
+/// at -1 s. Errors: InputError for a motion that the robot cannot run; a refusal by the
+/// simulation is written to the file.
 void write_preview(const pipeline::Setup& setup, pipeline::FileWriter& file);
 
 }  // namespace dresslife::sim

@@ -23,34 +23,34 @@ namespace {
 constexpr int places = 3;  // base clamp, tool clamp, ring
 enum Place { base, tool, ring };
 
-/// Wished of each limit beyond keeping it, in the order of ScreenedLimit; a run bends, twists and sways on
-/// top of what geometry says.
+/// Wished margin of each limit, in the order of ScreenedLimit, because a run bends, twists and sways more than
+/// geometry predicts.
 constexpr std::array<double, screened_limits> wished{0.02, 0.02, 0.25, 0.25, 0.25, 0, 0};
 
-/// Likewise of a run with few segments, which sees less of a bend.
+/// Wished margins in a run with few segments, which underestimates a bend.
 constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 0.04, 0, 0.005, 0};
 
-/// Likewise of the job's own run: its numbers are rounded when it is written.
+/// Wished margins in the job's own run: its values are rounded when it is written.
 constexpr std::array<double, screened_limits> wished_of_whole{0.001, 0.001, 0.01, 0.01, 0, 0.001, 0};
 
 constexpr double ring_radius = 0.75;  // of a guide ring [diameters]
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double farthest =
-    4;  // of a clamp from the link that carries it, where brackets reach so far [diameters]
-constexpr int drawn_places = 2000;  // beside a link until one has a bracket: a second
-constexpr int side_by_side = 4;     // rehearsals, however many threads there are
+    4;  // largest distance of a clamp from the link that carries it, if brackets reach so far [diameters]
+constexpr int drawn_places = 2000;  // number of places beside a link until one has a bracket: one second
+constexpr int side_by_side = 4;     // rehearsals at the same time, independent of the number of threads
 
 struct Candidate {
   std::array<Vector3, places>
-      position;  // in their links, where brackets carry them, in whole millimetres [m]
-  std::array<Vector3, places> direction;  // in their links
+      position;  // in the frames of their links, at places for brackets, in whole millimetres [m]
+  std::array<Vector3, places> direction;  // in the frames of their links
   double slack = 0;                       // share of the length
   pipeline::Routing routing{};
   Screening screening{};
-  double missing = 0;             // by geometry
-  Rehearsal rehearsal{};          // if it was rehearsed
-  double missing_in_run = never;  // likewise
-  bool whole = false;             // in the job's own segments and repeats
+  double missing = 0;             // violation by geometry
+  Rehearsal rehearsal{};          // valid if it was rehearsed
+  double missing_in_run = never;  // violation in the rehearsal
+  bool whole = false;             // rehearsed with the job's own segments and repeats
 };
 
 class Chance {
@@ -60,7 +60,7 @@ class Chance {
     return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53;
   }
   std::size_t below(std::size_t count) { return bits_() % count; }
-  /// Sum of twelve: nearly normal, and the same on every machine.
+  /// Returns a sum of twelve numbers: nearly normal, and equal on every machine.
   double normal() {
     double sum = -6;
     for (int k = 0; k < 12; ++k) sum += between(0, 1);
@@ -87,10 +87,10 @@ class Search {
     for (int k = 0; k < used(); ++k) link_[k] = find_link(setup_.robot, links_[k], given.where);
     const std::unique_ptr<ClampPath> path = path_of(setup);
     start_ = path->at(0).links;
-    for (int k = 0; k < used(); ++k) beside(k);  // refuses a link without such a place
+    for (int k = 0; k < used(); ++k) beside(k);  // throws for a link without such a place
   }
 
-  /// As many searches as proposals, each from its own beginnings, so that they end at different places.
+  /// Runs one search per proposal, each with its own first candidates, so that they end at different places.
   std::vector<Proposal> run() {
     if (settings_.rehearsals > 0) return proposals_of(rehearsed_search());
     std::vector<Candidate> found;
@@ -112,14 +112,14 @@ class Search {
     return proposals;
   }
 
-  /// Geometry's best are rehearsed; then what did best is changed a little, again and again, by as much as
-  /// pays. Of a few changes the one is rehearsed that geometry likes most, which is asked for as much more of
-  /// a radius as its parent lacked in its run.
+  /// Rehearses the best candidates by geometry. Then changes the best rehearsed ones a little, many times; the size of the
+  /// changes adapts to their success. Of a few changes the best by geometry is rehearsed; its wished radius in the geometry is
+  /// increased by the radius that its parent lacked in its run.
   std::vector<Candidate> rehearsed_search() {
-    constexpr int begun = 12;               // searches by geometry alone
-    constexpr double hopeless = 0.5;        // missed by the best of the first third
-    constexpr std::size_t parents = 5;      // kept
-    constexpr double geometry_share = 0.3;  // of the time, about
+    constexpr int begun = 12;               // searches by geometry only
+    constexpr double hopeless = 0.5;        // violation of the best of the first third at which the search ends
+    constexpr std::size_t parents = 5;      // number of parents that are kept
+    constexpr double geometry_share = 0.3;  // share of the time, approximately
     std::vector<Candidate> beginnings, kept;
     for (int k = 0; k < begun; ++k) {
       tell(geometry_share * k / begun, fmt::format("geometry, search {} of {}", k + 1, begun));
@@ -158,7 +158,7 @@ class Search {
     return kept;
   }
 
-  /// Nothing of this can run: the least wrong first, with the reason.
+  /// Returns the candidates with the smallest violation if none can run, with the reason.
   std::vector<Candidate> excluded(std::vector<Candidate> all) const {
     std::stable_sort(all.begin(), all.end(),
                      [](const Candidate& a, const Candidate& b) { return a.missing < b.missing; });
@@ -187,7 +187,7 @@ class Search {
     if (settings_.progress) settings_.progress(share, words);
   }
 
-  /// Of a rehearsed candidate: limits first.
+  /// Returns the order of a rehearsed candidate: limits first.
   static std::pair<double, double> badness(const Candidate& of) { return {of.missing_in_run, of.rehearsal.swing}; }
 
   static bool is_found(const Candidate& candidate) {
@@ -202,7 +202,8 @@ class Search {
     if (kept.size() > most) kept.pop_back();
   }
 
-  /// Whether there was one among the first that keeps all wishes and had not been looked at whole.
+  /// Rehearses the first candidate that keeps all wishes and was not yet run as the job. Returns whether such a candidate
+  /// existed.
   bool look_at_first_whole(std::vector<Candidate>& kept) const {
     const auto wanted = kept.begin() + std::min<std::ptrdiff_t>(settings_.count, std::ssize(kept));
     const auto first = std::find_if(kept.begin(), wanted,
@@ -218,9 +219,9 @@ class Search {
     return true;
   }
 
-  /// What the checks before a run would warn of.
+  /// Returns the violations that the checks before a run would report.
   double missing_in_checks(const Candidate& candidate) const {
-    constexpr double refused = 3;  // worse than what runs
+    constexpr double refused = 3;  // larger than the violation of a candidate that runs
     pipeline::Setup setup = setup_;
     setup.dresspacks.front().routing = candidate.routing;
     const QuickFindings found = quick_findings(setup);
@@ -241,7 +242,7 @@ class Search {
       }
     });
     for (Candidate& candidate : candidates) {
-      constexpr double refused = 3;  // worse than what runs
+      constexpr double refused = 3;  // larger than the violation of a candidate that runs
       candidate.missing_in_run = candidate.rehearsal.refusal.empty()
                                      ? missing(candidate.rehearsal.seen, wishes)
                                      : refused + candidate.missing;
@@ -300,8 +301,8 @@ class Search {
     return candidate;
   }
 
-  /// The shapes of the link beside which a clamp is drawn: its capsules; of the last link the flange, where tools have their
-  /// brackets, as a line as long as those reach.
+  /// Returns the shapes near which a clamp is placed: the capsules of the link; for the last link the flange, where brackets of
+  /// tools are, as a line of a bracket's length.
   std::vector<pipeline::Capsule> shapes_of(int link) const {
     const pipeline::Link& of = setup_.robot.links[link];
     const bool flange = is_flange(link);
@@ -313,7 +314,7 @@ class Search {
 
   bool is_flange(int link) const { return link + 1 == static_cast<int>(setup_.robot.links.size()); }
 
-  /// Drawn until a bracket can carry it.
+  /// Samples places beside a link until a bracket can carry one.
   Vector3 beside(int place) {
     BracketFit nearest;
     double least = never;
@@ -329,7 +330,7 @@ class Search {
 
   [[noreturn]] void refuse_link(int place, const BracketFit& nearest) const {
     const auto& links = setup_.robot.links;
-    // A search draws many places: it needs more than the nearest.
+    // A search samples many places, so it needs a longer bracket than that of the nearest place.
     constexpr double room_to_search = 1.25;
     std::string why = fmt::format("needs a bracket of {:.0f} mm", 1e3 * nearest.length), longer;
     if (nearest.length > longest_bracket())
@@ -380,7 +381,7 @@ class Search {
     return candidate;
   }
 
-  /// to_beat: what is worse need not be known exactly.
+  /// to_beat: a larger violation need not be computed exactly.
   void look_at(Candidate& candidate, double to_beat,
                const std::array<double, screened_limits>& wishes = wished) {
     pipeline::Routing& routing = candidate.routing;
@@ -406,7 +407,7 @@ class Search {
     setup_.dresspacks.front().routing.free_length = routing.free_length;
     candidate.screening = screener_.screen(setup_);
     candidate.missing = missing(candidate.screening, wishes);
-    if (candidate.missing >= to_beat) return;  // its weight would only add to that
+    if (candidate.missing >= to_beat) return;  // the check with weight could only increase the violation
     Screening at_rest = candidate.screening;
     double& bend = at_rest.beyond[static_cast<std::size_t>(ScreenedLimit::bend)];
     bend = std::max(bend, screener_.bend_at_rest(setup_));
@@ -419,21 +420,21 @@ class Search {
     return sum;
   }
 
-  /// As people write places and directions.
+  /// Returns a place or direction rounded as in a written job.
   static Vector3 rounded(const Vector3& v, double step) { return (v / step).array().round() * step; }
 
   pipeline::Clamp clamp(const Candidate& candidate, int place) const {
     return {links_[place], candidate.position[place], rounded(candidate.direction[place], 1e-2), {}, {}};
   }
 
-  pipeline::Setup setup_;  // with the routing that is looked at
+  pipeline::Setup setup_;  // with the routing that is evaluated
   const ProposalSettings& settings_;
   const Screener screener_;
   Chance chance_;
   double diameter_ = 0;
   std::array<std::string, places> links_;
   std::array<int, places> link_{};
-  std::vector<Frame> start_;  // of the links at the motion's begin
+  std::vector<Frame> start_;  // link frames at the begin of the motion
 };
 
 }  // namespace

@@ -1,15 +1,14 @@
-// A routing from nothing: clamps on two links, and a ring on a third if wanted, that the screening finds
-// nothing against.
+// Search for a routing without a first guess: clamps on two links, and a ring on a third link if wanted, that satisfy all
+// limits of the screening.
 //
-// Places are drawn at random beside the links' shapes (beside the flange on the last link) where a bracket can carry
-// them over the whole motion (V7), directions about
-// the way from clamp to clamp, the length by the slack that it leaves where the way is longest (V1). The best
-// of what was tried are then changed a little, again and again (an evolution strategy without recombination;
-// it needs no derivatives, of which the screening has none). Goodness is the sum of what misses a wished
-// margin to each limit, the hose at rest under its weight. Then, if wanted, the best are changed likewise by
-// how they do in short runs (rehearsal.h): first by their limits, and among those that keep all by how little the hose bends
-// and twists to and fro, as no life is known here. What keeps all limits is looked at as the job itself runs, and as
-// `dresslife check` looks at it. Equal seeds, equal proposals.
+// Positions are sampled near the links' shapes (near the flange on the last link), where a bracket can carry
+// them over the whole motion (V7); directions around the direction from clamp to clamp; the length by its slack at the largest
+// distance of the clamps (V1). The best candidates are then changed a little, many times (an evolution strategy without
+// recombination; it needs no derivatives, which the screening does not have). The objective is the sum of the violations of a
+// wished margin to each limit, for the hose at rest under its weight. If wanted, the best candidates are then changed in the same
+// way by their results in short runs (rehearsal.h): first by their limits; among those that keep all limits by the smallest
+// changes of bend and twist, because no life is known here. Candidates that keep all limits are checked in the job's own run and
+// by the checks of `dresslife check`. Equal seeds give equal proposals.
 #pragma once
 
 #include <cstdint>
@@ -25,28 +24,28 @@
 namespace dresslife::sim {
 
 struct ProposalSettings {
-  int count = 1;     ///< proposals, best first, each of a search of its own
-  int tried = 1200;  ///< routings that are screened, by all searches: some milliseconds each
+  int count = 1;     ///< number of proposals, best first, each from a separate search
+  int tried = 1200;  ///< number of routings that are screened by all searches together, some milliseconds each
   int rehearsals =
-      0;  ///< runs with few segments, a tenth of a second each, that try the best and better them; 0: none
-  int further = 0;  ///< rehearsals once `count` proposals keep all limits: for those that bend and twist less
+      0;  ///< number of runs with few segments, a tenth of a second each, that test and improve the best candidates; 0: none
+  int further = 0;  ///< number of rehearsals after `count` proposals keep all limits: they search for less bend and twist
   std::uint64_t seed = 1;
-  std::string ring_link;  ///< a guide ring on it; empty: none
-  /// Share of the most work that there may be, and what is tried; may be empty.
+  std::string ring_link;  ///< link with a guide ring; empty: none
+  /// Called with the finished share of the largest possible work, and the present task; may be empty.
   std::function<void(double, const std::string&)> progress{};
 };
 
 struct Proposal {
   pipeline::Routing routing;
   Screening screening;
-  double missing = 0;   ///< sum of what misses the wished margins; 0: all are kept
-  Rehearsal rehearsal;  ///< of the last run, if there were some
+  double missing = 0;   ///< sum of the violations of the wished margins; 0: all are kept
+  Rehearsal rehearsal;  ///< last rehearsal, if any
 };
 
-/// setup: its first dresspack's clamps name the links, its routing says the longest bracket; all else of that is not
-/// read. Errors: InputError as of Screener, for a motion without a robot, and for a link near which no place has a
-/// bracket. Where geometry surely excludes all that was tried nothing is rehearsed, and the proposals' rehearsals say
-/// why.
+/// Returns proposals. setup: the clamps of its first dresspack name the links, and its routing gives the longest bracket; other
+/// values of the routing are not used. Errors: InputError as of Screener, for a motion without a robot, and for a link without a
+/// place for a bracket. If geometry certainly excludes all tried routings, nothing is rehearsed, and the rehearsals of the
+/// proposals contain the reason.
 std::vector<Proposal> propose(const pipeline::Setup& setup, const ProposalSettings& settings);
 
 }  // namespace dresslife::sim

@@ -32,7 +32,7 @@ void see(Screening& seen, const Check& check) {
     see(seen, ScreenedLimit::tension, std::log(check.value / check.limit), check.time);
 }
 
-/// What a rehearsal's bends are taken from: the sharpest curvatures of one repeat.
+/// Collects the bends of a rehearsal: the largest curvatures of one repeat.
 class Bends {
  public:
   explicit Bends(const Simulation& simulation)
@@ -64,7 +64,7 @@ class Bends {
   }
 
   std::vector<double> beyond() const {
-    constexpr double straight = 1e-6;  // [1/m], far from every limit, and its logarithm is finite
+    constexpr double straight = 1e-6;  // [1/m], far from every limit, with a finite logarithm
     std::vector<double> g;
     for (std::size_t k = 0; k < sharpest_.size(); ++k)
       g.push_back(

@@ -1,9 +1,8 @@
-// How a routing does in a run, as a number for a search: how far each limit is kept or passed.
+// The result of a routing in a short run, as numbers for a search: violation or margin of each limit.
 //
-// A whole run of the motion with few segments, of which nothing is written: a tenth of a second. It knows
-// what geometry (screening.h) does not: weight, speed, contact, and the twist that bends a clamped hose out
-// of its plane. Grades as in screening.h: g <= 0 keeps the limit with so much to spare, g > 0 passes it by so
-// much.
+// A rehearsal is a complete run of the motion with few segments and without output: a tenth of a second. It includes
+// effects that geometry (screening.h) does not: weight, speed, contact, and the twist that bends a clamped hose out
+// of its plane. Values as in screening.h: g <= 0 is the margin to the limit, g > 0 the violation.
 #pragma once
 
 #include <limits>
@@ -16,30 +15,29 @@
 namespace dresslife::sim {
 
 struct Rehearsal {
-  /// (V1) to (V4) and (V6) of what the run's checks saw; (V5) is -infinity: the run itself looks after
-  /// obstacles.
+  /// (V1) to (V4) and (V6) from the checks of the run; (V5) is -infinity, because the run itself includes the obstacles.
   Screening seen;
-  std::string refusal;  ///< why it does not run; empty: it does
-  /// (dresspack, moment, stretch) (V3) of what bends in one of bend_moments equal parts of the motion's time
-  /// and one of bend_stretches equal parts of the hose: smoother functions of the routing than their largest,
-  /// which has an edge wherever another posture or another place of the hose takes over. At the samples, so
-  /// that the largest may miss a little of the run's.
+  std::string refusal;  ///< reason why it does not run; empty: it runs
+  /// (dresspack, moment, stretch) (V3) of the bends in one of bend_moments equal parts of the motion's time
+  /// and one of bend_stretches equal parts of the hose. They are smoother functions of the routing than their maximum,
+  /// which has an edge if another pose or another place of the hose becomes the largest. Evaluated at the samples, so
+  /// the maximum may be a little below that of the run.
   std::vector<double> bends;
-  /// Largest change of a link's bend and twist over the last repeat, which a life falls with: the root of the sum of the
+  /// Largest change of a link's bend and twist over the last repeat, with which a life decreases: the root of the sum of the
   /// squared ranges of both curvatures and of the twist [1/m]. Infinite: it does not run.
   double swing = std::numeric_limits<double>::infinity();
 };
 
-/// Few enough that all are modelled at the cost of one matrix (pipeline/advise/search), and many enough that a part
-/// of a program holds some moves, and a third of the hose eight of the 24 segments. Other numbers were not
+/// Few enough that all are modelled with one matrix (pipeline/advise/search), and enough that a part
+/// of a program contains only some moves, and a third of the hose contains eight of the 24 segments. Other numbers were not
 /// tried.
 inline constexpr int bend_moments = 16, bend_stretches = 3;
 
-/// What a search asks for.
+/// Values that a search uses.
 inline constexpr int rehearsed_segments = 24, rehearsed_repeats = 1;
 
-/// segments: of each dresspack, at most as many as the job asks for. repeats: of the motion, at most
-/// likewise.
+/// Returns the result of a short run. segments: of each dresspack, at most those of the job. repeats: of the motion, at most
+/// those of the job.
 Rehearsal rehearsed(pipeline::Setup setup, int segments, int repeats);
 
 }  // namespace dresslife::sim

@@ -20,33 +20,33 @@ namespace dresslife::sim {
 namespace {
 
 constexpr double moments_a_second = 10;
-constexpr int fewest_moments = 100, most_moments = 2000;  // 2 ms of ways
-constexpr int drawn_poses = 16;                           // 0.1 ms of curve each
+constexpr int fewest_moments = 100, most_moments = 2000;  // 2 ms for the distances
+constexpr int drawn_poses = 16;                           // 0.1 ms for each curve
 constexpr int curve_segments = 16;                        // each a sixteenth of the length
 constexpr int carried_moments = 40;                       // from the mounting pose to the first waypoint
-constexpr double overlap_share = 0.5;  // of the diameter that is pushed out when mounted (R7)
+constexpr double overlap_share = 0.5;  // share of the diameter that is pushed out while mounting (R7)
 constexpr double unasked = -std::numeric_limits<double>::infinity();
 constexpr double whole_turn = 2 * std::numbers::pi;
 
 struct Moment {
   double time = 0;
-  std::vector<Frame> links;  // of the robot
-  ClampFrames recorded;      // without one
+  std::vector<Frame> links;  // links of the robot
+  ClampFrames recorded;      // without a robot
 };
 
-/// A frame that a link carries.
+/// A frame on a link.
 struct ThreadNode {
   int link = no_link;
   Frame local;
 };
 
-/// A span with the nodes that it passes: its base end, its rings, its tool end.
+/// A span with its nodes: its base end, its rings, its tool end.
 struct Thread {
   const Span* span = nullptr;
   std::vector<ThreadNode> nodes;
-  int recorded_end = 0;                    // index of its base end among recorded clamps
-  double rings_save = 0;                   // of the way, by a hose that passes them off-centre [m]
-  std::optional<double> turn_at_mounting;  // given by the clamp's roll [rad]; else free of twist
+  int recorded_end = 0;                    // index of its base end among the recorded clamps
+  double rings_save = 0;                   // length that a hose saves by passing the rings off-centre [m]
+  std::optional<double> turn_at_mounting;  // given by the clamp's roll [rad]; absent: without twist
   double pre_twist = 0;                    // [rad]
   MotionLimits limits;
 };
@@ -79,7 +79,7 @@ Quaternion transported(const Quaternion& q, const Vector3& t) {
   return turn_between(tangent(q), t) * q;
 }
 
-/// Turn about the tangent [rad], up to whole turns, by transport from frame to chord to frame.
+/// Returns the rotation about the tangent [rad], up to full turns, by transport from frame to chord to frame.
 double turn_by_chords(const Frames& frames) {
   double turn = 0;
   for (std::size_t k = 1; k < frames.size(); ++k) {
@@ -98,10 +98,11 @@ double near(double angle, double to) { return angle + whole_turn * std::round((t
 struct Drawn {
   std::vector<Vector3> points;  // centres of the segments
   double curvature = 0;         // largest [1/m]
-  double turn = 0;              // about the tangent, up to whole turns [rad]
+  double turn = 0;              // rotation about the tangent, up to full turns [rad]
 };
 
-/// Piece k from frame k to the next; pieces share the length by their straight ways.
+/// Returns the pieces; piece k leads from frame k to the next one. Pieces share the length in proportion to their straight
+/// distances.
 std::vector<RodProperties> pieces_of(const Thread& thread, const Frames& frames, End tool_end) {
   std::vector<double> ways;
   for (std::size_t k = 1; k < frames.size(); ++k)
@@ -127,10 +128,10 @@ double largest_curvature(const Rod& rod, const RodState& state) {
   return most;
 }
 
-/// What is left of the length in a sag, or in a round arch: that which bends less.
+/// Returns a curve with the excess length in a sag or in a round arch, whichever bends less.
 StartCurve smoother_curve(const Rod& rod, const ClampFrames& clamps) {
-  constexpr double of_an_arch = 4;  // lengths: of half a circle 1.3
-  constexpr int halvings = 22;      // a millionth of the length; a grade is shown to a hundredth
+  constexpr double of_an_arch = 4;  // in lengths: half a circle has 1.3
+  constexpr int halvings = 22;      // resolution of a millionth of the length; values are shown to a hundredth
   const StartCurve sagging = start_curve(rod, clamps, 1, halvings);
   const StartCurve arch = start_curve(rod, clamps, of_an_arch, halvings);
   return largest_curvature(rod, arch.state) < largest_curvature(rod, sagging.state) ? arch : sagging;
@@ -149,11 +150,11 @@ Drawn drawn(const Thread& thread, const Frames& frames) {
   return curve;
 }
 
-/// Largest of its pieces at rest [1/m].
+/// Returns the largest curvature of the pieces at rest [1/m].
 double curvature_at_rest(const Thread& thread, const Frames& frames) {
-  constexpr double no_rest = 100;  // [1/m]
+  constexpr double no_rest = 100;  // [1/m], if no equilibrium is found
   EquilibriumSettings settings;
-  settings.iterations = 60;   // most take 20
+  settings.iterations = 60;   // most equilibria take 20
   settings.tolerance = 1e-3;  // of the forces
   double most = 1e-6;
   const std::vector<RodProperties> pieces = pieces_of(thread, frames, End::swivel);
@@ -166,7 +167,7 @@ double curvature_at_rest(const Thread& thread, const Frames& frames) {
   return most;
 }
 
-/// How deep a ball lies in a box about its frame [m]; negative: how far outside.
+/// Returns the depth of a sphere in a box about its frame [m]; negative: distance outside.
 double depth_in_box(const Vector3& point, double radius, const Frame& frame, const Vector3& sides) {
   const Vector3 beyond = (frame.orientation.conjugate() * (point - frame.position)).cwiseAbs() - sides / 2;
   return radius - (beyond.maxCoeff() > 0 ? beyond.cwiseMax(0).norm() : beyond.maxCoeff());
@@ -201,11 +202,11 @@ bool Screening::rejected() const {
 }
 
 struct Screener::Parts {
-  std::vector<Moment> moments;     // the first ones: from the mounting pose to the start
-  std::size_t first = 0;           // of the program
-  std::vector<std::size_t> poses;  // to draw, in order
-  std::optional<Surfaces> surfaces;  // with brackets of a robot
-  std::vector<Frames> carriers;      // (moment, link) likewise
+  std::vector<Moment> moments;     // first the moments from the mounting pose to the start
+  std::size_t first = 0;           // index of the first moment of the program
+  std::vector<std::size_t> poses;  // poses with curves, in order
+  std::optional<Surfaces> surfaces;  // for a robot with brackets
+  std::vector<Frames> carriers;      // (moment, link), for brackets
 
   void add_robot(const pipeline::Setup& setup, const RobotPath& path);
   void choose_poses(const std::vector<Eigen::VectorXd>& joints);
@@ -257,14 +258,14 @@ void Screener::Parts::add_robot(const pipeline::Setup& setup, const RobotPath& p
   const int count = std::clamp(static_cast<int>(duration * moments_a_second), fewest_moments, most_moments);
   std::vector<double> times;
   for (int k = 0; k <= count; ++k) times.push_back(duration * k / count);
-  for (const MotionPiece& piece : path.motion().pieces())  // stops, where ways are often longest
+  for (const MotionPiece& piece : path.motion().pieces())  // stops, at which distances are often largest
     if (times.size() < 2 * most_moments) times.push_back(piece.start);
   std::sort(times.begin(), times.end());
   for (const double time : times) add(time, path.motion().position(time));
   choose_poses(joints);
 }
 
-/// The first, then again and again the one that is farthest from all chosen, by the axis that turns most.
+/// Chooses the first pose, then repeatedly the pose that is farthest from all chosen ones, by the axis that moves most.
 void Screener::Parts::choose_poses(const std::vector<Eigen::VectorXd>& joints) {
   std::vector<double> distance(joints.size(), std::numeric_limits<double>::infinity());
   std::size_t next = 0;
@@ -314,7 +315,7 @@ std::vector<Thread> Screener::Parts::threads(const pipeline::Setup& setup, const
   return list;
 }
 
-/// Of points along a thread; near its ends the links that hold it are none of its obstacles.
+/// Returns the overlap of points along a thread; near its ends the links that hold it are no obstacles.
 double Screener::Parts::depth(const pipeline::Setup& setup, const Thread& thread, const Moment& moment,
                               const std::vector<Vector3>& points) const {
   const RodProperties& p = thread.span->properties;
@@ -369,7 +370,7 @@ void Screener::Parts::see(const pipeline::Setup& setup, const Thread& thread, Sc
   }
 }
 
-/// (V7) of all clamps and rings
+/// Evaluates (V7) for all clamps and rings.
 void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& screening) const {
   if (!surfaces) return;
   constexpr auto limit = static_cast<std::size_t>(ScreenedLimit::bracket);

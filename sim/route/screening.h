@@ -1,21 +1,20 @@
-// Checks of a routing by geometry alone, in milliseconds: whether it can work at all, and how far it is from
-// that.
+// Checks of a routing by geometry only, in milliseconds: whether it can work, and its distance from each limit.
 //
-// The dresspack is drawn as a smooth curve of its length through its clamps and rings (start_curve.h) in
-// poses of the program that differ most, without weight, contact or speed. Each limit is graded: g <= 0 keeps
-// it with so much to spare, g > 0 passes it by so much.
+// The dresspack is a smooth curve of its length through its clamps and rings (start_curve.h) in
+// poses of the program that differ most, without weight, contact or speed. For each limit: g <= 0 is the margin,
+// g > 0 the violation.
 //
-// (V1) too short   g = (w - (1 - s_least) L)/L     w: longest straight way over the program, L: length
+// (V1) too short   g = (w - (1 - s_least) L)/L     w: largest straight distance over the program, L: length
 // (V2) too long    g = ((1 - s_most) L - w)/L      s_least, s_most: shares of slack in checks.h
 // (V3) bend        g = ln(R_limit/R)               R: least radius of the curve over the poses
-// (V4) twist       g = |Phi|/(L t_limit) - 1       Phi: turn about the tangent since it was clamped
+// (V4) twist       g = |Phi|/(L t_limit) - 1       Phi: rotation about the tangent since mounting
 // (V5) overlap     g = (depth - d/2)/d             depth: in the links' capsules, the cell and the floor
 //                                                  d: diameter
-// (V6) tension     g = ln(F/F_limit)               F: largest pull, which only a run knows (rehearsal.h)
+// (V6) tension     g = ln(F/F_limit)               F: largest tension, which only a run gives (rehearsal.h)
 // (V7) bracket     bracket.h: whether brackets can carry the clamps and rings, at all moments of the program
 //
-// Phi counts whole turns: the direction is transported from clamp to chord to clamp at every moment of the
-// program and followed without jumps; in the poses the transport along the curve itself takes its place.
+// Phi counts full turns: the direction is transported from clamp to chord to clamp at every moment of the
+// program and followed without jumps; in the drawn poses the transport along the curve itself is used instead.
 #pragma once
 
 #include <array>
@@ -42,46 +41,46 @@ constexpr std::string_view word(ScreenedLimit value) {
                            value);
 }
 
-/// What is further beyond than this cannot work: by so much the curve may err that knows no weight and no
-/// contact. Of 350 random routings none that was rejected kept its limits in a full run (README.md). In the
-/// robot: the hose is pushed aside, so nothing is sure. Of brackets geometry knows all.
+/// A routing with a larger violation cannot work: the values are the largest possible errors of the curve, which has no weight
+/// and no contact. In a test with 350 random routings no rejected one kept its limits in a full run (README.md). Overlap with the
+/// robot is never certain, because the hose is pushed aside. For brackets geometry is exact.
 inline constexpr std::array<double, screened_limits> surely_beyond{
     0, 0, 1, 0.5, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0};
 
-/// Of a point to the nearest one of the line between two others [m].
+/// Returns the distance of a point from the nearest point of the line between two others [m].
 double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3& to);
 
-/// Of the worst span or dresspack each.
+/// Results of the worst span or dresspack for each limit.
 struct Screening {
   std::array<double, screened_limits>
-      beyond;  ///< (limit) g; the most negative number where nothing asks for it
-  std::array<double, screened_limits> time;  ///< (limit) of the moment that decides [s]
+      beyond;  ///< (limit) g; the most negative number if the limit is not requested
+  std::array<double, screened_limits> time;  ///< (limit) time of the decisive moment [s]
 
-  bool rejected() const;     ///< some limit is surely passed
-  double violation() const;  ///< sum of what is beyond
+  bool rejected() const;     ///< some limit is certainly exceeded
+  double violation() const;  ///< sum of the positive entries of `beyond`
 };
 
 class Screener {
  public:
-  /// Computes the motion and looks for the poses that differ most. brackets: (V7) is asked.
+  /// Computes the motion and selects the poses that differ most. brackets: whether (V7) is evaluated.
   /// Errors: InputError, as RobotPath, RecordedPath and Surfaces.
   explicit Screener(const pipeline::Setup& setup, bool brackets = false);
   ~Screener();
 
-  /// setup: with the robot and motion that this was made with; dresspacks, their routings and the rest may
-  /// differ. Errors: InputError for a clamp or ring on a link that the robot has not.
+  /// Returns the screening of a routing. setup: with the same robot and motion as in the constructor; dresspacks, routings and
+  /// other keys may differ. Errors: InputError for a clamp or ring on a link that the robot does not have.
   Screening screen(const pipeline::Setup& setup) const;
 
-  /// (V3) with the hose at rest under its weight in some of the poses (equilibrium.h), free of twist: five
-  /// times as dear. Large where it finds no rest.
+  /// Returns (V3) with the hose at rest under its weight in some of the poses (equilibrium.h), without twist; five
+  /// times as slow. Large if no equilibrium is found.
   double bend_at_rest(const pipeline::Setup& setup) const;
 
-  /// How a bracket carries this over the program. Precondition: a robot, and brackets are asked for.
+  /// Returns the fit of a bracket for this clamp over the program. Precondition: a robot, and `brackets` was set.
   BracketFit bracket(const Carried& carried) const;
-  /// Of BracketFit::moment [s].
+  /// Returns the time of BracketFit::moment [s].
   double time_of(std::size_t moment) const;
 
-  /// (span) w of (V1) [m]; 0: a free end.
+  /// Returns w of (V1), (span) [m]; 0: a free end.
   std::vector<double> longest_ways(const pipeline::Setup& setup) const;
 
  private:

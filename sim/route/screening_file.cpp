@@ -17,12 +17,12 @@ namespace {
 using pipeline::InputError;
 using pipeline::Node;
 
-/// What is known of one candidate.
+/// Results for one candidate.
 struct Verdict {
   std::string changes, refusal;
   Screening screening;
-  std::vector<double> bends{};             // of its rehearsal (rehearsal.h)
-  std::optional<pipeline::Setup> setup{};  // where it is a job
+  std::vector<double> bends{};             // bends of its rehearsal (rehearsal.h)
+  std::optional<pipeline::Setup> setup{};  // present if it is a valid job
 };
 
 class Writer {
@@ -54,7 +54,7 @@ class Writer {
   }
 
  private:
-  /// One row of numbers for each that ran, 0 for the others; nothing where none ran.
+  /// Writes one row of numbers for each candidate that ran and 0 for the others; writes nothing if none ran.
   void write_bends(const std::vector<Verdict>& verdicts) {
     std::size_t most = 0;
     for (const Verdict& of : verdicts) most = std::max(most, of.bends.size());
@@ -72,15 +72,15 @@ class Writer {
 
 constexpr auto bracket = static_cast<std::size_t>(ScreenedLimit::bracket);
 
-/// Screeners are kept as long as robot and motion stay.
+/// Keeps the screeners as long as robot and motion are the same.
 class Bench {
  public:
-  /// (V7) counts from what this job has, where it passes it.
+  /// Makes the value of this job the limit of (V7), if the job exceeds (V7).
   void accept_brackets_of(const pipeline::Setup& setup, const Node& document) {
     try {
       accepted_ = std::max(0.0, screen(setup, document).beyond[bracket]);
     } catch (const InputError&) {
-      accepted_ = 0;  // a job whose motion cannot be computed; its candidates say so
+      accepted_ = 0;  // the motion of the job cannot be computed; the candidates contain the reason
     }
   }
 
@@ -133,7 +133,7 @@ Verdict verdict_of(Bench& bench, Node document, const Node& changes) {
   return verdict;
 }
 
-/// Runs them, one beside the other. Of what does not run geometry says how far it is from that.
+/// Rehearses the candidates in parallel. A candidate that does not run gets its geometric violation.
 void rehearse(std::vector<Verdict>& verdicts) {
   std::vector<Verdict*> left;
   for (Verdict& verdict : verdicts)

@@ -1,4 +1,4 @@
-// screening.h5: checks by geometry alone of many routings of a job, or the routings that it proposes.
+// screening.h5: geometric checks of many routings of a job, or proposed routings.
 #pragma once
 
 #include <filesystem>
@@ -13,16 +13,16 @@ namespace dresslife::sim {
 
 struct ProposalSettings;
 
-/// Writes all of screening_format() but the stamp, a candidate for each item of a YAML list of maps from key
-/// paths to values, each of which changes the job. A candidate that is no job, or whose motion the robot
-/// cannot run, says why in the file. Where the job itself passes (V7), that limit counts
-/// from the job: what the job has can be built. in_runs: each is rehearsed (rehearsal.h), and what its run saw is
-/// written instead; of what does not run why, and what geometry says. Errors: InputError for a file that is
+/// Writes all of screening_format() except the stamp, with one candidate for each item of a YAML list of maps from key
+/// paths to values; each map changes the job. A candidate that is no valid job, or whose motion the robot
+/// cannot run, has the reason in the file. If the job itself exceeds (V7), the limit is the value of the job,
+/// because its bracket exists. in_runs: each candidate is rehearsed (rehearsal.h), and the results of its run are
+/// written instead; for a candidate that does not run the reason and the geometric values. Errors: InputError for a file that is
 /// no such list.
 void write_screening(const pipeline::Job& job, const std::filesystem::path& candidates, bool in_runs,
                      pipeline::FileWriter& file);
 
-/// The same of proposals (proposal.h), best first.
+/// Writes proposals (proposal.h) in this format, best first.
 void write_proposals(const pipeline::Job& job, const ProposalSettings& settings, pipeline::FileWriter& file);
 
 }  // namespace dresslife::sim

@@ -173,7 +173,7 @@ void MotionChecks::add_slack(int dresspack, std::vector<Check>& checks) const {
   const Extreme *tight = nullptr, *loose = nullptr, *most = nullptr;
   for (int k = first; k < end; ++k) {
     const Extreme &least = least_slack_[k], &greatest = most_slack_[k];
-    if (!least.seen) continue;  // a free end
+    if (!least.seen) continue;  // a free end has no slack
     if (!tight || share(least) < share(*tight)) tight = &least;
     if (!loose || share(least) > share(*loose)) loose = &least;
     if (!most || share(greatest) > share(*most)) most = &greatest;

@@ -28,7 +28,7 @@ Frame clamp_frame(const pipeline::Clamp& clamp) {
 
 namespace {
 
-/// Where the steps move external axes, in their order: lowest and highest [mm or deg].
+/// Extends, for each external axis, the range [mm or deg] in which the steps move it.
 void add_ways(const std::vector<pipeline::MotionStep>& steps, std::vector<std::pair<double, double>>& ways) {
   for (const pipeline::MotionStep& step : steps) {
     for (std::size_t i = 0; i < step.external_axes.size(); ++i) {
@@ -40,7 +40,7 @@ void add_ways(const std::vector<pipeline::MotionStep>& steps, std::vector<std::p
   }
 }
 
-/// External axes that the motion moves and the robot does not have: they are taken to stand.
+/// Returns warnings for external axes that the motion moves and the robot does not have. They are assumed to stand still.
 std::vector<pipeline::Warning> missing_external_axes(const pipeline::Motion& motion,
                                                      const pipeline::Robot& robot) {
   std::vector<std::pair<double, double>> ways;
@@ -57,14 +57,15 @@ std::vector<pipeline::Warning> missing_external_axes(const pipeline::Motion& mot
   return warnings;
 }
 
-/// Whether the lower arm, from axis 2 to axis 3, lies flat where all axes are at 0; nothing: it is inclined, or there is none.
+/// Returns whether the lower arm, from axis 2 to axis 3, is horizontal when all axes are at 0; std::nullopt: it is inclined, or
+/// the robot has none.
 std::optional<bool> lies_at_zero(const pipeline::Robot& robot) {
   constexpr std::size_t arm = 3;
-  constexpr double upright = 0.95, flat = 0.3;  // of the arm's length: 18 deg, for arms with an offset
-  if (robot.joints.size() < 5) return {};       // SCARA robots and palletizers
+  constexpr double upright = 0.95, flat = 0.3;  // shares of the arm's length: 18 deg, for arms with an offset
+  if (robot.joints.size() < 5) return {};       // SCARA robots and palletizers have no such arm
   Frame frame{robot.base_position, pipeline::from_roll_pitch_yaw(robot.base_orientation)};
   Vector3 begin = Vector3::Zero(), end = begin;
-  const Vector3 up = frame.orientation * Vector3::UnitZ();  // also of a robot on a wall
+  const Vector3 up = frame.orientation * Vector3::UnitZ();  // valid also for a robot on a wall
   for (std::size_t k = 0; k < arm; ++k) {
     frame = frame * Frame{robot.joints[k].origin, pipeline::from_roll_pitch_yaw(robot.joints[k].orientation)};
     if (k + 2 == arm) begin = frame.position;
@@ -75,7 +76,8 @@ std::optional<bool> lies_at_zero(const pipeline::Robot& robot) {
   return share < flat ? std::optional(true) : std::nullopt;
 }
 
-/// A program in the language of one maker, and a robot that another one names: zeros and directions of their axes differ.
+/// Returns a warning for a program in the language of one maker and a robot of another: zeros and directions of their axes
+/// differ.
 std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const pipeline::Robot& robot) {
   constexpr std::pair<Language, std::string_view> makers[] = {{Language::rapid, "ABB"},      {Language::krl, "KUKA"},
                                                               {Language::fanuc, "Fanuc"},    {Language::inform, "Yaskawa"},
@@ -115,18 +117,18 @@ std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const
                                cause, remedy)};
 }
 
-/// Steps that give a time in which no axis of the robot gets there.
+/// Steps with a given time that is too short for an axis of the robot.
 struct TooFast {
   int count = 0, axis = 0;
   double ratio = 0, time = 0,
-         speed = 0;  ///< of the worst one: to the limit, at its end [s], that it asks for [rad/s or m/s]
+         speed = 0;  ///< worst step: ratio to the limit, time at its end [s], required speed [rad/s or m/s]
   const pipeline::MotionStep* worst = nullptr;
 };
 
-/// before: the step that they follow; null: none. time: [s] at which they begin. Returns the time at their end.
+/// before: the previous step; null: none. time: begin of the steps [s]. Returns the time at their end.
 double add_too_fast(const std::vector<pipeline::MotionStep>& steps, const std::vector<Axis>& axes,
                     const pipeline::MotionStep*& before, double time, TooFast& found) {
-  constexpr double rounding = 1.01;  // of times and angles in recordings
+  constexpr double rounding = 1.01;  // tolerance for rounded times and angles in recordings
   for (const pipeline::MotionStep& step : steps) {
     if (step.repeat > 0) {
       const double end = add_too_fast(step.steps, axes, before, time, found);
@@ -151,7 +153,7 @@ double add_too_fast(const std::vector<pipeline::MotionStep>& steps, const std::v
   return time;
 }
 
-/// Times that the robot cannot keep: the motion is slower there.
+/// Returns a warning for times that the robot cannot keep: there the motion is slower than the program.
 std::vector<pipeline::Warning> too_fast(const pipeline::Motion& motion, const pipeline::Robot& robot) {
   TooFast found;
   const std::vector<Axis> axes = axes_of(robot);
@@ -183,7 +185,7 @@ void add_waits(const std::vector<pipeline::MotionStep>& steps, int times, Waits&
   }
 }
 
-/// Whether there are poses, and all of them lead the flange itself.
+/// Returns whether poses exist and all of them are poses of the flange itself. poses: set if a step has a pose.
 bool leads_flange(const std::vector<pipeline::MotionStep>& steps, const pipeline::Motion& motion, bool& poses) {
   return std::ranges::all_of(steps, [&](const pipeline::MotionStep& step) {
     if (!leads_flange(step.steps, motion, poses)) return false;
@@ -194,10 +196,10 @@ bool leads_flange(const std::vector<pipeline::MotionStep>& steps, const pipeline
   });
 }
 
-/// What a run notes of its program, and of what may be an input in another unit or one that is missing.
+/// Returns the note of a run about its program, and about inputs that may be missing or in another unit.
 std::string note_of(const RunMotion& run, double cycle) {
   constexpr double most = 0.5, long_wait = 5,
-                   longest_wait = 20;  // of the cycle; [s]: grippers take 0.2 to 1, spot welds with their guns up to 4
+                   longest_wait = 20;  // share of the cycle; [s]: grippers take 0.2 to 1 s, spot welds with their guns up to 4 s
   std::vector<std::string> notes;
   Waits waits;
   add_waits(run.motion.steps, 1, waits);
@@ -213,7 +215,7 @@ std::string note_of(const RunMotion& run, double cycle) {
   return pipeline::joined(notes, ". ");
 }
 
-/// Origins of the tools that the flange carries, in its frame.
+/// Returns the origins of the tools on the flange, in the flange's frame.
 std::vector<Vector3> tool_points(const pipeline::Motion& motion) {
   std::vector<Vector3> points;
   for (const pipeline::MotionFrame& tool : motion.tools)
@@ -221,7 +223,7 @@ std::vector<Vector3> tool_points(const pipeline::Motion& motion) {
   return points;
 }
 
-/// The motion in time. Errors: InputError, with the doubts about its program and steps.
+/// Returns the motion as a function of time. Errors: InputError, with the doubts about its program and steps.
 JointMotion motion_in_time(const RunMotion& run, const pipeline::Setup& setup) {
   try {
     return {run.motion, setup.robot};
@@ -262,7 +264,7 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
     if (routing.mounting_pose.empty()) continue;
     check_joint_limits(setup.robot, routing.mounting_pose, "routing.mounting_pose_deg", routing.where);
     const auto axes = static_cast<long>(routing.mounting_pose.size());
-    mounting_pose_.head(axes) =  // external axes: as at the start
+    mounting_pose_.head(axes) =  // external axes have their value at the start
         Eigen::Map<const Eigen::VectorXd>(routing.mounting_pose.data(), axes);
   }
 }

@@ -1,13 +1,13 @@
-// Where the clamps (and the robot's links) are at any time of a motion: from a robot and its routing, or
+// Poses of the clamps and of the robot's links at any time of a motion: from a robot and its routing, or
 // from a file of recorded clamp poses.
 //
 // (R2) clamp = F_link (p, R_clamp): p [m] and the direction d are in the link's frame, and the z axis of
 //      R_clamp is d.
-// (R3) The x axis of R_clamp at roll 0 is e - (e d) d, normalised, with e the link's z axis, or its x axis
-//      where d is within 8 deg of z. Roll turns about d.
+// (R3) The x axis of R_clamp at roll 0 is e - (e d) d, normalised; e is the link's z axis, or its x axis
+//      if d is within 8 deg of z. Roll is a rotation about d.
 // (R4) A recorded pose between its rows: a C2 cubic spline (spline.h) through the positions and one through
-//      the quaternions' four components, normalised: q = s/|s|. The rows' quaternions get the signs that make
-//      neighbours closest. Through rows h apart the error is of order h^4, as is 1 - |s|.
+//      the quaternions' four components, normalised: q = s/|s|. The signs of the rows' quaternions are chosen so that
+//      neighbours are closest. For rows at distance h the error is of order h^4, as is 1 - |s|.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,12 +31,12 @@ struct Setup;
 
 namespace dresslife::sim {
 
-/// What a motion prescribes at one time.
+/// Poses that a motion prescribes at one time.
 struct Pose {
   ClampFrames clamps;
-  std::vector<Frame> links;  ///< of the robot; empty without one
+  std::vector<Frame> links;  ///< links of the robot; empty without a robot
   std::vector<Frame> rings;  ///< guide rings, z = their axes
-  Eigen::VectorXd joints;    ///< of the robot, then of its external axes (robot.h); empty without one
+  Eigen::VectorXd joints;    ///< axes of the robot, then its external axes (robot.h); empty without a robot
 };
 
 class ClampPath {
@@ -53,7 +53,7 @@ struct RunMotion;  // sim/program/import.h
 /// The clamps on a robot that runs a joint program.
 class RobotPath final : public ClampPath {
  public:
-  /// Throws InputError: joint limits, wrong links. Precondition: the job has its clamps.
+  /// Throws InputError: joint limits, wrong links. Precondition: the job has clamps.
   explicit RobotPath(const pipeline::Setup& setup);
 
   double duration() const override { return motion_.duration(); }
@@ -62,21 +62,21 @@ class RobotPath final : public ClampPath {
   const std::vector<std::string>& step_texts() const override { return motion_.step_texts(); }
 
   const JointMotion& motion() const { return motion_; }
-  /// Of the robot program (Motion::left_out, external axes that the robot lacks) and of unusual steps.
+  /// Returns warnings about the robot program (Motion::left_out, external axes that the robot does not have) and unusual steps.
   const std::vector<pipeline::Warning>& doubts() const { return doubts_; }
-  const std::string& note() const { return note_; }  ///< a run's note on its program; empty: none
+  const std::string& note() const { return note_; }  ///< note of a run about its program; empty: none
   /// Origins of the motion's tools in the flange's frame [m].
   const std::vector<Vector3>& tools() const { return tools_; }
   Pose pose(const Eigen::VectorXd& joints) const;
-  /// (end, as ClampFrames counts them) index of the link that carries it; no_link: a free end.
+  /// Returns, (end, in the order of ClampFrames), the index of the link with the clamp; no_link: a free end.
   const std::vector<int>& end_links() const { return end_links_; }
-  /// Of all dresspacks' rings, in their order.
+  /// Returns the links of all dresspacks' rings, in their order.
   const std::vector<int>& ring_links() const { return ring_links_; }
-  /// Of each ring in its link's frame.
+  /// Returns the frame of each ring in its link's frame.
   const std::vector<Frame>& rings() const { return rings_; }
-  /// Joint angles at which the dresspacks were clamped [rad].
+  /// Returns the joint angles at which the dresspacks were clamped [rad].
   const Eigen::VectorXd& mounting_pose() const { return mounting_pose_; }
-  /// Turns the clamp at an end about its direction by roll [rad], for good; between two spans it is that of
+  /// Rotates the clamp at an end about its direction by roll [rad] permanently. A clamp between two spans belongs to
   /// both.
   void turn_clamp(int end, double roll);
 
@@ -91,7 +91,7 @@ class RobotPath final : public ClampPath {
   std::string note_;
   std::vector<Vector3> tools_;
   std::vector<int> end_links_, ring_links_;
-  std::vector<int> end_clamps_;  // (end) index into clamps_; a free end names the clamp before it
+  std::vector<int> end_clamps_;  // (end) index into clamps_; for a free end the previous clamp
   std::vector<int> clamp_links_;
   std::vector<Frame> clamps_, rings_;  // in their links' frames (R2)
   Eigen::VectorXd mounting_pose_;
@@ -102,8 +102,8 @@ class RobotPath final : public ClampPath {
 class RecordedPath final : public ClampPath {
  public:
   /// Reads a CSV file; a header line, blank lines and lines that begin with # are allowed. Throws InputError
-  /// at line and column (of the character) of a bad cell: not a finite number, too few or too many cells,
-  /// times that do not start at 0 and increase, a quaternion whose length is off by more than 1e-3, a turn of
+  /// with line and column (character) of a bad cell: not a finite number, too few or too many cells,
+  /// times that do not start at 0 and increase, a quaternion with a length error above 1e-3, a rotation of
   /// more than 120 deg from one row to the next (its direction would be ambiguous).
   explicit RecordedPath(const std::filesystem::path& file);
 
@@ -118,10 +118,10 @@ class RecordedPath final : public ClampPath {
   std::unique_ptr<CubicSpline> poses_;
 };
 
-/// Of a job's motion: recorded clamps, or those of its robot. Throws what their constructors do.
+/// Returns the path of a job's motion: recorded clamps, or those of its robot. Errors: those of the constructors.
 std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup);
 
-/// Frame of a clamp in the frame of its link (R2), (R3); roll [rad] is added to the clamp's own (absent = 0).
+/// Returns the frame of a clamp in the frame of its link (R2), (R3); roll [rad] is added to the clamp's roll (absent = 0).
 Frame clamp_frame(const pipeline::Clamp& clamp);
 
 }  // namespace dresslife::sim

@@ -24,12 +24,13 @@ using pipeline::WarningKind;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr int tried_poses = 8;
-/// Of each pair of directions: 320 equilibria, a second. A length alone is the easiest change, so its steps are finer, 3 %.
+/// (pair of directions) number of lengths: 320 equilibria, one second. A change of length only is the easiest remedy, so its
+/// steps are finer, 3 %.
 constexpr std::array<int, 4> tried_lengths{16, 8, 8, 8};
-constexpr double margin = 1.05;  // of a limit at rest and in a short run: a program at work adds to it
-constexpr std::array<std::size_t, 4> most_tried{5, 3, 3, 3};  // by the checks, of each pair of directions: a second each
-constexpr double most_work = 1e7;  // of all trials of one job: ten seconds
-constexpr int most_segments = 32;  // of a trial: a bend radius within a few percent
+constexpr double margin = 1.05;  // of a limit at rest and in a short run: the full program bends the hose more
+constexpr std::array<std::size_t, 4> most_tried{5, 3, 3, 3};  // (pair of directions) trials by the checks, one second each
+constexpr double most_work = 1e7;  // of all trials of one job, in the unit of World::work: ten seconds
+constexpr int most_segments = 32;  // of a trial: the bend radius has an error of a few percent
 
 std::string in_words(double value, const std::string& unit) {
   if (unit == "m") return fmt::format("{:.1f} mm", 1e3 * value);
@@ -37,7 +38,7 @@ std::string in_words(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
-/// Upward to millimetres, as words in metres.
+/// Returns the value in metres, rounded up to millimetres.
 std::string at_least_metres(double value) { return fmt::format("{:.3f}", std::ceil(1e3 * value) / 1e3); }
 
 std::string key_of(const pipeline::Setup& setup, int dresspack, const std::string& key) {
@@ -55,7 +56,7 @@ const Check* find(const std::vector<Check>& checks, std::string_view name, int d
   return found == checks.end() ? nullptr : &*found;
 }
 
-/// Of a dresspack's spans that in which a place lies.
+/// Returns the span of a dresspack that contains the place of a check.
 int span_at(const Rod& rod, const Check& check) {
   const int first = rod.first_span(check.dresspack), end = rod.first_span(check.dresspack + 1);
   for (int span = end - 1; span > first; --span)
@@ -65,7 +66,7 @@ int span_at(const Rod& rod, const Check& check) {
 
 std::string vector_words(const Vector3& v) { return fmt::format("[{:.2f}, {:.2f}, {:.2f}]", v.x(), v.y(), v.z()); }
 
-/// A span at rest in some poses of its program, with other lengths and directions of its clamps.
+/// Equilibria of a span in some poses of its program, with other lengths and directions of its clamps.
 class RestTrials {
  public:
   RestTrials(const CheckedMotion& motion, const Check& broken) : span_(span_at(*motion.rod, broken)) {
@@ -85,7 +86,8 @@ class RestTrials {
   }
 
   double longest() const { return longest_; }
-  /// turned: (end) whether that clamp points along the mean of its chords. reversed: end that points the other way; -1: none.
+  /// turned: (end) whether the clamp points along the mean of its chords. reversed: end that points in the opposite direction;
+  /// -1: none.
   double curvature(double length, const std::array<bool, 2>& turned = {}, int reversed = -1) const {
     RodProperties of = properties_;
     of.segments = std::min(of.segments, most_segments);
@@ -99,7 +101,7 @@ class RestTrials {
     }
     return most;
   }
-  /// Of a clamp that points along the mean of its chords, in its own frame as it is now.
+  /// Returns the direction of a clamp along the mean of its chords, in the clamp's present frame.
   Vector3 chord_direction(int end) const { return chord_turn_[end] * Vector3::UnitZ(); }
   double length() const { return properties_.length; }
 
@@ -136,17 +138,17 @@ bool is_among(const Kinds& kinds, const Check& check) {
   return check.kind && std::find(kinds.begin(), kinds.end(), *check.kind) != kinds.end();
 }
 
-/// The checks of a changed job.
+/// Results of the checks of a changed job.
 struct Trial {
-  bool keeps = false;  ///< it keeps the limits of the kinds that were asked, and passes no other one than the job does now
-  bool cured = false;  ///< the same with the margin
-  double radius = 0;   ///< smallest bend radius in the short run [m]; 0: there was none
-  std::string other;    ///< name of a check whose limit is passed and which is none of the bend radius; empty: none
-  std::string refusal;  ///< why the short run ended; empty: it did not
-  std::optional<double> until{};  ///< time at which the short run ended, because it took long [s]; absent: it did not
+  bool keeps = false;  ///< it keeps the limits of the requested kinds, and exceeds no limit that the job does not exceed now
+  bool cured = false;  ///< the same, with the margin
+  double radius = 0;   ///< smallest bend radius in the short run [m]; 0: no short run
+  std::string other;    ///< name of a check other than bend radius with an exceeded limit; empty: none
+  std::string refusal;  ///< reason why the short run ended; empty: it did not end early
+  std::optional<double> until{};  ///< time at which the short run ended because of its duration [s]; absent: it did not
 };
 
-/// least_radius: of a trial that is better than those before [m].
+/// least_radius: radius above which a trial is better than the previous ones [m].
 Trial trial_of(const CheckedMotion& motion, const pipeline::Setup& changed, const Kinds& kinds, int dresspack,
                const std::vector<Check>& now, double least_radius = 0) {
   if (motion.work > most_work) return {};
@@ -181,7 +183,7 @@ bool cures(const CheckedMotion& motion, const pipeline::Setup& changed, const Ki
   return trial_of(motion, changed, kinds, dresspack, now).cured;
 }
 
-/// A routing between the same links.
+/// A change of the routing between the same links.
 struct Change {
   double length = 0, pre_twist = 0;  // [m], [rad]
   std::array<bool, 2> turned{};      // (end)
@@ -189,21 +191,22 @@ struct Change {
   Trial trial{};
 };
 
-/// Looks for a routing that keeps the limits of bend and slack.
+/// Searches for a routing that keeps the limits of bend and slack.
 class RemedySearch {
  public:
   RemedySearch(const CheckedMotion& motion, const std::vector<Check>& checks, const RestTrials& trials, int dresspack)
       : motion_(motion), checks_(checks), trials_(trials), dresspack_(dresspack) {}
 
-  /// Words of the first that keeps them; empty: none that was tried does. All warnings of a dresspack name the same one.
+  /// Returns the text of the first routing that keeps them; empty: no tried routing does. All warnings of a dresspack name the
+  /// same one.
   std::string words() {
     std::string& known = motion_.remedies[dresspack_];
     if (known.empty()) known = found_words();
     return known;
   }
-  /// " (best of those tried: 1.250 m, bend radius 210.3 mm at rest, 187.2 mm in a short run; asked are 200.0 mm)": least
-  /// bent of those that ran; where none did, at rest. now: smallest bend radius of the job [m]. Empty: none has a shape
-  /// at rest.
+  /// Returns " (best of those tried: 1.250 m, bend radius 210.3 mm at rest, 187.2 mm in a short run; asked are 200.0 mm)": the
+  /// routing with the least bend of those that ran; if none ran, at rest. now: smallest bend radius of the job [m]. Empty: none
+  /// has an equilibrium.
   std::string best_words(double now) const {
     const Trial& trial = best_.trial;
     if (trial.radius == 0 && std::isinf(best_.curvature)) return "";
@@ -224,7 +227,7 @@ class RemedySearch {
  private:
   std::string found_words() {
     const Check* net = find(checks_, check_name::net_twist, dresspack_);
-    constexpr double little = 10 * degree;  // a pre-twist below it changes no shape that a user sees
+    constexpr double little = 10 * degree;  // a smaller pre-twist does not visibly change the shape
     if (net && std::abs(net->centre) > little) {
       Change change{routing().free_length, std::round((routing().pre_twist - net->centre) / degree) * degree};
       change.curvature = trials_.curvature(change.length);
@@ -234,7 +237,7 @@ class RemedySearch {
     constexpr std::array<std::array<bool, 2>, 4> turns{{{false, false}, {false, true}, {true, false}, {true, true}}};
     for (std::size_t turn = 0; turn < turns.size(); ++turn) {
       std::size_t tried = 0;
-      std::optional<Change> kept;  // the limits, but not with the margin
+      std::optional<Change> kept;  // keeps the limits, but not with the margin
       for (const double length : lengths(tried_lengths[turn])) {
         Change change{length, routing().pre_twist, turns[turn]};
         change.curvature = trials_.curvature(length, change.turned);
@@ -258,7 +261,7 @@ class RemedySearch {
   const pipeline::Routing& routing() const { return mounted().routing; }
   double limit() const { return limits_of(mounted().dresspack).least_bend_radius; }
 
-  /// Nearest to the present one first.
+  /// Returns the lengths, sorted by their distance from the present one.
   std::vector<double> lengths(int count) const {
     const WorkingLength range = working_length(trials_.longest());
     const double least = std::ceil(1e3 * range.least) / 1e3, most = std::floor(1e3 * range.most) / 1e3;
@@ -274,7 +277,7 @@ class RemedySearch {
   }
 
   const pipeline::Clamp& clamp(int end) const { return end == 0 ? *routing().base_clamp : *routing().tool_clamp; }
-  /// As it is written, in hundredths.
+  /// Returns the direction as it is written, rounded to hundredths.
   Vector3 direction(int end) const {
     const Vector3 of = clamp_frame(clamp(end)).orientation * trials_.chord_direction(end);
     return (1e2 * of).array().round() / 1e2;
@@ -314,8 +317,8 @@ class RemedySearch {
   Change best_;
 };
 
-/// Whether its length and the directions of its clamps can be tried: one span between two clamps of a robot, without rings
-/// or a retraction unit.
+/// Returns whether its length and the directions of its clamps can be tried: one span between two clamps of a robot, without
+/// rings and without a retraction unit.
 bool can_be_tried(const CheckedMotion& motion, int dresspack) {
   const pipeline::Routing& routing = motion.setup.dresspacks[static_cast<std::size_t>(dresspack)].routing;
   return motion.rod && routing.base_clamp && routing.tool_clamp && routing.clamps.empty() && routing.rings.empty() &&
@@ -330,7 +333,7 @@ std::string limit_remark(const CheckedMotion& motion, const Check& broken) {
                      dresspack.hose_corrugation && !dresspack.components.empty() ? " of the parts in the hose" : "");
 }
 
-/// Nearer to a clamp without a relief than a bend of the limit reaches.
+/// Returns a remark if the bend is near a clamp without a relief.
 std::string relief_remark(const CheckedMotion& motion, const Check& broken) {
   const pipeline::Routing& routing = mounted_of(motion, broken).routing;
   std::vector<std::pair<double, std::string>> bare;
@@ -349,10 +352,10 @@ std::string relief_remark(const CheckedMotion& motion, const Check& broken) {
                      pipeline::relief_text(pipeline::first_relief(dresspack.diameter, dresspack.bending_stiffness, routing.free_length / motion.setup.simulation.segments)));
 }
 
-/// The acceleration that keeps the limit, if one is found; 0: none.
+/// Returns the acceleration that keeps the limit; 0: none was found.
 double slower(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken, double k_rest) {
   constexpr int most = 3;
-  constexpr double less = 0.8;  // of the one before
+  constexpr double less = 0.8;  // ratio to the previous acceleration
   const double percent = motion.setup.motion.acceleration_percent;
   double next = std::floor(percent * (1 / broken.limit - k_rest) / (1 / broken.value - k_rest));
   for (int k = 0; k < most && next >= 1; ++k, next = std::floor(less * next)) {
@@ -385,7 +388,7 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
     cause = remedy.empty()                                         ? "distance and direction of the clamps"
             : remedy.find(".direction: ") != std::string::npos ? "directions of the clamps"
                                                                    : "the free length";
-    // A check at rest has said its own radius, with more segments and with twist.
+    // The warning of the check at rest already contains its own radius, with more segments and with twist.
     if (broken.name == check_name::bend_radius)
       cause += fmt::format(" (already at rest and without the robot its bend radius is {} over the program)", radius_words(k_rest));
   } else if (swings) {
@@ -397,7 +400,8 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
     cause = fmt::format("the shape into which the program leads it: free of twist its smallest bend radius at rest is {}",
                         radius_words(k_rest));
   }
-  for (const int end : {0, 1}) {  // a clamp that points away from the other one, and would keep the limit the other way round
+  // a clamp that points away from the other one, and would keep the limit in the opposite direction
+  for (const int end : {0, 1}) {
     if (!at_rest || !remedy.empty() || trials.chord_direction(end).z() >= 0) continue;
     const double reversed = trials.curvature(trials.length(), {}, end);
     if (reversed * broken.limit > 1) continue;
@@ -411,7 +415,7 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
       remedy = fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}; tried in a short run)", percent,
                            motion.setup.motion.acceleration_percent);
   if (remedy.empty()) {
-    double least = broken.value;  // a limit that both the checks at rest and the short run keep
+    double least = broken.value;  // a limit that both the checks at rest and the short run would keep
     for (const Check& check : checks)
       if (check.kind == WarningKind::bend_radius && check.dresspack == broken.dresspack)
         least = std::min(least, check.value);
@@ -422,13 +426,13 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   return {cause, remedy + remark};
 }
 
-/// L of a span with least slack.
+/// Returns L of the span with the least slack.
 double free_length_of(const CheckedMotion& motion, const Check& check) {
   const int span = check.position < 0 ? motion.rod->first_span(check.dresspack) : span_at(*motion.rod, check);
   return motion.rod->spans()[static_cast<std::size_t>(span)].properties.length;
 }
 
-/// Net twist lies about `centre`; a pre-twist takes that away, and a longer hose spreads the rest.
+/// Returns the cure of a net twist: a pre-twist moves its centre to zero, and a longer hose distributes the remaining twist.
 Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
   if (!motion.rod)
     return {"the prescribed deformation twists it so", "less twist in motion.rig or motion.deformation"};
@@ -438,7 +442,7 @@ Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
   const double half_range = most - std::abs(centre), length = routing.free_length;
   const std::string cause = fmt::format("the clamps turn it by {:.0f} deg, {:.0f} to either side of {:.0f}", most / degree,
                                         half_range / degree, centre / degree);
-  // Limits of bends that are passed already are another warning.
+  // Bend limits that are already exceeded have their own warning.
   const auto keeps = [&](double free_length, double pre_twist) {
     pipeline::Setup changed = motion.setup;
     pipeline::Routing& to = changed.dresspacks[static_cast<std::size_t>(broken.dresspack)].routing;
@@ -452,7 +456,7 @@ Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
     return {cause, fmt::format("{}: {:.0f}", key_of(motion.setup, broken.dresspack, "routing.pre_twist_deg"),
                                (routing.pre_twist - centre) / degree)};
   const double needed = std::max(half_range / broken.limit, length * std::abs(broken.value) / broken.limit);
-  // Not beyond the length that the check of slack allows: a longer hose hangs into the robot.
+  // At most the length that the check of slack allows, because a longer hose would hang into the robot.
   const Check* slack = find(checks, check_name::too_short, broken.dresspack);
   const double span = slack ? free_length_of(motion, *slack) : length;
   const double most_longer = slack ? working_length(span - slack->value).most / span : 1;
@@ -517,8 +521,8 @@ std::string hand_words(const Check& check) {
   return check.kind == WarningKind::twist ? (check.value > 0 ? ", right-hand" : ", left-hand") : "";
 }
 
-/// Of a dresspack that cannot be clamped or is pulled tight at this time.
-/// untried: what may help.
+/// Returns a remedy for a dresspack that cannot be clamped or is pulled tight at this time. untried: remedy if no routing can be
+/// tried.
 std::string remedy_for(const CheckedMotion& motion, int dresspack, double time, const std::string& untried) {
   if (!can_be_tried(motion, dresspack)) return untried;
   Check refused;
@@ -573,8 +577,8 @@ double curvature_at_rest(RodProperties span, const ClampFrames& clamps) {
   span.tool_end = End::swivel;
   const Rod rod(span);
   EquilibriumSettings settings;
-  settings.iterations = 400;  // a stiff hose takes 20, the shipped soft one 70 to 220
-  settings.tolerance = 1e-4;  // of the forces: a picture's worth
+  settings.iterations = 400;  // a stiff hose takes 20 iterations, the shipped soft one 70 to 220
+  settings.tolerance = 1e-4;  // of the forces: accurate enough for a picture
   const Equilibrium found = find_equilibrium(rod, clamps, settings);
   if (found.status != EquilibriumStatus::converged) return infinite;
   double curvature = 1e-9;

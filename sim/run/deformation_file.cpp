@@ -154,7 +154,7 @@ class Reader {
     result_.times.push_back(value);
   }
 
-  /// Every time has the places of the first.
+  /// Checks that every time has the places of the first time.
   void finish_time() {
     if (result_.times.empty()) return;
     if (result_.times.size() == 1) places_ = result_.positions.size();
@@ -166,7 +166,7 @@ class Reader {
   }
 
   void check_place(double value, std::size_t place, int column) const {
-    constexpr double rounding = 1e-6;  // of decimals, in the length
+    constexpr double rounding = 1e-6;  // relative to the length, for rounded decimals
     if (value < 0 || value > length_ * (1 + rounding))
       fail(column,
            fmt::format("position_m is {} (must lie in 0 .. {}, the dresspack's free_length_m)", value,
@@ -188,7 +188,7 @@ class Reader {
   double length_, segment_, stiffness_;
   std::vector<const Column*> columns_;
   bool has_places_ = false;
-  std::size_t places_ = 0;  // of every time, known once the first is through
+  std::size_t places_ = 0;  // number of places per time, known after the first time
   PrescribedDeformation result_;
 };
 

@@ -11,15 +11,15 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double largest_turn = 0.5;  // of a segment in one iteration [rad]
-constexpr double saddle_turn = 0.02;  // given to a chain that balances on a saddle [rad]
+constexpr double largest_turn = 0.5;  // rotation of a segment in one iteration [rad]
+constexpr double saddle_turn = 0.02;  // rotation of a chain at a saddle point [rad]
 constexpr int most_saddles = 10;
-constexpr double least_gain = 1e-4;        // a step must free this share of the work it promises
-constexpr double shift_factor = 4;         // by which the shift grows and shrinks
-constexpr double smallest_step = 1e-13;    // of the length: rounding of positions
+constexpr double least_gain = 1e-4;        // a step must release at least this share of its expected work
+constexpr double shift_factor = 4;         // factor by which the shift increases and decreases
+constexpr double smallest_step = 1e-13;    // share of the length: rounding of positions
 constexpr double settling_work =
-    5;  // ESTIMATE: of a step without contact, for each step; a search with more contacts ends earlier
-constexpr double energy_rounding = 1e-12;  // of the energies summed over some hundred links
+    5;  // ESTIMATE: allowed work per step, in steps without contact; a search with more contacts ends earlier
+constexpr double energy_rounding = 1e-12;  // share of the energies, summed over some hundred links
 
 /// The tangent stiffness and the unbalanced forces of one state, and the Newton step from it.
 class Statics {
@@ -31,20 +31,20 @@ class Statics {
         step_(rod.segments()),
         pull_(rod.links(), Vector3::Zero()) {}
 
-  /// Unbalanced force and torque of every segment; returns EquilibriumSettings::residual.
+  /// Computes the unbalanced force and torque of every segment; returns EquilibriumSettings::residual.
   double unbalance(const RodState& state);
-  /// Solves (K + shift M) step = unbalanced. Returns the pivots of K + shift M that are not positive.
+  /// Solves (K + shift M) step = unbalanced. Returns the number of pivots of K + shift M that are not positive.
   int solve(const RodState& state, double shift);
-  /// What (S11) changes by between two states, the second being the first moved by `step` times `part`.
+  /// Returns the change of (S11) between two states; the second is the first one moved by `step` times `part`.
   double energy_change(const RodState& from, const RodState& to, double part) const;
 
   std::span<const Twist6> step() const { return step_; }
-  /// Replaces the step by a small one that bends the chain where it yields most, the same every time.
+  /// Replaces the step by a small one that bends the chain in its weakest direction; deterministic.
   void bend_softly(const RodState& state, double shift);
 
-  /// Work of the unbalanced forces over the step: twice the energy it is expected to free [J].
+  /// Returns the work of the unbalanced forces over the step: twice the energy that it is expected to release [J].
   double expected_work() const;
-  /// The link forces that the step leads to, to first order: those to take for the geometric stiffness.
+  /// Computes the link forces after the step, to first order, for the geometric stiffness.
   void predict_pull(const RodState& state, double part);
   void start_pull(const RodState& state);
 
@@ -97,9 +97,9 @@ double Statics::unbalance(const RodState& state) {
   return largest / std::max(scale, 1e-12);
 }
 
-// m . d2(phi)/d(delta)2 in the world, for log(e^(phi/2) e^delta e^(phi/2)) in the mid-frame. With u =
-// phi/theta, p = delta . u, q = delta - p u, the second order is  c u q.q + s' p q: the first from
-// cos(theta'/2) = cos(theta/2) cos(q/2), c = cot(theta/2)/4 - s^2/(2 theta); the second as p only adds to
+// Computes m . d2(phi)/d(delta)2 in the world, for log(e^(phi/2) e^delta e^(phi/2)) in the mid-frame. With u =
+// phi/theta, p = delta . u, q = delta - p u, the second order is  c u q.q + s' p q. The first term follows from
+// cos(theta'/2) = cos(theta/2) cos(q/2), c = cot(theta/2)/4 - s^2/(2 theta). The second follows because p only changes
 // theta in s(theta) q.
 Matrix3 turn_curvature(const LinkTurn& turn, const Vector3& moment) {
   const double theta = turn.phi.norm(), s = turn.stretch;
@@ -116,8 +116,8 @@ Matrix3 turn_curvature(const LinkTurn& turn, const Vector3& moment) {
          slope * (world_u * across.transpose() + across * world_u.transpose());
 }
 
-/// f . d2(gap) by the lengthening of the arms, on the turns of the segments before (a) and after (b) a link,
-/// beyond what the arms' own length gives. (S18)
+/// f . d2(gap) by the lengthening of the arms, for rotations of the segments before (a) and after (b) a link,
+/// in addition to the part by the arms' own length. (S18)
 struct LengtheningStiffness {
   Matrix3 aa, bb, ab;
 };
@@ -133,9 +133,9 @@ LengtheningStiffness lengthening_stiffness(const LinkArms& arms, const Vector3& 
           pull * (turn - t_b * t_a.transpose()) + n * u_b.transpose() - u_a * n.transpose()};
 }
 
-// (S12), derived in sim/rod/theory.md. With arms a, b, link force f, world moment m and turns da, db of the
-// segments: gap: k B^T B and (f.a) 1 - sym(f a^T) on each segment's own turning; turn: H = G K G^T + (sym(m
-// phi^T) - (m.phi) 1)/6 on da - db, and the antisymmetric half of m in the coupling.
+// (S12), derived in sim/rod/theory.md. With arms a, b, link force f, world moment m and rotations da, db of the
+// segments: gap: k B^T B and (f.a) 1 - sym(f a^T) for the rotation of each segment; rotation: H = G K G^T + (sym(m
+// phi^T) - (m.phi) 1)/6 for da - db, and the antisymmetric half of m in the coupling.
 void Statics::add_link(const RodState& state, int j) {
   if (rod_.gap_stiffness(j) == 0) return;
   const LinkEnds ends = link_ends(rod_, state, j);
@@ -186,7 +186,7 @@ int Statics::solve(const RodState& state, double shift) {
   }
   for (int j = 0; j <= n; ++j) add_link(state, j);
   if (const double mass = rod_.properties().tip_mass;
-      mass > 0) {  // its weight pulls as a link force would (S12)
+      mass > 0) {  // its weight acts like a link force (S12)
     const Vector3 arm = rod_.tip(state) - state.position.back(), f = mass * rod_.properties().gravity;
     add_block(block_[n - 1].diagonal + 21,
               f.dot(arm) * Matrix3::Identity() - 0.5 * (f * arm.transpose() + arm * f.transpose()));
@@ -202,8 +202,8 @@ int Statics::solve(const RodState& state, double shift) {
   return not_positive;
 }
 
-// (K + shift M)^-1 of an irregular torque, scaled to saddle_turn: rich in the directions in which K is
-// negative.
+// Computes (K + shift M)^-1 of an irregular torque, scaled to saddle_turn. The result has large parts in the directions in which
+// K is negative.
 void Statics::bend_softly(const RodState& state, double shift) {
   unsigned number = 12345;
   for (Twist6& u : unbalanced_)
@@ -258,14 +258,14 @@ RodState moved(const RodState& state, std::span<const Twist6> step, double part)
   return next;
 }
 
-// By how much of the step the furthest turned segment turns largest_turn; at most 1.
+// Returns the share of the step, at most 1, at which the largest rotation of a segment equals largest_turn.
 double allowed_part(std::span<const Twist6> step) {
   double turn = 0;
   for (const Twist6& s : step) turn = std::max(turn, s.angular().norm());
   return turn > largest_turn ? largest_turn / turn : 1;
 }
 
-// The longest way that any end of a segment of length l goes.
+// Returns the largest displacement of an end of a segment of length l.
 double furthest(std::span<const Twist6> step, double l) {
   double far = 0;
   for (const Twist6& s : step) far = std::max(far, s.linear().norm() + l * s.angular().norm());
@@ -280,17 +280,17 @@ void take_to_rest(const Rod& rod, RodState& state) {
     state.link_force[j] = rod.gap_stiffness(j) * rod.link_state(state, j).gap;
 }
 
-// Levenberg-Marquardt on (S11). Two things let it take large turns although stretch is far stiffer than
-// bending: the geometric stiffness uses the link forces that the last step predicted, not k g, which the
-// turns of that step have spoilt by their second order (as with Lagrange multipliers); and the shift is by
-// the mass matrix, so that the steps are those of an implicit motion through a viscous medium.
+// Levenberg-Marquardt on (S11). Two properties allow large rotations although stretch is much stiffer than
+// bending. First, the geometric stiffness uses the link forces that the last step predicted, not k g, because the second order of
+// the rotations of that step changes g (as with Lagrange multipliers). Second, the shift is a multiple of
+// the mass matrix, so the steps are those of an implicit motion through a viscous medium.
 class Descent {
  public:
   Descent(const Rod& rod, const ClampFrames& clamps, const RodState& start, std::span<const Load> loads,
           const EquilibriumSettings& settings)
       : rod_(rod), settings_(settings), statics_(rod, loads) {
     const RodProperties& p = rod.properties();
-    // The slowest bending motion of a clamped hose has a frequency^2 of 5000 of these.
+    // The slowest bending mode of a clamped hose has a frequency^2 of 5000 times this value.
     least_shift_ = 0.1 * p.bending_stiffness / (p.mass_per_length * std::pow(p.length, 4));
     result_.state = start;
     result_.state.clamps = clamps;
@@ -329,7 +329,7 @@ class Descent {
         step();
     } else if (shift_ >= least_shift_ && result_.residual < settings_.tolerance &&
                saddles_++ < most_saddles) {
-      // A symmetric start may lead to a balance on edge: it is pushed off, to fall to the stable side.
+      // A symmetric start may lead to a saddle point: a disturbance lets the chain move to a stable side.
       statics_.bend_softly(result_.state, least_shift_);
       result_.state = moved(result_.state, statics_.step(), 1);
       restart();
@@ -338,7 +338,7 @@ class Descent {
     }
   }
 
-  // A chain that may turn for nothing (a ring about its clamps' tangent) needs some shift to the end.
+  // A chain that can rotate without energy (a ring about its clamps' tangent) needs a shift until the end.
   bool balanced() const {
     const double far = furthest(statics_.step(), rod_.segment_length());
     return shift_ <= shift_factor * least_shift_ &&
@@ -385,7 +385,7 @@ Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const Eq
 }
 
 // A swivel at the tool end carries no torsion; its hose settles at some roll, to which the clamp is then
-// turned. The link's rotation vector mixes bending and a large roll, so this is repeated until nothing turns.
+// rotated. The link's rotation vector couples bending and a large roll, so this is repeated until the roll is constant.
 TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
                                const EquilibriumSettings& settings) {
   constexpr int repeats = 20;
@@ -424,7 +424,7 @@ TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
 
 std::vector<TwistFreeClamp> rest_shapes(const RodProperties& hose, const ClampFrames& clamps, bool twist_free,
                                         const EquilibriumSettings& settings) {
-  constexpr double same = 0.5;  // of the diameter
+  constexpr double same = 0.5;  // share of the diameter
   const Rod rod(hose);
   const Vector3 g = hose.gravity, chord = clamps.tool.position - clamps.base.position;
   Vector3 side = chord.cross(g);
@@ -466,7 +466,7 @@ Equilibrium settle(World& world, std::span<const Frame> links, int steps, double
       energy_before = kinetic, speed_before = fastest;
       if (result.iterations > 1 || fastest > speed) continue;
     }
-    // A peak of kinetic energy: the hose passes through balance.
+    // A maximum of the kinetic energy: the hose passes through the equilibrium.
     result.residual = std::max(speed_before, fastest);
     if (result.residual < speed) result.status = EquilibriumStatus::converged;
     RodState state = world.state();

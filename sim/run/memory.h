@@ -1,4 +1,4 @@
-// The memory of a simulation, known when its motion is (pipeline/stage/memory.h).
+// The memory that a simulation needs, computed when its motion is known (pipeline/stage/memory.h).
 #pragma once
 
 #include "pipeline/job/uncertainty.h"

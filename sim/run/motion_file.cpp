@@ -131,7 +131,7 @@ void MotionFile::add_touch_of_motion() {
 }
 
 void MotionFile::add_rubbed(const RunSummary& summary) {
-  if (summary.obstacles.empty()) return;  // a prescribed deformation touches nothing
+  if (summary.obstacles.empty()) return;  // a prescribed deformation has no contact
   std::vector<std::int32_t> dresspack;
   std::vector<double> place, work, time;
   std::vector<std::string> obstacle;

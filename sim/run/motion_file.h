@@ -1,4 +1,4 @@
-// Samples of a run into motion.h5 (the format's table is in pipeline/files/formats.cpp).
+// Writes the samples of a run to motion.h5 (the format's table is in pipeline/files/formats.cpp).
 #pragma once
 
 #include <functional>
@@ -12,11 +12,11 @@ namespace dresslife::sim {
 
 class MotionFile {
  public:
-  /// Writes what holds for all samples. The file must outlive this and be committed by the caller.
+  /// Writes the data that are valid for all samples. Precondition: the file outlives this object; the caller commits it.
   MotionFile(pipeline::FileWriter& file, const RunDescription& description);
 
   void add(const Sample& sample);
-  /// After the last sample: checks, and the summary of the run. step_at: line of the program at a time
+  /// Writes checks and the summary of the run. Precondition: all samples were added. step_at: returns the program line at a time
   /// [s].
   void finish(const RunSummary& summary, const std::function<int(double)>& step_at);
 
@@ -32,7 +32,7 @@ class MotionFile {
   const RunDescription description_;
   bool links_named_ = false;
   std::vector<std::string> obstacles_;
-  std::vector<double> work_, largest_force_;  // (segment, obstacle) so far
+  std::vector<double> work_, largest_force_;  // (segment, obstacle) values so far
   std::vector<double> positions_, orientations_, poses_;
 };
 

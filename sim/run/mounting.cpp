@@ -12,34 +12,34 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double carrying_speed = 20 * EIGEN_PI / 180;  // of the fastest axis on the way to the start [rad/s]
+constexpr double carrying_speed = 20 * EIGEN_PI / 180;  // speed of the fastest axis on the way to the start [rad/s]
 constexpr int settling_steps = 20000;
-constexpr double rest = 1e-5;          // what settling aims at [m/s]
-constexpr double near_rest = 2e-2;     // still a start: sways by less than its diameter [m/s]
-constexpr double lean = 0.3;           // of a hose held up: straight up it could stay there, balanced
-constexpr double overlap_share = 0.5;  // of the diameter: overlaps up to this are pushed out while settling
+constexpr double rest = 1e-5;          // target of the settling [m/s]
+constexpr double near_rest = 2e-2;     // accepted as a start: the hose sways by less than its diameter [m/s]
+constexpr double lean = 0.3;           // of a hose held up: exactly vertical it could stay in an unstable balance
+constexpr double overlap_share = 0.5;  // share of the diameter: smaller overlaps are pushed out while settling
 
-constexpr double roomy = 0.98;  // of the free length: no less is left to bend when a unit is pulled out
-constexpr double pre_twist_part = 0.5;  // turned at a time [rad]
+constexpr double roomy = 0.98;  // share of the free length: the remainder is the length to bend when a unit is pulled out
+constexpr double pre_twist_part = 0.5;  // rotation per step [rad]
 
 struct MountedPiece {
   RodState state;
-  double roll = 0;                // of its far end
+  double roll = 0;                // roll of its far end
   double depth = 0;               // largest overlap with an obstacle or another dresspack [m]
-  int through = -1;               // that dresspack, if it is the deepest; -1: robot, cell or floor
-  int obstacle = floor_obstacle;  // else, as Contact names it
-  double place = 0;               // of the deepest overlap along the piece [m]
+  int through = -1;               // index of the other dresspack, if that overlap is the deepest; -1: robot, cell or floor
+  int obstacle = floor_obstacle;  // obstacle otherwise, numbered as in Contact
+  double place = 0;               // place of the deepest overlap along the piece [m]
   bool found = false;
 };
 
-/// The part of a dresspack that is mounted at a time: from clamp to clamp, or, where rings lie between, from ring to
-/// ring, each of them holding the hose until all of it hangs.
+/// The part of a dresspack that is mounted at one time: from clamp to clamp; with rings from ring to
+/// ring. Each ring holds the hose until the whole dresspack is mounted.
 struct Piece {
   int dresspack = 0;
   RodProperties properties;
   Frame begin, end;
   int begin_link = no_link, end_link = no_link;
-  int clamped_end = -1;  // as ClampFrames counts them; -1: a ring or a free end
+  int clamped_end = -1;  // index as in ClampFrames; -1: a ring or a free end
   bool twist_free = false;
   double pre_twist = 0;  // [rad]
 };
@@ -48,7 +48,7 @@ Frame frame_of(const Vector3& position, const Vector3& orientation) {
   return {position, from_roll_pitch_yaw(orientation)};
 }
 
-/// shapes: a pipeline::Link or pipeline::Cell.
+/// shapes: a pipeline::Link or a pipeline::Cell.
 template <class Shapes>
 void add_shapes(World& world, int link, const Shapes& shapes) {
   for (const pipeline::Capsule& capsule : shapes.capsules)
@@ -105,7 +105,7 @@ class Mounting {
                              : held.obstacle >= 0 ? setup_.robot.links[held.obstacle].name
                              : held.obstacle == cell_obstacle ? "what stands in its cell"
                                                               : "the floor";
-    double before = 0;  // along the dresspack
+    double before = 0;  // length before the piece, along the dresspack
     for (const Piece& hung : hung_pieces_)
       if (hung.dresspack == piece.dresspack) before += hung.properties.length;
     const double deep = 1e3 * held.depth;
@@ -121,7 +121,7 @@ class Mounting {
 
   Pose mounting_pose() const { return robot_ ? robot_->pose(robot_->mounting_pose()) : path_.at(0); }
 
-  /// Piece by piece from its base clamp.
+  /// Mounts a dresspack piece by piece from its base clamp.
   void hang_up(int dresspack) {
     const int first = rod_.first_span(dresspack);
     Frame begin = mounting_pose().clamps.end(2 * first);
@@ -142,7 +142,7 @@ class Mounting {
       }
   }
 
-  /// Of the pieces that hang; with one more if given.
+  /// Returns a rod of the mounted pieces, and of one more piece if given.
   Rod hung_rod(const Piece* more = nullptr) const {
     std::vector<RodProperties> pieces;
     std::vector<int> first_of_dresspack;
@@ -157,7 +157,7 @@ class Mounting {
     return Rod(pieces, first_of_dresspack);
   }
 
-  /// How far a retraction unit must be out for the dresspack to reach its next clamp with some slack.
+  /// Returns the travel of a retraction unit at which the dresspack reaches its next clamp with some slack.
   double pulled_out(int span) const {
     constexpr int parts = 100;
     const Pose pose = mounting_pose();
@@ -167,7 +167,7 @@ class Mounting {
     const double stroke = held.slider->stroke;
     held.slider.reset();
     const Rod rod(spans);
-    std::vector<Vector3> through;  // the rings' centres, where they hold it
+    std::vector<Vector3> through;  // centres of the rings that hold the dresspack
     const std::vector<RoutedRing> routed = routed_rings(setup_);
     for (size_t r = 0; r < pose.rings.size(); ++r)
       if (routed[r].span == span) through.push_back(pose.rings[r].position);
@@ -182,8 +182,8 @@ class Mounting {
     return stroke;
   }
 
-  /// Of one span, whose base end is at `from`, in order; each but the last ends in a ring. Segments are dealt
-  /// by length.
+  /// Returns the pieces of one span with the base end at `from`, in order; each except the last ends in a ring. Segments are
+  /// distributed by length.
   std::vector<Piece> pieces_of(int k, const Vector3& from) const {
     const Span& span = rod_.spans()[k];
     const Pose pose = mounting_pose();
@@ -228,7 +228,7 @@ class Mounting {
     return pieces;
   }
 
-  /// Segments of each piece: up to where the ring is given to sit, else so that all pieces have slack alike.
+  /// Returns the segments of each piece: up to the given place of the ring, else such that all pieces have equal slack.
   std::vector<int> dealt(const Span& span, Vector3 from, const std::vector<Frame>& ends,
                          const std::vector<double>& given) const {
     constexpr int fewest = 2;
@@ -252,7 +252,7 @@ class Mounting {
     return counts;
   }
 
-  /// Unless the routing turns the clamp at the span's tool end.
+  /// Returns false if the routing gives the roll of the clamp at the span's tool end.
   bool free_of_twist(int k) const {
     const Span& span = rod_.spans()[k];
     if (!robot_ || span.properties.tool_end == End::free) return false;
@@ -261,7 +261,7 @@ class Mounting {
     return !(clamp < static_cast<int>(of.clamps.size()) ? of.clamps[clamp].clamp : *of.tool_clamp).roll;
   }
 
-  /// Pieces hung up one after the other as one state of the rod.
+  /// Joins the mounted pieces to one state of the rod.
   RodState as_spans(RodState state) const {
     const int spans = static_cast<int>(rod_.spans().size());
     const RodState pieces = state;
@@ -342,7 +342,7 @@ class Mounting {
     return held;
   }
 
-  /// How deep a piece lies in the dresspacks that hang already.
+  /// Computes the overlap of a piece with the mounted dresspacks.
   void find_other_dresspacks(const Piece& piece, MountedPiece& held) const {
     if (!setup_.simulation.self_contact || piece.dresspack == 0) return;
     const Rod rod = hung_rod(&piece);
@@ -352,7 +352,7 @@ class Mounting {
     find_self_contacts(rod, joined(rod, pieces), 0, contacts);
     const Span& last = rod.spans().back();
     for (const Contact& contact : contacts) {
-      const int other = rod.span_of(contact.segment).dresspack;  // the lower segment comes first
+      const int other = rod.span_of(contact.segment).dresspack;  // the contact names the lower segment first
       if (contact.other < last.first_segment || other == last.dresspack || contact.depth <= held.depth)
         continue;
       held.depth = contact.depth;
@@ -384,7 +384,7 @@ class Mounting {
     return still;
   }
 
-  /// Through the joint move from the mounting pose to the first waypoint, smooth at both ends.
+  /// Returns the state after the joint move from the mounting pose to the first waypoint, with smooth begin and end.
   RodState carried(const RodState& start) const {
     const Eigen::VectorXd from = robot_->mounting_pose(), way = robot_->motion().position(0) - from;
     const int steps = static_cast<int>(
@@ -405,9 +405,9 @@ class Mounting {
   const Rod& rod_;
   const ClampPath& path_;
   RobotPath* robot_;
-  std::vector<RodState> hung_;  // (piece) all that hang so far, dresspack after dresspack
+  std::vector<RodState> hung_;  // (piece) states of all mounted pieces, dresspack after dresspack
   std::vector<Piece> hung_pieces_;
-  std::vector<double> pulled_out_;  // (dresspack) way of its retraction unit [m]
+  std::vector<double> pulled_out_;  // (dresspack) travel of its retraction unit [m]
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
-// How the dresspacks come onto the robot: the state in which a simulation starts.
+// Mounting of the dresspacks on the robot: computes the state in which a simulation starts.
 //
-// (R7) As an installer does it: the robot stands in the mounting pose; one dresspack after the other, and
-// span by span from its base, the hose is held clear of the robot and of the dresspacks before it and
-// clamped, its far end turned until it carries no torsion (unless that clamp has a roll), and let down until
-// it rests on whatever it meets. Then the robot goes slowly to the first waypoint, which keeps whole turns of
-// the hose. "Held clear": static equilibria under gravity as it is, absent, reversed and to either side are
-// found without obstacles; the one that overlaps least is where the hose is let down from; all dresspacks are
-// let down together.
+// (R7) The procedure of an installer: the robot stands in the mounting pose. One dresspack after the other, and
+// span by span from its base, the hose is held without contact to the robot and the earlier dresspacks and is
+// clamped. Its far end is rotated until it has no torsion (unless this clamp has a roll). Then it is released until
+// it rests on the objects that it meets. Then the robot moves slowly to the first waypoint, which keeps full turns of
+// the hose. "Held without contact": static equilibria under gravity in its direction, absent, reversed and to either side are
+// found without obstacles; the one with the least overlap is the start of the release. All dresspacks are
+// released together.
 #pragma once
 
 #include <memory>
@@ -21,13 +21,13 @@ struct Setup;
 
 namespace dresslife::sim {
 
-/// All dresspacks in `state` among the links of the robot (null: none), in the guide rings and on the floor,
-/// as the job says.
+/// Returns a world with all dresspacks in `state`, the links of the robot (null: none), the guide rings and the floor of
+/// the job.
 std::unique_ptr<World> make_world(const pipeline::Setup& setup, const Rod& rod, const RobotPath* robot,
                                   const RodState& state, const Pose& pose);
 
-/// The chain at rest in the clamps of time 0. Turns the robot's clamps for good. robot: `path` if it is
-/// one. Throws InputError at the routing when a hose cannot be clear of the robot and the other dresspacks,
+/// Returns the chain at rest in the clamps of time 0. Rotates the robot's clamps permanently. robot: `path` if it is a robot's
+/// path, else null. Throws InputError at the routing when a hose overlaps the robot or other dresspacks in every start,
 /// is too short or does not come to rest.
 RodState mount(const pipeline::Setup& setup, const Rod& rod, const ClampPath& path, RobotPath* robot);
 

@@ -15,7 +15,7 @@ namespace {
 using pipeline::Uncertain;
 using pipeline::Warning;
 
-/// Of one motion, until it is known that its simulation reaches the end.
+/// A recorded motion, kept until its simulation has reached the end.
 struct RecordedMotion {
   std::vector<double> position, orientation, clamp_position, clamp_orientation;
 
@@ -47,7 +47,7 @@ pipeline::Setup setup_with(const pipeline::Job& job, double factor, double time_
   settings.stiffness_factor *= factor;
   settings.choose_time_step = false;
   settings.time_step = time_step;
-  settings.most_repeats = std::min(settings.most_repeats, 2);  // the first leads in
+  settings.most_repeats = std::min(settings.most_repeats, 2);  // the first repeat is the lead-in
   return setup;
 }
 
@@ -61,7 +61,7 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double ti
   for (const auto& [name, side] : {std::pair("softer", -reach), std::pair("stiffer", reach)}) {
     std::string problem;
     double factor = 1;
-    for (const double z : {side, side / 2}) {  // nearer where the routing leaves no room for so much
+    for (const double z : {side, side / 2}) {  // a smaller change if the routing does not allow the larger one
       factor = pipeline::uncertain_parameters()[index_of(Uncertain::hose_stiffness)].value(z);
       try {
         const Simulation simulation(setup_with(job, factor, time_step));

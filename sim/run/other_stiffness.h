@@ -1,4 +1,4 @@
-// The same motion with a softer and a stiffer hose, of which dresslife-strain computes how lives depend on the hose's stiffness.
+// The same motion with a softer and a stiffer hose. From them dresslife-strain computes how lives depend on the hose's stiffness.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace dresslife::sim {
 
-/// Writes /softer and /stiffer of motion.h5, each from one repeat of the motion after one that leads in; nothing where the
-/// job's uncertainty does without. time_step: of the job's own run [s]. With twice of it `hard` lives a hundredth as long at
-/// 0.7 times the stiffness. Returns warnings of those whose simulation is refused; their groups are absent.
+/// Writes /softer and /stiffer of motion.h5, each from one repeat of the motion after one lead-in repeat. Writes nothing if the
+/// job's uncertainty does not need them. time_step: step of the job's own run [s]. With twice this step the life of `hard` at
+/// 0.7 times the stiffness was a hundredth. Returns warnings for simulations that are refused; their groups are absent.
 std::vector<pipeline::Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step,
                                                        pipeline::FileWriter& file);
 

@@ -7,7 +7,7 @@ namespace dresslife::sim {
 namespace {
 
 constexpr double sway_time = 0.1;   // tau of (R8) [s]
-constexpr double same_pose = 1e-6;  // [m], [rad]: far below what a robot repeats, far above rounding
+constexpr double same_pose = 1e-6;  // [m], [rad]: far below the repeatability of a robot, far above rounding
 
 bool same(const Frame& a, const Frame& b) {
   return (a.position - b.position).norm() < same_pose &&
@@ -32,7 +32,7 @@ double state_distance(const Rod& rod, const RodState& a, const RodState& b) {
 
 bool returns(const ClampPath& path) {
   const Pose begin = path.at(0), end = path.at(path.duration());
-  // Joints tell whole turns apart, which clamps do not.
+  // Joints distinguish full turns, which clamps do not.
   if (begin.joints.size() > 0) return (begin.joints - end.joints).lpNorm<Eigen::Infinity>() < same_pose;
   return same(begin.clamps.base, end.clamps.base) && same(begin.clamps.tool, end.clamps.tool);
 }

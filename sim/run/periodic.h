@@ -1,13 +1,13 @@
-// Whether a repeated motion has become periodic: the dresspack begins two successive repeats in the same
+// Test whether a repeated motion has become periodic: the dresspack begins two successive repeats in the same
 // state.
 //
-// (R8) A hose that rests by friction, or sways, may begin the second repeat elsewhere than the first. The
-// program is repeated, without a break, until two successive repeats begin alike; the last of them is what is
+// (R8) A hose that rests by friction, or sways, may begin the second repeat in another state than the first. The
+// program is repeated without a pause until two successive repeats begin in the same state; the last one is
 // evaluated. The distance of two states is the largest value over the segments of
-//     |x - x'| + (d/2) |log(q^-1 q')| + tau |v - v'|,
-// how far a point of the hose's surface has moved, and how far a sway of period 2 pi tau will move it.
-// tau = 0.1 s: slower sways differ less in speed than in place. A retraction unit counts with the difference
-// of its travel in the same way.
+//     |x - x'| + (d/2) |log(q^-1 q')| + tau |v - v'|:
+// the displacement of a point of the hose's surface, plus its further displacement by a sway of period 2 pi tau.
+// tau = 0.1 s: slower sways differ less in speed than in position. The travel of a retraction unit is compared
+// in the same way.
 #pragma once
 
 #include "sim/rod/rod.h"
@@ -15,12 +15,12 @@
 
 namespace dresslife::sim {
 
-/// Largest distance (R8) over the segments and retraction units [m]. Precondition: both states are of this
+/// Returns the largest distance (R8) over the segments and retraction units [m]. Precondition: both states belong to this
 /// rod.
 double state_distance(const Rod& rod, const RodState& a, const RodState& b);
 
-/// Whether the path ends where it begins, so that it can be repeated: joints within 1e-6 rad, or, where there
-/// are none, clamps within 1e-6 m and rad.
+/// Returns whether the path ends at its begin, so that it can be repeated: joints within 1e-6 rad; without a robot
+/// clamps within 1e-6 m and rad.
 bool returns(const ClampPath& path);
 
 }  // namespace dresslife::sim

@@ -23,8 +23,8 @@ State between(const State& a, const State& b, double share) {
   return {a.rate + share * (b.rate - a.rate), a.elongation + share * (b.elongation - a.elongation)};
 }
 
-/// The rotation over [from, to] in steps of at most `step` (D1): with rates w1, w2 at the Gauss points of a step h,
-/// exp(h/2 (w1 + w2) + sqrt(3)/12 h^2 w1 x w2), the commutator's sign that of frames that turn on the right.
+/// Returns the rotation over [from, to] in steps of at most `step` (D1). With rates w1, w2 at the Gauss points of a step h it is
+/// exp(h/2 (w1 + w2) + sqrt(3)/12 h^2 w1 x w2); the commutator has the sign for frames that are rotated from the right.
 Quaternion turn(const PrescribedDeformation& deformation, std::size_t sample, double from, double to, double step) {
   const int steps = std::max(1, static_cast<int>(std::ceil((to - from) / step - 1e-9)));
   const double h = (to - from) / steps, off = h / (2 * std::sqrt(3.0));
@@ -38,7 +38,7 @@ Quaternion turn(const PrescribedDeformation& deformation, std::size_t sample, do
   return whole.normalized();
 }
 
-/// Extremes along the dresspack and the table of them, as of a simulated motion.
+/// Extremes along the dresspack and their table, as for a simulated motion.
 class Extremes {
  public:
   Extremes(const PrescribedDeformation& deformation, const pipeline::Dresspack& dresspack, int n, double length)
@@ -81,7 +81,7 @@ class Extremes {
   std::vector<Extreme> curvature, twist, tension;  // (link)
 };
 
-/// Of the whole dresspack at one sample [J].
+/// Returns the elastic energy of the whole dresspack at one sample [J].
 double elastic_energy(const PrescribedDeformation& deformation, std::size_t sample,
                       const pipeline::Dresspack& dresspack, double axial, int n, double l) {
   double energy = 0;
@@ -131,7 +131,7 @@ State PrescribedDeformation::at(std::size_t sample, double position) const {
 RodState posed(const PrescribedDeformation& deformation, std::size_t sample, int n, double length) {
   const double l = length / n;
   RodState state;
-  Frame before;  // the base clamp
+  Frame before;  // previous frame, first the base clamp
   double half_before = 0, centre_before = 0;
   for (int i = 0; i <= n; ++i) {
     const bool at_clamp = i == 0 || i == n;

@@ -23,28 +23,28 @@ namespace {
 namespace check_name = pipeline::check_name;
 using pipeline::WarningKind;
 
-constexpr int most_moments = 100'000;  // of the program; a run looks at every step
-constexpr int rest_moments = 1000;     // of the program; a span rests in those between which it has moved enough
-constexpr int mounting_moments = 100;  // of the way from the mounting pose to the program
-// Between two rests: far below the half turn at which the shorter way around is the other one.
+constexpr int most_moments = 100'000;  // of the program; a run evaluates every step
+constexpr int rest_moments = 1000;     // of the program; equilibria are computed only after enough motion
+constexpr int mounting_moments = 100;  // of the move from the mounting pose to the program
+// Rotation between two equilibria: far below half a turn, at which the direction of rotation would be ambiguous.
 constexpr double rest_turn = 20 * degree;
-constexpr double rest_way = 0.05;  // the same for displacements, of the length: a hose sags by as much
+constexpr double rest_way = 0.05;  // displacement between two equilibria as a share of the length: the sag of a hose is as large
 constexpr double short_run_work =
-    5e6;  // 2.4 s of a processor, measured: two repeats of three minutes, 64 segments without contact
-constexpr double lead_in_share = 0.5;  // of it: a motion that takes longer runs once, from rest
-constexpr double same_radius = 0.05;  // of a bend radius: what few segments leave of doubt
+    5e6;  // 2.4 s of processor time, measured: two repeats of three minutes, 64 segments without contact
+constexpr double lead_in_share = 0.5;  // share for the lead-in: a motion that takes longer runs once, from rest
+constexpr double same_radius = 0.05;  // relative error of a bend radius with few segments
 
 pipeline::Setup with_segments(pipeline::Setup setup, int most) {
   setup.simulation.segments = std::min(setup.simulation.segments, most);
   return setup;
 }
 
-/// A span at rest over the program.
+/// The equilibria of a span over the program.
 struct Rests {
   std::vector<Check> checks;
-  RodState begin;                 // at the first target
-  double roll = 0;                // of its tool clamp [rad]
-  std::optional<double> unfound;  // time at which no rest is found [s]; absent: all are found
+  RodState begin;                 // state at the first target
+  double roll = 0;                // roll of its tool clamp [rad]
+  std::optional<double> unfound;  // time without an equilibrium [s]; absent: all were found
 };
 
 class QuickChecks {
@@ -84,7 +84,7 @@ class QuickChecks {
     if (rejects(found)) return found;
     double work = 0;
     for (const int segments : {rest_segments, short_run_segments}) {
-      if (segments > rest_segments && setup_.simulation.segments <= rest_segments) break;  // the same run
+      if (segments > rest_segments && setup_.simulation.segments <= rest_segments) break;  // it would be the same run
       found.checks = slack;
       found.run = short_run(setup_, segments, useless_below, dresspack);
       found.run.work = work += found.run.work;
@@ -100,7 +100,7 @@ class QuickChecks {
   QuickWarnings warnings() {
     QuickFindings found = findings();
     const CheckedMotion motion{setup_, [&](double time) { return moment(time); }, &rod_, path_.get()};
-    std::vector<Check> said;  // a bend that is there at rest is no other one in motion
+    std::vector<Check> said;  // a bend that exists at rest is not reported a second time for the motion
     for (const Check& check : found.checks)
       if (check.name != check_name::bend_radius ||
           std::none_of(found.checks.begin(), found.checks.end(), [&](const Check& other) {
@@ -120,7 +120,8 @@ class QuickChecks {
   static void add_bends(QuickFindings& found) {
     for (const Check& check : found.run.checks) {
       if (check.name != check_name::bend_radius) continue;
-      // At rest the hose hangs free of the robot, on which it may lie: a bend that the short run has not is none.
+      // At rest the hose hangs without contact to the robot, on which it may lie in reality. So a bend that the short run does
+      // not have is not reported.
       for (Check& other : found.checks)
         if (other.name == check_name::bend_radius_at_rest && other.dresspack == check.dresspack)
           other.warning &= check.warning || found.run.stopped_at.has_value();
@@ -134,14 +135,14 @@ class QuickChecks {
   }
   const RodProperties& properties(std::size_t span) const { return rod_.spans()[span].properties; }
   bool is_free(std::size_t span) const { return properties(span).tool_end == End::free; }
-  /// Of a place in the middle of a span, -1 of the only one.
+  /// Returns the middle of a span; -1 if it is the only one.
   double middle(std::size_t span) const {
     const Span& of = rod_.spans()[span];
     const int count = rod_.first_span(of.dresspack + 1) - rod_.first_span(of.dresspack);
     return count == 1 ? -1 : of.first_arc + of.properties.length / 2;
   }
 
-  /// Longest straight way of each span over the program, step by step as a run sees it.
+  /// Adds the largest straight distance of each span over the program, at every step of a run.
   void add_slack(std::vector<Check>& checks) {
     const std::size_t spans = rod_.spans().size();
     longest_.assign(spans, 0.0);
@@ -164,7 +165,7 @@ class QuickChecks {
         if (tight == end || share(span) < share(tight)) tight = span;
         if (loose == end || share(span) > share(loose)) loose = span;
       }
-      if (tight == end || properties(tight).slider) continue;  // what is pulled out is known to a run only
+      if (tight == end || properties(tight).slider) continue;  // only a run knows the travel of the retraction unit
       const auto add = [&](const char* name, std::size_t span, double limit, bool broken) {
         checks.push_back({WarningKind::slack, name, "m", share(span) * properties(span).length, limit, broken, when_[span],
                           middle(span), d});
@@ -174,7 +175,7 @@ class QuickChecks {
     }
   }
 
-  /// The clamps of a span at a moment u: from -1 (mounting pose) over 0 to 1 (end of the program).
+  /// Returns the clamps of a span at the moment u: from -1 (mounting pose) over 0 to 1 (end of the program).
   ClampFrames clamps_at(std::size_t span, double u) const {
     Pose pose;
     if (u >= 0) {
@@ -186,7 +187,7 @@ class QuickChecks {
     return {pose.clamps.end(static_cast<int>(2 * span)), pose.clamps.end(static_cast<int>(2 * span) + 1)};
   }
 
-  /// In order: the mounting pose, where it is not the program's first one, and the program.
+  /// Returns the moments in order: the mounting pose, if it is not the program's first pose, and the program.
   std::vector<double> moments() const {
     std::vector<double> all;
     if (robot_ && robot_->mounting_pose() != robot_->motion().position(0))
@@ -195,7 +196,7 @@ class QuickChecks {
     return all;
   }
 
-  /// A state whose segments follow the clamps, each by its share of the length.
+  /// Returns a state whose segments follow the clamps, each in proportion to its position along the length.
   static RodState moved_along(RodState state, const ClampFrames& to) {
     const Quaternion base = to.base.orientation * state.clamps.base.orientation.conjugate();
     const Quaternion tool = to.tool.orientation * state.clamps.tool.orientation.conjugate();
@@ -219,18 +220,18 @@ class QuickChecks {
            way.norm() > rest_way * length;
   }
 
-  /// What is at rest of a span.
+  /// A span for the computation of its equilibria.
   struct Resting {
     RodProperties properties;
     std::size_t span;
-    double base_roll;  // of its base clamp [rad]
-    double pre_twist;  // of its tool clamp [rad]
+    double base_roll;  // roll of its base clamp [rad]
+    double pre_twist;  // pre-twist of its tool clamp [rad]
     MotionLimits limits;
   };
 
   static EquilibriumSettings rest_settings() {
     EquilibriumSettings settings;
-    settings.tolerance = 1e-4;  // of the forces: a picture's worth
+    settings.tolerance = 1e-4;  // of the forces: accurate enough for a picture
     return settings;
   }
 
@@ -239,8 +240,8 @@ class QuickChecks {
     return {rolled(clamps.base, of.base_roll), rolled(clamps.tool, roll)};
   }
 
-  /// A span at rest in pose after pose, each found from the one before, so that whole turns of the hose count as in a run
-  /// (R7).
+  /// Returns the equilibria of a span in successive poses, each found from the previous one, so that full turns of the hose count
+  /// as in a run (R7).
   Rests rests(const Resting& of, const TwistFreeClamp& start, const std::vector<double>& all) const {
     const Rod rod(of.properties);
     MotionChecks checks(rod, {of.limits});
@@ -277,7 +278,7 @@ class QuickChecks {
     return result;
   }
 
-  /// Of all shapes of a span, that first which is nearest to where a run begins.
+  /// Returns the equilibria for all shapes of a span; the first shape is the one nearest to the start of a run.
   std::vector<Rests> all_rests(std::size_t span, double base_roll, const std::optional<RodState>& begin) const {
     const Span& of = rod_.spans()[span];
     const pipeline::MountedDresspack& mounted = setup_.dresspacks[static_cast<std::size_t>(of.dresspack)];
@@ -309,7 +310,7 @@ class QuickChecks {
     return found;
   }
 
-  /// Of each dresspack's worst spans at rest. Spans with rings or a retraction unit are left to a run.
+  /// Adds the checks at rest of the worst spans of each dresspack. Spans with rings or a retraction unit are left to a run.
   void add_rests(QuickFindings& result) {
     const std::vector<RoutedRing> rings = routed_rings(setup_);
     for (int d = 0; d < rod_.dresspacks(); ++d) {
@@ -323,7 +324,7 @@ class QuickChecks {
         if (is_free(span) || ringed || properties(span).slider || longest_[span] >= properties(span).length) continue;
         const std::vector<Rests> shapes = all_rests(span, base_roll, result.run.begin);
         roll = shapes.front().roll;
-        // What a short run has followed in time is no fault, although no rest is found.
+        // If a short run has followed the motion, a missing equilibrium is no fault.
         if (shapes.front().unfound && !result.run.refusal.empty()) result.others.push_back(no_rest(d, *shapes.front().unfound));
         add_shapes_note(d, shapes, result.notes);
         std::optional<Check> net_here;
@@ -372,8 +373,8 @@ class QuickChecks {
                     setup_.dresspacks.size() > 1 ? "free length" : "routing.free_length_m"));
   }
 
-  /// A turn of an axis between the pose in which the dresspack was clamped and the program's first one is in the
-  /// dresspack for the whole program.
+  /// Adds a warning for a rotation of an axis by more than 180 deg between the mounting pose and the program's first pose,
+  /// because the dresspack keeps this rotation for the whole program.
   void add_winding(std::vector<pipeline::Warning>& all) const {
     if (!robot_) return;
     const Eigen::VectorXd start = robot_->motion().position(0), mounting = robot_->mounting_pose();
@@ -401,7 +402,7 @@ class QuickChecks {
 
 ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, int of) {
   ShortRun result;
-  // One repeat that leads in, and one that counts: what the first leaves wound may pull the next one tight.
+  // One lead-in repeat and one evaluated repeat: twist that remains after the first may pull the hose taut in the second.
   setup.simulation.most_repeats = std::min(setup.simulation.most_repeats, 2);
   try {
     const Simulation simulation(with_segments(std::move(setup), segments));

@@ -29,9 +29,9 @@ constexpr const char* column_names[columns] = {"t",
                                                "qx of the tool clamp",
                                                "qy of the tool clamp",
                                                "qz of the tool clamp"};
-/// Four digits of each component leave |q| within 1e-4 of 1; more is another kind of number.
+/// Four decimals of each component give |q| within 1e-4 of 1; a larger error means other numbers.
 constexpr double length_tolerance = 1e-3;
-/// Dot product of neighbouring rows' quaternions at a turn of 120 deg.
+/// Dot product of the quaternions of successive rows for a rotation of 120 deg.
 constexpr double smallest_dot = 0.5;
 
 class Rows {
@@ -92,7 +92,7 @@ class Rows {
            "sort the rows and drop repeated ones");
   }
 
-  /// Normalises the quaternion at pose[first] and gives it the sign nearer to that of the row before.
+  /// Normalises the quaternion at pose[first] and gives it the sign that is nearer to the previous row.
   void join_quaternion(Eigen::Matrix<double, columns - 1, 1>& pose, int first, int column) const {
     auto q = pose.segment<4>(first);
     if (std::abs(q.norm() - 1) > length_tolerance)

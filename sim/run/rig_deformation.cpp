@@ -14,12 +14,12 @@ using pipeline::Rig;
 using pipeline::RigKind;
 using State = PrescribedDeformation::State;
 
-constexpr double gravity = 9.80665;  // of a weight [m/s2]
-constexpr int quarter = 16;          // samples of a quarter of a cycle where all of the cable moves alike
+constexpr double gravity = 9.80665;  // acceleration on a weight [m/s2]
+constexpr int quarter = 16;          // samples of a quarter of a cycle if the whole cable moves in the same way
 constexpr double ramp_segments = 4;  // (D8)
 constexpr double degrees = 180 / EIGEN_PI;
 
-/// 0 before -1/2, 1 after 1/2, half a cosine between.
+/// Returns 0 before -1/2, 1 after 1/2, and half a cosine between.
 double ramp(double x) { return x <= -0.5 ? 0 : x >= 0.5 ? 1 : 0.5 * (1 + std::sin(EIGEN_PI * x)); }
 
 class Expansion {
@@ -80,7 +80,7 @@ class Expansion {
     result_.states.insert(result_.states.end(), states.begin(), states.end());
   }
 
-  /// 0, +1, 0, -1, 0 in equal steps, with a line of the program for each of the four ways.
+  /// Adds 0, +1, 0, -1, 0 in equal steps, with a line of the program for each of the four parts.
   template <class AtLevel>
   void to_either_side(const std::string& there, const std::string& back, const AtLevel& at) {
     const std::string texts[] = {"to +" + there, "from +" + there + back, "to -" + there,
@@ -139,7 +139,7 @@ class Expansion {
     });
   }
 
-  /// Places twice as dense as the chain's links.
+  /// Sets places at half the distance of the chain's links.
   void places() {
     result_.positions.clear();
     for (int k = 0; k <= 2 * segments_; ++k) result_.positions.push_back(k * segment_ / 2);
@@ -155,7 +155,7 @@ class Expansion {
     return ramp((position - from) / edge_) - ramp((position - to) / edge_);
   }
 
-  /// There and back in steps of half a segment.
+  /// Adds a motion there and back in steps of half a segment.
   template <class Bend>
   void sweep(const std::string& there, const std::string& back, const Bend& bend) {
     if (way_.sweep < edge_)

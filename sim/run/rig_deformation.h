@@ -1,40 +1,40 @@
-// What the test rigs of pipeline/job/rig.h do to a cable, one cycle each, as a prescribed deformation.
+// One cycle of a cable in the test rigs of pipeline/job/rig.h, as a prescribed deformation.
 //
-// (D3) torsion: twist 0, +phi, 0, -phi, 0 along the whole length. Held at both ends L apart: no elongation e,
-//      unless the twist presses the wires with more than Euler's load E I (2 pi/L)^2 of a clamped rod. Then the
-//      cable lengthens until they press with that load, and bows in a plane: y = (a/2) (1 - cos 2 pi x/L) is
+// (D3) torsion: twist 0, +phi, 0, -phi, 0 along the whole length. Held at both ends at the distance L: no elongation e,
+//      unless the twist compresses the wires with more than Euler's load E I (2 pi/L)^2 of a clamped rod. Then the
+//      cable lengthens until the compression equals this load, and bows in a plane: y = (a/2) (1 - cos 2 pi x/L) is
 //      longer than L by (pi a/L)^2/4 = e, so the curvature is (4 pi/L) sqrt(e) cos(2 pi x/L). With a
-//      weight the elongation e is that at which the wires carry it, sum of E A strain(e, twist) x lay cosines
-//      = g m: a cable whose layers have one hand shortens and lengthens as it is twisted, and its wires are
-//      strained less (pipeline/cable/cable_pull.h).
-// (D4) rolling_flex: one bend, pi R of cable long, begins at x = 0 and moves along the cable to travel/2 and
-//      back: 0, kappa, 0 for cable over which it passes whole.
-// (D5) two_pulley: two bends of opposite sense, each angle x R long and one behind the other, move by travel
+//      weight the elongation e is that at which the wires carry the weight, sum of E A strain(e, twist) x lay cosines
+//      = g m: a cable with layers of one hand shortens and lengthens when it is twisted, and the strain of its wires is
+//      smaller (pipeline/cable/cable_pull.h).
+// (D4) rolling_flex: one bend over a cable length of pi R begins at x = 0 and moves along the cable to travel/2 and
+//      back: 0, kappa, 0 for cable over which it passes completely.
+// (D5) two_pulley: two bends of opposite direction, each of length angle x R and one behind the other, move by travel
 //      and back.
-// (D6) tick_tock: the cable lies on a mandrel from the grip on for R times the angle by which it is swung, on
-//      the one side, then on the other: 0, +kappa, 0, -kappa, 0.
-// (D7) swivel: where a cable of bending stiffness E I under the pull T leaves a clip by the angle phi, the
+// (D6) tick_tock: the cable lies on a mandrel from the grip over a length of R times the swing angle, on
+//      one side, then on the other: 0, +kappa, 0, -kappa, 0.
+// (D7) swivel: a cable of bending stiffness E I under the tension T leaves a clip at the angle phi. The
 //      elastica of infinite length has the curvature 2 sqrt(T / E I) sin(phi/2), E I kappa^2/2 =
-//      T (1 - cos phi); not more than that of the clip's edge. 0, +kappa, 0, -kappa, 0.
+//      T (1 - cos phi), at most that of the clip's edge. 0, +kappa, 0, -kappa, 0.
 //      axial: elongation mean, mean + amplitude, mean, mean - amplitude, mean.
-// (D8) Edges of bends are cosine ramps of four segments, so that the strain stage's cubic (W2) does not
+// (D8) Edges of bends are cosine ramps over four segments, so that the strain stage's cubic (W2) does not
 //      overshoot.
 //
-// Bends are about d2, so a wire on the axis is strained on its outward fibre (W12). R is the radius of the
-// cable's axis. Gravity and stiffness have no influence but in (D3) and (D7): rig and weight force the bend
-// on the cable.
+// Bends are about d2, so the strain of a wire on the axis is that of its outward fibre (W12). R is the radius of the
+// cable's axis. Gravity and stiffness have an influence only in (D3) and (D7): otherwise rig and weight prescribe the bend
+// of the cable.
 #pragma once
 
 #include "sim/run/prescribed.h"
 
 namespace dresslife::sim {
 
-/// Errors: InputError where the rig cannot be followed with so many segments, or lacks what it needs of the
-/// cable.
+/// Returns the deformation. Errors: InputError if the rig cannot be represented with so many segments, or if it needs a property
+/// that the cable does not have.
 PrescribedDeformation rig_deformation(const pipeline::Rig& rig, const pipeline::Setup& setup);
 
-/// Of the cable that moves, rolling_flex: shares that are bent and straightened again in every single stroke,
-/// and in every second one; the rest stays bent.
+/// Shares of the moving cable of rolling_flex: bent and straightened in every stroke,
+/// and in every second stroke; the remainder stays bent.
 struct FlexShares {
   double each_stroke = 0, each_cycle = 0;
 };

@@ -26,7 +26,7 @@ RodProperties properties_of(const pipeline::MountedDresspack& mounted,
   properties.axial_stiffness = hose.axial_stiffness;
   properties.damping_time = hose.damping_time;
   properties.gravity = settings.gravity;
-  properties.rest_curvature = {0, hose.rest_curvature, 0};  // turning about y leads z toward x
+  properties.rest_curvature = {0, hose.rest_curvature, 0};  // a rotation about y moves z toward x
   return properties;
 }
 

@@ -1,6 +1,6 @@
-// From the job's dresspacks and their routing to the chain's spans, dresspack after dresspack.
+// The spans of the chain, from the job's dresspacks and their routing; dresspack after dresspack.
 //
-// Each dresspack has `simulation.segments` = n segments, dealt to its spans by their lengths: of its length
+// Each dresspack has `simulation.segments` = n segments, distributed to its spans by their lengths: with the length
 // L, the span from s_a to s_b has round(n s_b/L) - round(n s_a/L) segments, at least fewest_segments.
 #pragma once
 
@@ -18,12 +18,12 @@ struct Setup;
 
 namespace dresslife::sim {
 
-/// Of a span: below, its end corrections (S5) overlap.
+/// Fewest segments of a span: with fewer, its end corrections (S5) overlap.
 inline constexpr int fewest_segments = 4;
 
 Rod rod_of(const pipeline::Setup& setup);
 
-/// A dresspack that cannot be clamped or moved so.
+/// A dresspack that cannot be clamped or moved in this way.
 struct RoutingRefusal : pipeline::InputError {
   RoutingRefusal(const pipeline::Where& of, const std::string& what, const std::string& what_to_do, int index,
                  std::optional<double> when = {})
@@ -31,31 +31,31 @@ struct RoutingRefusal : pipeline::InputError {
   pipeline::Where where;
   std::string problem, remedy;
   int dresspack;
-  std::optional<double> time;  ///< of the program [s]; absent: before it
-  double work = 0;             ///< that was in vain, as World::work
+  std::optional<double> time;  ///< time of the program [s]; absent: before the program
+  double work = 0;             ///< work until the refusal, in the unit of World::work
 };
 
-/// Of dresspacks whose clamps and rings all are on one link: they hardly bend.
+/// Returns warnings for dresspacks with all clamps and rings on one link: they hardly bend.
 std::vector<pipeline::Warning> one_link_warnings(const pipeline::Setup& setup);
 
-/// A guide ring and the span that passes it; the rings of all dresspacks, in their order.
+/// A guide ring and the span that passes through it; the rings of all dresspacks, in their order.
 struct RoutedRing {
   const pipeline::GuideRing& ring;
   int span;
 };
 std::vector<RoutedRing> routed_rings(const pipeline::Setup& setup);
-/// (span) length of the straight ways from end to end through the rings' centres, less what an off-centre
-/// hose saves at most: no shorter hose reaches.
+/// Returns, (span), the length of the straight lines from end to end through the rings' centres, minus the largest saving by an
+/// off-centre hose: a shorter hose does not reach.
 std::vector<double> shortest_ways(const pipeline::Setup& setup, const Rod& rod, const ClampFrames& clamps,
                                   const std::vector<Frame>& rings);
 
-/// The states of single spans as one state of the whole rod.
+/// Joins the states of single spans to one state of the whole rod.
 RodState joined(const Rod& rod, const std::vector<RodState>& spans);
 
-/// Clamps of a state in the order of motion.h5: of each dresspack the base clamp, those between, the tool
+/// Returns the clamps of a state in the order of motion.h5: for each dresspack the base clamp, the clamps between, the tool
 /// clamp.
 std::vector<Frame> listed_clamps(const Rod& rod, const ClampFrames& clamps);
-/// (clamp) segments before it, in the same order.
+/// Returns, (clamp), the number of segments before it, in the order of listed_clamps().
 std::vector<int> clamp_segments(const Rod& rod);
 
 }  // namespace dresslife::sim

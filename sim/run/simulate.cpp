@@ -15,14 +15,14 @@ namespace {
 using pipeline::InputError;
 
 constexpr double same_step = 1e-9;  // [s]
-constexpr double exact_lead = 0.1;  // share of the repeat that leads in that has the motion's own step
+constexpr double exact_lead = 0.1;  // share of the lead-in repeat, at its end, that has the motion's own step
 
-/// Intervals that cover the motion; a duration that is a whole number of them up to rounding takes no further
-/// one.
+/// Returns the number of intervals that cover the motion. A duration that is a whole number of intervals up to rounding gets no
+/// additional one.
 int intervals(double duration, double rate) { return static_cast<int>(std::ceil(duration * rate - 1e-9)); }
 
-/// Before memory or time is spent on it. A repeat's liveliness is held step by step, 8 bytes each, its
-/// samples are written with 136 bytes a segment and more.
+/// Checks the size before memory or time is used. The acceleration of each step of a repeat is kept, 8 bytes each; each
+/// sample is written with at least 136 bytes per segment.
 void check_size(const pipeline::Setup& setup, double duration, int segments) {
   constexpr double most_steps = 1e8, most_values = 1e9;  // 0.8 GB of memory, 140 GB of disk
   const pipeline::SimulationSettings& settings = setup.simulation;
@@ -94,8 +94,8 @@ std::string Simulation::moment(double time) const {
   return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1, path_->step_texts()[step]);
 }
 
-/// The straight line between the ends of a span is the least length that every moment needs; the worst one is
-/// reported.
+/// Checks that the free length reaches the distance between the ends of each span at every moment; reports the worst
+/// moment.
 void Simulation::check_reach() const {
   double worst = 0, when = 0;
   size_t where = 0;
@@ -173,14 +173,14 @@ struct Simulation::Repeat {
   std::vector<std::string> obstacles;
 };
 
-// (R8) What a repeat forgets need not be exact: the first one of a motion that returns only leads into the
-// cycle, with twice the step, but for its last tenth. Whether it did is judged as between any two repeats.
-// Null: it broke down, drew the dresspack taut or was stopped; the motion then runs from rest, which says where.
+// (R8) Errors that a repeat forgets are allowed: the first repeat of a motion that ends at its begin only leads into the
+// cycle and has twice the step, except for its last tenth. The result is judged like that of any two repeats.
+// Returns null if it broke down, pulled the dresspack taut or was stopped; then the motion runs from rest, which finds the place.
 std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
   const double h = setup_.simulation.time_step;
   const int steps = (description_.samples - 1) * steps_per_sample(h);
   const int coarse = static_cast<int>((1 - exact_lead) * steps / 2);
-  const int taut_steps = 2 * steps_per_sample(h);  // of both steps; a run of samples looks as seldom
+  const int taut_steps = 2 * steps_per_sample(h);  // for both steps; a run with samples checks at the same distance
   std::unique_ptr<World> world = world_at(start_, path_->at(0), 2 * h);
   RodState before;
   const auto advance = [&](int at) {
@@ -226,7 +226,7 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
     summary.checks = repeat.checks.table();
     summary.distance = state_distance(rod_, begin, world->state());
     summary.periodic = summary.returns && summary.distance <= settings.periodic_tolerance;
-    if (choose) {  // (R11) once, after the first repeat
+    if (choose) {  // (R11), once, after the first repeat
       choose = false;
       const double step = chosen_step(summary.time_step, repeat.error.estimate(),
                                       settings.curvature_error / 100, settings.sample_rate);

@@ -9,14 +9,14 @@ namespace {
 
 constexpr double window_seconds = 3, window_share = 1.0 / 30;
 constexpr double least_step = 2e-4,
-                 most_step = 1e-2;  // beyond, chains were not tried (1 to 10 ms were)
+                 most_step = 1e-2;  // larger steps were not tried (1 to 10 ms were)
 constexpr double usual_step = 5e-3;
 
 void append_curvatures(const Rod& rod, const RodState& state, std::vector<double>& values) {
   for (int j = 0; j < rod.links(); ++j) values.push_back(rod.curvature(rod.turn(state, j), j));
 }
 
-/// (step) square of all ends' acceleration, by second differences.
+/// Returns, (step), the squared acceleration of all ends, by second differences.
 std::vector<double> liveliness(const ClampPath& path, double h, int steps) {
   std::vector<double> squares(steps + 1);
   ClampFrames before = path.at(0).clamps, now = before;
@@ -55,7 +55,7 @@ std::vector<StepWindow> lively_windows(const ClampPath& path, double h, int step
   if (length < 2) return {};
   const int wanted = std::max(1, static_cast<int>(window_share * steps / length));
   const std::vector<double> squares = liveliness(path, h, steps);
-  std::vector<std::pair<double, int>> candidates;  // window's sum, its first step
+  std::vector<std::pair<double, int>> candidates;  // (sum over the window, its first step)
   for (int begin = 0; begin + length <= steps; begin += std::max(1, length / 4))
     candidates.emplace_back(std::accumulate(squares.begin() + begin, squares.begin() + begin + length, 0.0),
                             begin);

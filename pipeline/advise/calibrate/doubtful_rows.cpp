@@ -12,14 +12,14 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double fewest_cycles = 100;   // a cable that fails earlier is overloaded, not worn
-constexpr double fewest_hours = 1;      // rows of one hour are used to predict a life
+constexpr double fewest_hours = 1;      // rows of one hour are sometimes used as placeholders to predict a life
 constexpr double likely_hours = 175'000;  // 20 years day and night
 constexpr double most_specimens = 200;  // tests of cables have 1 to 20
 constexpr double most_cycles_per_repeat = 10, fewest_cycles_per_repeat = 0.1;
-constexpr double largest_unshared = 1;           // a factor of 10: such a row teaches nothing
-constexpr double least_unshared = 0.005;         // 1 %: no two tests agree so well
+constexpr double largest_unshared = 1;           // a factor of 10: such a row contains no information
+constexpr double least_unshared = 0.005;         // 1 %: two tests never agree so well
 constexpr double stiffest = 10, softest = 1e-5;  // [N m2]: 35 mm2 of glued copper; a lead of 1 mm
-constexpr double least_noise = 1;                // [%]: scales and rulers read 2 % and more
+constexpr double least_noise = 1;                // [%]: scales and rulers have errors of 2 % and more
 constexpr double tightest = 50, widest = 0.05;   // [1/m]: radii of 20 mm and of 20 m
 constexpr double largest_decrement = 2;          // a swing that ends after one turn
 
@@ -27,7 +27,7 @@ class Doubts {
  public:
   void of(const ObservedTest& test) {
     const Observation& row = test.observation;
-    if (!row.service.empty()) return;  // its table was checked when it was read
+    if (!row.service.empty()) return;  // the table was checked when it was read
     if (row.cycles && *row.cycles < fewest_cycles)
       add(test, "cycles", *row.cycles, fmt::format("{:g} or more", fewest_cycles),
           "millions or thousands of cycles",
@@ -102,7 +102,7 @@ class Doubts {
   std::vector<Warning> warnings;
 
  private:
-  /// The tightest bend of a measured curve, and the stiffness there.
+  /// Checks the largest bend of a measured curve, and its stiffness.
   void table(const ObservedTest& test) {
     const std::vector<BendingPoint> points = read_bending(test.observation.bending);
     const BendingPoint tight =

@@ -1,4 +1,4 @@
-// Rows of observations that another unit, a copy of a row or a contradiction explains, before anything is computed.
+// Checks of observations for likely errors of unit, copied rows and contradictions, before anything is computed.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace dresslife::pipeline {
 
-/// Each with the place of its row, the value with its limit, the likely cause and a remedy. Errors: InputError of a bending table
-/// that cannot be read.
+/// Returns one warning per doubtful value: the place of its row, the value with its limit, the likely cause and a remedy. Errors:
+/// InputError for a bending table that cannot be read.
 std::vector<Warning> doubtful_rows(const std::vector<ObservedTest>& tests);
 
 }  // namespace dresslife::pipeline

@@ -24,7 +24,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr std::size_t draws = 64;  // of what each dresspack has for itself: a share of failures is known to 3 % or better
+// samples of the individual values of a dresspack: the error of a share of failures is 3 % or less
+constexpr std::size_t draws = 64;
 
 class RowsByJob {
  public:
@@ -46,7 +47,7 @@ class RowsByJob {
 };
 
 struct LogLife {
-  double median, spread;  ///< ln of life, and ln of the deviation of it
+  double median, spread;  ///< ln of the median life, and ln of the standard deviation of ln life
 };
 LogLife log_life_of(const Observation& observation, const RankingRow& row) {
   const std::array<double, 3> lives = lives_of(observation, row);
@@ -95,7 +96,7 @@ class RoundEmulation {
     ObservedLife life;
     life.log_life = std::log(observed_life(observation));
     life.end = end_of(observation.outcome);
-    // A maker promises it of a cable that somebody buys.
+    // a maker's rating is a promise for one cable
     life.specimens = observation.outcome == ObservedEnd::rating ? 1 : observation.specimens;
     life.unshared_spread = observation.unshared_log10 * std::numbers::ln10;
     for (const RoundOfJobs::Runs& runs : variants) {
@@ -106,13 +107,13 @@ class RoundEmulation {
     return life;
   }
 
-  /// Hours of operation of a program until half have failed, if it ran alone for its share of the time.
+  /// Returns the hours of operation until half have failed, if the program ran alone for its share of the time.
   double hours_alone(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& programs, std::size_t program) const {
     const double share = test.variants[program].share_of_time;
     return lives_of(test.observation, row_of(test, programs[program].centre))[1] / share;
   }
 
-  /// Of the programs of dresspacks in service; 0 for other tests, whose variants are no programs.
+  /// Returns the most damaging program of dresspacks in service; 0 for other tests, whose variants are no programs.
   std::size_t most_damaging(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& programs) const {
     std::size_t worst = 0;
     if (test.observation.service.empty()) return worst;
@@ -121,9 +122,9 @@ class RoundEmulation {
     return worst;
   }
 
-  /// failures: whether they count as such; else as dresspacks that lived until then.
+  /// failures: whether failed dresspacks count as failures; else as dresspacks that lived until then.
   static std::vector<ServiceFactor> factors_of(const std::vector<ServiceRecord>& records, bool failures) {
-    // Ages within 5 % of each other count as one: they are off by 1.4 % in the mean, and lives scatter by tens of per cent.
+    // Ages within 5 % of each other are one age: the mean error is 1.4 %, and lives scatter by tens of per cent.
     constexpr double within = 0.05;
     std::map<std::pair<long, bool>, int> counts;
     const auto add = [&](double hours, bool failed, int count) { counts[{std::lround(std::log(hours) / within), failed}] += count; };
@@ -137,7 +138,7 @@ class RoundEmulation {
     return factors;
   }
 
-  /// Dresspacks in service: under one program, or several with their shares of the time.
+  /// Returns the life of dresspacks in service, under one program or under several with their shares of the time.
   ObservedLife service_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& programs) {
     ObservedLife life;
     life.service = factors_of(test.observation.service, true);
@@ -166,12 +167,14 @@ class RoundEmulation {
     return life;
   }
 
-  /// No hose of a test had cracked before its end, also where its wires failed. By what else each hose differs: its motion.
+  /// Returns the ages of hoses that had not cracked before the end of a test, also if its wires failed. The individual value of
+  /// each hose is its motion.
   std::map<std::string, ObservedLife> walls_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& variants) {
     const Observation& observation = test.observation;
     const bool in_service = !observation.service.empty();
     std::map<std::string, ObservedLife> walls;
-    const bool lived = bounds_below(observation.outcome) && observation.outcome != ObservedEnd::rating;  // a promise is of the cable alone
+    // a rating covers only the cable
+    const bool lived = bounds_below(observation.outcome) && observation.outcome != ObservedEnd::rating;
     if (!in_service && !(observation.hours && lived)) return walls;
     std::map<std::string, std::vector<ProgramModes>> programs;
     for (std::size_t k = 0; k < variants.size(); ++k) {
@@ -184,7 +187,7 @@ class RoundEmulation {
       std::map<std::string, FailureModes> by_material;
       for (LifeResponse& wall : modes_from_text(life.text_attribute(attribute))) by_material[wall.material].push_back(wall);
       for (auto& [material, modes] : by_material) programs[material].push_back({std::move(modes), share * 3600 / row.repeat_seconds});
-      if (!in_service) break;  // other variants are other cables
+      if (!in_service) break;  // the other variants are other cables
     }
     std::array<bool, uncertain_count> moves{}, own{};
     moves[index_of(Uncertain::strength)] = true;
@@ -201,11 +204,11 @@ class RoundEmulation {
     return walls;
   }
 
-  /// "model 2.0, strength 1.8": factors by which one deviation of a parameter changes the median life, largest first.
+  /// Returns the factors by which one deviation of a parameter changes the median life, largest first: "model 2.0, strength 1.8".
   std::string moved_by(const ObservedTest& test, const RoundOfJobs::Runs& runs) const {
     const RankingRow& row = row_of(test, runs.centre);
     if (row.life_response.empty()) return "";
-    constexpr double worth_a_word = 0.05;  // of ln life
+    constexpr double worth_a_word = 0.05;  // smallest change of ln life that is printed
     std::array<bool, uncertain_count> all = runs.moves;
     for (std::size_t p = 0; p < uncertain_count; ++p) all[p] = all[p] || runs.own[p];
     const LifeOverParameters life(modes_from_text(row.life_response), all);
@@ -231,7 +234,7 @@ class RoundEmulation {
                      "correct it, or leave the row out");
   }
 
-  /// How a cable bends: sums of its moments, or how fast its swing dies away.
+  /// Returns the emulators of a bending test: sums of moments, or the decrement of a swing.
   EmulatedTest bending_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& variants) {
     const Observation& observation = test.observation;
     const double noise = observation.noise_percent / 100;
@@ -267,7 +270,7 @@ class RoundEmulation {
     return made;
   }
 
-  /// Logarithms over z of what is said of a first bend, from its table of curvatures and moments.
+  /// Returns emulators of logarithms over z. said: computes them from a table of curvatures and moments of a first bend.
   template <typename Said>
   std::vector<Emulator> bending_over(const ObservedTest& test, const RoundOfJobs::Runs& runs,
                                      const Said& said) const {
@@ -314,7 +317,7 @@ class RoundEmulation {
     };
   }
 
-  /// Of the variance of a specimen's ln life, what all of a spool have in common.
+  /// Returns the share of the variance of a specimen's ln life that is common to all specimens of a spool.
   double common_share(const RoundOfJobs::Runs& runs, const LogLife& centre) const {
     const Fatigue& fatigue = round_.study().jobs[runs.centre].job->fatigue;
     const double wires = fatigue.scatter_log10 * fatigue.scatter_factor * std::numbers::ln10;

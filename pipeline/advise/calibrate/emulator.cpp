@@ -6,7 +6,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A slope on that goes on as its chord does, between level and twice as steep.
+/// Returns the slope limited to 0 .. 2 times the slope of the chord.
 double going_on(double slope, double chord) {
   return chord >= 0 ? std::clamp(slope, 0.0, 2 * chord) : std::clamp(slope, 2 * chord, 0.0);
 }

@@ -106,7 +106,7 @@ LawPrediction predicted(const WearTest& test, const Where& where) {
   return lognormal(rate->rate * test.force * test.way, std::log10(rate->factor));
 }
 
-/// What is not known without a measurement is the friction; polymer and wires count as the construction has them.
+/// Only the friction is uncertain without a measurement; polymer and wires have the values of the construction.
 LawPrediction predicted(const BendingTest& test) {
   const auto moment = [&](double share) {
     const UncertainParameter& friction = uncertain_parameters()[index_of(Uncertain::friction_inside)];
@@ -115,7 +115,7 @@ LawPrediction predicted(const BendingTest& test) {
   return {moment(0.1), moment(0.5), moment(0.9)};
 }
 
-/// Takes the cable out of a row of the document, resolved as in a job.
+/// Removes the cable from a row of the document and returns it, resolved as in a job.
 Dresspack take_cable(Node& row) {
   Node* const bending = row.is_map() ? row.find("bending") : nullptr;
   const Node* const cable = bending && bending->is_map() ? bending->find("cable") : nullptr;
@@ -137,7 +137,7 @@ Dresspack take_cable(Node& row) {
 
 struct Observed {
   double value = 0;
-  bool bounds_above = true, bounds_below = true;  ///< what the law must not exceed, not fall short of
+  bool bounds_above = true, bounds_below = true;  ///< the law must not exceed the value, must not be below it
   double unit = 1;
   const char* words = "";
 };

@@ -1,4 +1,4 @@
-// Published tests of the laws of kinks, wear and bending, which need no robot and no rig, beside what the laws say.
+// Comparison of the laws of kinks, wear and bending with published tests, which need no robot and no rig.
 //
 //   law_tests:
 //     - name: smc_6x4
@@ -27,29 +27,29 @@ namespace dresslife::pipeline {
 
 class Fields;
 
-/// A smooth tube bent in one plane: one of the three radii of its axis [m].
+/// A smooth tube bent in one plane, with one of three radii of its axis [m].
 struct TubeTest {
   double outer = 0, bore = 0;        ///< diameters [m]
-  std::optional<double> kinks_at;    ///< it kinks
-  std::optional<double> oval_at;     ///< its diameter has changed by oval_share
-  std::optional<double> allowed_at;  ///< its maker's least radius: it does not kink
+  std::optional<double> kinks_at;    ///< radius at which it kinks
+  std::optional<double> oval_at;     ///< radius at which its diameter has changed by oval_share
+  std::optional<double> allowed_at;  ///< its maker's least radius, at which it does not kink
   double oval_share = 0.05;
 };
 void describe(Fields& f, TubeTest& test);
 
-/// A surface that was rubbed with a force over a way.
+/// A surface that was rubbed with a force over a distance.
 struct WearTest {
-  std::string material;  ///< of the catalogue
+  std::string material;  ///< name in the catalogue
   Counterface against = Counterface::robot;
   double force = 0, way = 0;        ///< [N], [m]
-  std::optional<double> worn;       ///< volume [m3]
-  std::optional<double> worn_more;  ///< of a rougher counterface than `against`: the law must say less [m3]
+  std::optional<double> worn;       ///< worn volume [m3]
+  std::optional<double> worn_more;  ///< volume worn by a rougher counterface than `against` [m3]: the law must predict less
 };
 void describe(Fields& f, WearTest& test);
 
-/// A cable by itself that was bent from straight for the first time, in one plane.
+/// A single cable that was bent from straight for the first time, in one plane.
 struct BendingTest {
-  Dresspack cable;         ///< as `dresspack: {cable: ..}` of a job, with the friction that is estimated without a measurement
+  Dresspack cable;         ///< as in `dresspack: {cable: ..}` of a job, with the friction that is estimated without a measurement
   double curvature = 0;    ///< [1/m]
   double moment = 0;       ///< [N m]
 };
@@ -57,7 +57,7 @@ void describe(Fields& f, BendingTest& test);
 
 struct LawTest {
   std::string name, what, source;
-  bool sets_constant = false;  ///< the constants of the law come from this test: it cannot confirm them
+  bool sets_constant = false;  ///< the constants of the law come from this test, so it cannot confirm them
   std::optional<TubeTest> tube;
   std::optional<WearTest> wear;
   std::optional<BendingTest> bending;
@@ -70,19 +70,19 @@ struct LawPrediction {
   double low = 0, median = 0, high = 0;
 };
 
-/// Errors: InputError at the place in the file, also for a file with other keys beside law_tests.
+/// Reads law tests. Errors: InputError at the place in the file, also for a file with keys other than law_tests.
 std::vector<LawTest> read_law_tests(const std::filesystem::path& file);
-/// Whether the file is of law tests and not of observations.
+/// Returns whether the file contains law tests and no observations.
 bool holds_law_tests(const std::filesystem::path& file);
 
-/// Errors: InputError for a material that the catalogue does not have, or that has no wear rate of this pair.
+/// Returns the prediction. Errors: InputError for a material that is not in the catalogue or has no wear rate for this pair.
 LawPrediction predicted(const LawTest& test);
 
-/// A bound: MISS if even the 10 % (or 90 %) is on its wrong side, agrees if the median is on the right one, else open. A
-/// measured number: agrees if it lies in 10 .. 90 %, else MISS with the factor to the nearest end.
+/// Returns the verdict. For a bound: MISS if even the 10 % (or 90 %) value is on the wrong side, agrees if the median is on the
+/// right side, else open. For a measured number: agrees within 10 .. 90 %, else MISS with the factor to the nearest end.
 std::string verdict_of(const LawTest& test, const LawPrediction& prediction);
 
-/// As a Markdown table, and a sentence with the sums.
+/// Returns a Markdown table, and a sentence with the totals.
 std::string law_table(const std::vector<LawTest>& tests);
 
 }  // namespace dresslife::pipeline

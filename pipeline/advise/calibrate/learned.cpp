@@ -33,12 +33,13 @@ std::string parameter_lines(const Learned& learned) {
   return text;
 }
 
-/// Records that the model hardly expected, and dresspacks that live longer than the calibration predicts.
+/// Adds warnings about records that were improbable before the calibration, and about dresspacks older than it predicts.
 void add_service_doubts(const LearnedTest& test, double surprising, Learned& learned) {
   const ServiceChance &before = test.chance_before, &after = test.chance_after;
   const std::string name = test.observation.name, seen = observed_text(test.observation);
   const auto percent = [](double share) { return readable(100 * share, 2) + " %"; };
-  if (const double chance = std::min(before.few, before.many); chance < surprising)  // from 1e12 plants on the number says nothing more
+  // a probability below 1e-12 is printed as this limit
+  if (const double chance = std::min(before.few, before.many); chance < surprising)
     learned.warnings.push_back(fmt::format(
         "'{}': {} failures than predicted ({}): without any observation (makers' ratings, too) 1 of {} such plants has as {}. The predicted life of half of them "
         "changed from {} to {}. Correct the job, the dates or the hours per week if one of them is wrong",
@@ -61,7 +62,7 @@ void add_service_doubts(const LearnedTest& test, double surprising, Learned& lea
 
 double surprise(const LearnedTest& test) {
   const Observation& observation = test.observation;
-  if (!observation.service.empty()) return 0;  // many lives are no single one
+  if (!observation.service.empty()) return 0;  // many lives have no single surprise
   const double seen = observation.is_life() ? observed_life(observation) : test.measured;
   const auto off = [&](double side) {
     return std::log(seen / test.before[1]) / (std::log(side / test.before[1]) / normal_decile);
@@ -100,7 +101,7 @@ std::string words_of(const PredictedDeciles& deciles) {
 }
 
 void add_doubts(Learned& learned, const Axes& axes) {
-  constexpr double surprising = 2, skewed = 0.3;  // deviations
+  constexpr double surprising = 2, skewed = 0.3;  // standard deviations
   for (const LearnedTest& test : learned.tests) add_service_doubts(test, normal_share(-surprising), learned);
   for (const LearnedTest& test : learned.tests)
     if (const double off = surprise(test); off > surprising)

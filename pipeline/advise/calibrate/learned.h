@@ -11,21 +11,21 @@
 
 namespace dresslife::pipeline {
 
-/// Result of one parameter; empty: no test depends on it.
+/// Result for one parameter; empty if no test depends on it.
 struct LearnedAxis {
   bool learned = false;
-  bool is_own = false;  ///< each dresspack in service has its own
-  PredictedDeciles before{}, after{};  ///< value of its key
-  double narrowed = 1;         ///< standard deviation of z after over that before
+  bool is_own = false;  ///< each dresspack in service has its own value
+  PredictedDeciles before{}, after{};  ///< deciles of the key's value
+  double narrowed = 1;         ///< ratio of the standard deviation of z after to that before
 };
 
 struct LearnedTest {
   Observation observation;
-  PredictedDeciles before{}, after{};  ///< over all variants; after: weighted by their likelihood
-  PredictedDeciles by_others{};        ///< over all variants, from the posterior of all tests but this one
-  ServiceChance chance_before{}, chance_after{};  ///< of dresspacks in service
+  PredictedDeciles before{}, after{};  ///< predictions over all variants; after: weighted by their likelihood
+  PredictedDeciles by_others{};        ///< prediction over all variants, from the posterior of all other tests
+  ServiceChance chance_before{}, chance_after{};  ///< for dresspacks in service
   double measured = 0;         ///< measured value; 0 for a life
-  std::string fails_first{}, moved_by{};  ///< EmulatedTest
+  std::string fails_first{}, moved_by{};  ///< from EmulatedTest
 };
 
 struct Learned {
@@ -41,19 +41,19 @@ struct Learned {
 
 std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes);
 
-/// The standard deviations by which a prediction lies on the wrong side of what was observed; 0 if it agrees.
+/// Returns the standard deviations between a prediction and the observation, if it lies on the wrong side; 0 if they agree.
 double surprise(const LearnedTest& test);
 
-/// Notes on limits of the result.
+/// Adds notes on the limits of the result.
 void add_doubts(Learned& learned, const Axes& axes);
 
-/// Why a parameter was not learned.
+/// Returns the reason why a parameter was not learned.
 std::string_view why_not_learned(const LearnedAxis& axis);
 
-/// "120 (4,100, 120,000)": 10 %, half, 90 % have failed.
+/// Returns "120 (4,100, 120,000)": the values by which 10 %, half and 90 % have failed.
 std::string words_of(const PredictedDeciles& deciles);
 
-/// Table for the terminal: parameters before and after; observed and predicted values of each row.
+/// Returns a table for the terminal: parameters before and after; observed and predicted values of each row.
 std::string learned_table(const Learned& learned);
 
 }  // namespace dresslife::pipeline

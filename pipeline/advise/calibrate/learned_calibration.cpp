@@ -25,7 +25,7 @@ double to_figures(double value, int figures) {
   return value == 0 || !std::isfinite(value) ? value : std::stod(fmt::format("{:.{}g}", value, figures));
 }
 
-/// What the jobs at the centre went through, from their files.
+/// Returns the ranges of bend, twist and strain of the jobs at the centre, from their files.
 LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
                         const StudyPlaces& places) {
   LearnedWithin within;
@@ -35,7 +35,7 @@ LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJob
   };
   const auto most = [](std::optional<double>& of, double value) { of = std::max(of.value_or(value), value); };
   for (std::size_t t = 0; t < tests.size(); ++t) {
-    if (!tests[t].observation.is_life()) continue;  // it says nothing of lives
+    if (!tests[t].observation.is_life()) continue;  // a bending test contains no information about lives
     if (const auto cycles = tests[t].observation.cycles)
       least(within.fewest_cycles, *cycles), most(within.most_cycles, *cycles);
     for (const RoundOfJobs::Runs& runs : round.runs()[t]) {
@@ -62,7 +62,7 @@ LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJob
   return within;
 }
 
-/// What the jobs at the centre were computed with. Tests of stiffness and decay say nothing of materials.
+/// Returns the settings of the jobs at the centre. Tests of stiffness and decay do not depend on materials.
 LearnedUnder under_of(const std::vector<ObservedTest>& tests, const RoundOfJobs& round) {
   std::vector<const Job*> all, lives;
   for (std::size_t t = 0; t < tests.size(); ++t)
@@ -118,7 +118,7 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
     parameter.value = factor(wall.median), parameter.value_p10 = factor(wall.low), parameter.value_p90 = factor(wall.high);
   }
   calibration.under = under_of(tests, round);
-  if (calibration.typical) calibration.under.cables.clear();  // it belongs to none of them
+  if (calibration.typical) calibration.under.cables.clear();  // the calibration belongs to none of these cables
   calibration.within = within_of(tests, round, places);
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const LearnedTest& test = learned.tests[t];

@@ -1,7 +1,7 @@
-// What dresspacks in service teach of the strength of hoses' walls (pipeline/job/wall_strength.h).
+// Strength of the hoses' walls, learned from dresspacks in service (pipeline/job/wall_strength.h).
 //
-// A hose that had not cracked at an age says S(age) of (P5), over the lives of (F37). Nothing of the wires depends on this strength,
-// so it is learned by itself: prior N(0, 1), the posterior by sums over equal steps of z.
+// A hose that had not cracked at an age has the likelihood S(age) of (P5), over the lives of (F37). The wires do not depend on
+// this strength, so it is learned separately: prior N(0, 1), posterior by sums over equal steps of z.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ namespace dresslife::pipeline {
 
 struct LearnedWall {
   std::string name;                            ///< wall_strength_of()
-  double mean = 0, deviation = 1;              ///< of z
-  double low = 0, median = 0, high = 0;        ///< z: 80 % lie between low and high
+  double mean = 0, deviation = 1;              ///< mean and standard deviation of z
+  double low = 0, median = 0, high = 0;        ///< deciles of z
 };
 
-/// One for each material. Tests without a wall say nothing.
+/// Returns one result for each material. Tests without a wall have no influence.
 std::vector<LearnedWall> learned_walls(const std::vector<EmulatedTest>& tests);
 
 }  // namespace dresslife::pipeline

@@ -15,13 +15,15 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int most_rounds = 5;
-// Deviations from the prior. One of ten parameters lies beyond in one of 1,600 cases; beyond 4.8, keys leave their allowed range.
+// Standard deviations of the prior. One of ten parameters exceeds this limit in one of 1,600 cases; beyond 4.8 keys leave their
+// allowed range.
 constexpr double farthest = 4;
-constexpr double still = 0.25;  // of what is left to know: the centre of bending tests moves no more
-// Of a deviation: half of the way to the outermost runs behind a life's response (W38). Within it lives are interpolated.
+constexpr double still = 0.25;  // of the remaining deviation: the largest change of a converged centre of bending tests
+// Half of the distance to the outermost runs of a life's response (W38), in standard deviations. Within it lives are
+// interpolated.
 constexpr double within_response = 0.7;
 
-/// Whether a bending test rests on runs to either side along this parameter.
+/// Returns whether a bending test has runs to either side along this parameter.
 bool has_arms(const RoundOfJobs& round, Index parameter) {
   for (const std::vector<RoundOfJobs::Runs>& variants : round.runs())
     for (const RoundOfJobs::Runs& runs : variants)
@@ -33,7 +35,7 @@ bool of_typical_cables(const std::vector<ObservedTest>& tests) {
   return std::any_of(tests.begin(), tests.end(), [](const ObservedTest& test) { return test.typical; });
 }
 
-/// typical: the tests are of different makers' cables, and the posterior is of a cable that is none of them.
+/// typical: the tests belong to different makers' cables, and the posterior to a cable that is none of them.
 Posterior posterior_of(std::vector<LogLikelihood> terms, const Axes& axes, const VectorXd& start, bool typical,
                        const SamplerSettings& settings = {}) {
   if (typical) terms.push_back(narrower_prior(axes.places()));
@@ -42,7 +44,7 @@ Posterior posterior_of(std::vector<LogLikelihood> terms, const Axes& axes, const
   return posterior;
 }
 
-/// Errors: InputError at the row that differs most from its prediction, if the likeliest parameters lie beyond `farthest`.
+/// Throws InputError at the row that differs most from its prediction, if the most likely parameters are beyond `farthest`.
 void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vector<LearnedTest>& learned,
                           const VectorXd& there) {
   Index worst = 0;
@@ -61,11 +63,12 @@ void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vec
       "correct the unit of the observation, or its job; else leave the row out");
 }
 
-/// Predicts each test from all others. A model that a test contradicts shows here, and not in a prediction that the test
-/// itself has moved.
+/// Predicts each test from all others. This shows a test that contradicts the model, which a prediction that includes the test
+/// itself might hide.
 void predict_by_others(const std::vector<EmulatedTest>& emulated_tests, const Axes& axes, const VectorXd& start, bool typical,
                        std::vector<LearnedTest>& tests) {
-  constexpr SamplerSettings short_chains{.draws = 3000};  // a decile to 4 % of the deviation, as far as 1,000 are independent
+  // error of a decile: 4 % of the deviation, if 1,000 draws are independent
+  constexpr SamplerSettings short_chains{.draws = 3000};
   const std::vector<LogLikelihood> terms = terms_of(emulated_tests, axes);
   for (std::size_t t = 0; t < tests.size(); ++t) {
     std::vector<LogLikelihood> others = terms;

@@ -70,9 +70,9 @@ double LifeOverParameters::first(const ParameterPoint& z, double u, const OwnVal
 }
 
 double LifeOverParameters::log10_life(std::size_t mode, const ParameterPoint& z, double u) const {
-  if (programs_.size() == 1)  // exactly that of its job
+  if (programs_.size() == 1)  // exactly the life of its job
     return surfaces_[0][mode].log10_life(z, u, Inside::as_is) - std::log10(programs_[0].per_hour);
-  double damage = 0;  // per hour
+  double damage = 0;  // per hour of operation
   for (std::size_t k = 0; k < programs_.size(); ++k)
     damage += programs_[k].per_hour * std::pow(10.0, -surfaces_[k][mode].log10_life(z, u, Inside::as_is));
   return damage > 0 ? -std::log10(damage) : endless_log_life;

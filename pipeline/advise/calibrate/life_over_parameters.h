@@ -1,5 +1,5 @@
-// The life of a specimen or dresspack over the uncertain parameters, as a run's samples evaluate it: the first of its failure
-// modes.
+// The life of a specimen or dresspack as a function of the uncertain parameters, evaluated as in a run's samples: the first of
+// its failure modes.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,20 +11,22 @@
 
 namespace dresslife::pipeline {
 
-inline constexpr double endless_log_life = 41.4;  // ln 1e18: a life without damage
-inline constexpr double least_log_spread = -6.9;  // ln 0.001: of ln life, where nothing scatters
+inline constexpr double endless_log_life = 41.4;  // ln 1e18: represents a life without damage
+// ln 0.001: lower limit of ln of the deviation of ln life, used if nothing scatters
+inline constexpr double least_log_spread = -6.9;
 
-/// What one dresspack has for itself.
+/// Values of a single dresspack.
 struct OwnValues {
-  ParameterPoint z{};  ///< (parameter) 0 of those that it shares
+  ParameterPoint z{};  ///< (parameter) 0 for parameters that dresspacks share
   std::vector<double>
-      scatter;  ///< (mode) standard normal: the part of u that the modes do not have in common
+      scatter;  ///< (mode) standard normal: the part of u that is independent between the modes
 };
-/// Samples of equal probability: of each number every stratum once. own: the parameters. The same every time.
+/// Returns `count` samples of equal probability with one sample in each stratum of each number. own: parameters that differ
+/// between dresspacks. Every call gives the same result.
 std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bool, uncertain_count>& own,
                                   std::size_t count);
 
-/// One of the programs of a dresspack.
+/// One program of a dresspack.
 struct ProgramModes {
   FailureModes modes;
   double per_hour = 0;  ///< repeats in an hour of operation; 1: lives are in repeats
@@ -32,17 +34,18 @@ struct ProgramModes {
 
 class LifeOverParameters {
  public:
-  /// moves: parameters that it depends on.
+  /// moves: parameters on which the life depends.
   LifeOverParameters(FailureModes modes, const std::array<bool, uncertain_count>& moves);
-  /// Of several programs on one dresspack: the damage of a mode adds up, as if all programs loaded one place. Precondition:
-  /// all have the same modes.
+  /// For several programs on one dresspack: the damage of a mode adds up, as if all programs loaded one place. Precondition:
+  /// all programs have the same modes.
   LifeOverParameters(std::vector<ProgramModes> programs, const std::array<bool, uncertain_count>& moves);
   LifeOverParameters(const LifeOverParameters&) = delete;
   LifeOverParameters& operator=(const LifeOverParameters&) = delete;
   const FailureModes& modes() const { return programs_.front().modes; }
 
-  /// In repeats, or in hours of operation. beside (parameter): z from the keys of the job. own: of one dresspack; null: median ones, and as if the scatter
-  /// of wires were common to all modes. A life without end counts as endless_log_life.
+  /// Returns the life in repeats, or in hours of operation. beside: (parameter) z relative to the job's keys. own: values of one
+  /// dresspack; null: median values, with a scatter of wires that is common to all modes. A life without end gives
+  /// endless_log_life.
   LifeAt at(const Eigen::VectorXd& beside, const OwnValues* own = nullptr) const;
   double log_median_at(const Eigen::VectorXd& beside) const;
 

@@ -14,8 +14,8 @@ double log_density(double x, double deviation) {
   return -x * x / (2 * deviation * deviation) - std::log(deviation);
 }
 
-/// Sum over y of phi(y) dy Phi((margin + c y)/o)^n: equal steps of a tenth, as accurate as the integrand is
-/// smooth; where o is less than a tenth of c it nears a step, and the sum is off by a step's 2 % at most.
+/// Returns ln of the sum over y of phi(y) dy Phi((margin + c y)/o)^n. The step is 0.1, which is accurate for a smooth integrand.
+/// If o is less than a tenth of c, the integrand is nearly a step function, and the error is at most 2 %.
 double log_all_within(double margin, double common, double own, int specimens) {
   constexpr double reach = 8, width = 0.1;
   constexpr int steps = static_cast<int>(2 * reach / width);
@@ -39,7 +39,8 @@ double log_likelihood(const ObservedLife& observed, const LifeVariant& variant, 
   return log_all_within(within, common, own, n);
 }
 
-/// Phi or phi, straight between values that are a thousandth apart: off by 3e-8 at most. A sampler asks for 1e9 of them.
+/// Phi or phi by linear interpolation between values at a distance of 0.001; the error is at most 3e-8. A sampler calls it 1e9
+/// times.
 class NormalTable {
  public:
   explicit NormalTable(double (*of)(double)) {
@@ -58,7 +59,7 @@ class NormalTable {
   std::vector<double> values_;
 };
 
-/// (P5). Means of shares; where they are small, of their logarithms.
+/// Computes (P5) from means of shares; for small shares from their logarithms.
 class ServiceLikelihood {
  public:
   ServiceLikelihood(const std::vector<LifeVariant>& variants, const Eigen::VectorXd& z) {
@@ -74,7 +75,7 @@ class ServiceLikelihood {
       sum += one.failed ? density(margin) * per_spread_[k] : share(margin);
     }
     const double mean = sum / static_cast<double>(lives_.size());
-    constexpr double small = 1e-3;  // there the table is off by 3e-5 of it
+    constexpr double small = 1e-3;  // at this value the table has a relative error of 3e-5
     return one.count * (mean > small ? std::log(mean) : log_of_small(one));
   }
 

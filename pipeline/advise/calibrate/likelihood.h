@@ -1,21 +1,21 @@
 // Likelihood of an observation at the parameters z: of lives, censored lives and measured quantities.
 //
-// A life is lognormal about the model's median m(z), with the spread s(z) of what failed (a wire, a conductor
-// that lost its share of wires). Of s^2 the share w is common to all specimens of a test, one spool or batch;
-// u^2 is what the test has of its own that the model does not know and no other test shares; the variance between
-// makers' cables adds to it. With x = ln(observed), c^2 = w s^2 + u^2, o^2 = (1 - w) s^2 and n specimens:
+// A life is lognormal with the model's median m(z) and the standard deviation s(z) of the failed part (a wire, or a conductor
+// that lost its share of wires). The share w of s^2 is common to all specimens of a test, such as one spool or batch.
+// u^2 is the variance of one test that the model does not include and no other test shares; the variance between
+// makers' cables is added to it. With x = ln(observed), c^2 = w s^2 + u^2, o^2 = (1 - w) s^2 and n specimens:
 //     broken     n lives, x is their mean:  N(x; m, c^2 + o^2/n)                             (P2)
 //     at least   n not failed until then:   integral of Phi((m + c y - x)/o)^n phi(y) dy     (P3)
 //     at most    none lived longer:         integral of Phi((x - m - c y)/o)^n phi(y) dy
 // A rating is an "at least" of one specimen.
 //
-// Dresspacks in service differ by what each has for itself. Of that there are some values j of equal probability, each with
-// its own m_j(z) and s_j(z). S(x) is the mean over j of Phi((m_j - x)/s_j), f(x) that of phi((m_j - x)/s_j)/s_j. With x of a
-// dresspack's end and e of its age at the begin of the records:
+// Dresspacks in service differ by individual values. These are represented by some values j of equal probability, each with
+// its own m_j(z) and s_j(z). S(x) is the mean over j of Phi((m_j - x)/s_j), f(x) the mean of phi((m_j - x)/s_j)/s_j. With x for
+// the end of a dresspack and e for its age at the begin of the records:
 //     failed        f(x)/S(e)                                                            (P5)
 //     not failed    S(x)/S(e)
 //
-// A test with unknown values has several variants of equal probability. Its likelihood is the mean of theirs.
+// A test with unknown values has several variants of equal probability. Its likelihood is the mean of their likelihoods.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,23 +26,23 @@
 
 namespace dresslife::pipeline {
 
-/// ln of a likelihood over z, up to a constant.
+/// Returns ln of a likelihood at z, up to a constant.
 using LogLikelihood = std::function<double(const Eigen::VectorXd& z)>;
 
 enum class LifeEnd { broken, at_least, at_most };
 
 struct LifeAt {
   double log_median = 0;  ///< ln m(z)
-  double spread = 0;      ///< s(z), of ln life, > 0
-  double between = 0;     ///< of ln life, between makers' cables at typical parameters z (typical_cables.h)
+  double spread = 0;      ///< s(z), standard deviation of ln life, > 0
+  double between = 0;     ///< standard deviation of ln life between makers' cables at typical parameters z (typical_cables.h)
 };
 using LifeVariant = std::function<LifeAt(const Eigen::VectorXd& z)>;
 
-/// A factor of (P5) to the power of a number of dresspacks.
+/// A factor of (P5) with an exponent.
 struct ServiceFactor {
   double log_age = 0;   ///< x or e
   bool failed = false;  ///< f(x), else S
-  int count = 1;        ///< of dresspacks; below 0: of those that S(e) divides
+  int count = 1;        ///< exponent: number of dresspacks; below 0: number of dresspacks that have S(e) as divisor
 };
 
 struct ObservedLife {
@@ -50,12 +50,12 @@ struct ObservedLife {
   LifeEnd end = LifeEnd::broken;
   int specimens = 1;
   double common_share = 0;     ///< w, 0 .. 1
-  double unshared_spread = 0;  ///< u, of ln life
+  double unshared_spread = 0;  ///< u, standard deviation of ln life
   std::vector<LifeVariant> variants;
-  std::vector<ServiceFactor> service{};  ///< instead of one life; then the variants are the values j
+  std::vector<ServiceFactor> service{};  ///< many dresspacks instead of one life; then the variants are the values j
 };
 
-/// (P2), (P3) or (P5). Precondition: at least one variant.
+/// Returns ln of (P2), (P3) or (P5). Precondition: at least one variant.
 double log_likelihood(const ObservedLife& observed, const Eigen::VectorXd& z);
 
 /// A measured number as a sum of quantities of the model: value = sum of factor x exp(log of quantity(z)).
@@ -64,11 +64,11 @@ struct MeasuredNumber {
     std::size_t quantity;
     double factor;
   };
-  double value = 0, deviation = 1;  ///< measured; standard deviation of its error, > 0
+  double value = 0, deviation = 1;  ///< measured value; standard deviation of its error, > 0
   std::vector<Term> parts;
 };
 
-/// Numbers with normal errors, from quantities > 0 whose logarithms are emulated.
+/// Measured numbers with normal errors, predicted from positive quantities whose logarithms are emulated.
 struct Measurement {
   std::vector<Emulator> log_quantities;
   std::vector<MeasuredNumber> numbers;
@@ -76,7 +76,7 @@ struct Measurement {
 double said_by_model(const Measurement& measurement, const MeasuredNumber& number, const Eigen::VectorXd& z);
 double log_likelihood(const Measurement& measurement, const Eigen::VectorXd& z);
 
-/// ln of the mean of exp(terms). Precondition: at least one.
+/// Returns ln of the mean of exp(terms). Precondition: at least one term.
 double log_mean(const std::vector<double>& terms);
 
 }  // namespace dresslife::pipeline

@@ -12,14 +12,14 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A sum of M1: curvature > 0 -> factor.
+/// A sum of values of M1: curvature > 0 -> factor.
 using Sum = std::map<double, double>;
 
 void add(Sum& sum, double curvature, double factor) {
   if (curvature != 0) sum[std::abs(curvature)] += curvature < 0 ? -factor : factor;
 }
 
-/// Where bending turned, and the moment there.
+/// A point of reversal: curvature and moment.
 struct Turn {
   double curvature;
   Sum moment;
@@ -38,8 +38,8 @@ class Path {
   }
 
  private:
-  /// Whether the branch has come as far as that before it began, or, from the first turn, as far on the other
-  /// side.
+  /// Returns whether the branch has reached the begin of the previous branch; for the first reversal, whether it has reached the
+  /// same curvature on the other side.
   bool closes(double curvature) const {
     if (turns_.empty()) return false;
     const double begin = turns_.back().curvature;
@@ -61,7 +61,7 @@ class Path {
   std::vector<Turn> turns_;
 };
 
-/// Errors: InputError; for a decimal comma with the number that was meant.
+/// Returns the number in a cell. Errors: InputError; for a decimal comma it contains the intended number.
 double number_of(const CsvReader& table, const CsvCell& cell) {
   const std::optional<double> value = number_in(cell.text);
   if (value && std::isfinite(*value)) return *value;
@@ -73,8 +73,8 @@ double number_of(const CsvReader& table, const CsvCell& cell) {
                        : "write curvature and moment as numbers with a decimal point, one pair per line");
 }
 
-/// Integral of M1 from 0 to a curvature [N m x 1/m]: between two values of the table M1 is a power, before
-/// the first one that of the first two.
+/// Returns the integral of M1 from 0 to a curvature [N m x 1/m]. Between two values of the table M1 is a power function; before
+/// the first value it is the power function of the first two.
 double work(const std::vector<double>& curvatures, const std::vector<double>& moments, double curvature) {
   double sum = 0;
   for (std::size_t k = 1; k < curvatures.size(); ++k) {
@@ -89,7 +89,7 @@ double work(const std::vector<double>& curvatures, const std::vector<double>& mo
   return sum;
 }
 
-/// Curvature of a clamped bar's first natural form, 1 at the clamp. x: share of the length from there.
+/// Returns the curvature of a clamped bar's first natural mode, 1 at the clamp. x: distance from the clamp over the length.
 double first_form(double x) {
   constexpr double beta = 1.875104, ratio = 0.734096;
   return (std::cosh(beta * x) + std::cos(beta * x) - ratio * (std::sinh(beta * x) + std::sin(beta * x))) / 2;
@@ -121,7 +121,7 @@ std::vector<BendingPoint> read_bending(const std::filesystem::path& file) {
                                 [](const BendingPoint& p) { return p.curvature != 0 && p.moment != 0; });
   if (!bent)
     throw InputError({file.string()}, "holds no moment of a bent cable", "write a line per measured point");
-  // Friction resists: over a loop the work is positive, and a first bend has the sign of its curvature.
+  // Friction resists motion: the work over a loop is positive, and a first bend has the sign of its curvature.
   const BendingPoint& first =
       *std::find_if(points.begin(), points.end(), [](const BendingPoint& p) { return p.curvature != 0; });
   if (first.curvature * first.moment < 0)

@@ -1,13 +1,13 @@
-// Bending and decay tests of a cable, in terms of the model's first bend.
+// Bending and decay tests of a cable, predicted from the model's first bend.
 //
 // A first bend follows M1(curvature), which the strain file of a job contains (/bending). After a reversal
-// at (k0, M0) the friction remembers the turning point (Masing):
-//     M = M0 + 2 M1((k - k0)/2),                                                                      (P4)
-// A branch that closes a loop continues the one before it. So each measured moment is a sum of values of M1.
+// at (k0, M0) the friction keeps a memory of this point (Masing):
+//     M = M0 + 2 M1((k - k0)/2),                                                                      (P6)
+// A branch that closes a loop continues the previous branch. So each measured moment is a sum of values of M1.
 //
-// A piece that is held at one end and swings bends between -k phi and k phi, where phi(x) is the curvature of the first
-// mode of a clamped bar, 1 at the clamp. Each period takes the loop of (P4) from the stored energy:
-//     decrement = sum over x of [8 int_0^(k phi) M1 - 4 k phi M1(k phi)] / sum over x of k phi M1(k phi) (P5)
+// A cable that is held at one end and swings has curvatures between -k phi and k phi. phi(x) is the curvature of the first
+// mode of a clamped bar, 1 at the clamp. In each period the loop of (P6) takes a part of the stored energy:
+//     decrement = sum over x of [8 int_0^(k phi) M1 - 4 k phi M1(k phi)] / sum over x of k phi M1(k phi) (P7)
 #pragma once
 
 #include <filesystem>
@@ -23,24 +23,24 @@ struct BendingPoint {
   double moment = 0;     ///< [N m]
 };
 
-/// A CSV with a header and two columns, curvature_1_per_m and moment_Nm, in the order of the test, from straight.
+/// Reads a CSV file with a header and two columns, curvature_1_per_m and moment_Nm, in the order of the test, from straight.
 /// Errors: InputError at the line.
 std::vector<BendingPoint> read_bending(const std::filesystem::path& file);
 
-/// The points as sums of M1 at curvatures > 0 [1/m]. noise: of a moment, as a share of it; at least a tenth of the
-/// largest moment's noise.
+/// Returns the points as sums of M1 at curvatures > 0 [1/m]. noise: relative error of a moment; the error is at least a tenth of
+/// that of the largest moment.
 struct BendingNumbers {
   std::vector<double> curvatures;
   std::vector<MeasuredNumber> numbers;
 };
 BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double noise);
 
-/// ln M1 at a curvature, between the values of a rising table, straight in logarithms.
+/// Returns ln M1 at a curvature, by linear interpolation in logarithms of a rising table.
 double log_moment(const std::vector<double>& curvatures, const std::vector<double>& moments,
                   double curvature);
 
-/// ln of the part of slip in the logarithmic decrement (P5). curvatures, moments: the table of M1, both > 0 and rising.
-/// largest: curvature beside the clamp at the end of a swing [1/m]. At least ln 1e-4, which is below that of air.
+/// Returns ln of the part of slip in the logarithmic decrement (P7). curvatures, moments: table of M1, both > 0 and rising.
+/// largest: curvature beside the clamp at the end of a swing [1/m]. The result is at least ln 1e-4, which is below that of air.
 double log_decrement_by_slip(const std::vector<double>& curvatures, const std::vector<double>& moments,
                              double largest);
 

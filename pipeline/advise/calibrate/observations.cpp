@@ -19,7 +19,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double most_hours = 1e6;  // a century day and night
+constexpr double most_hours = 1e6;  // one century, day and night
 
 }  // namespace
 
@@ -109,7 +109,7 @@ std::vector<Variant> combinations(const Node* vary, const std::string& name) {
   return variants;
 }
 
-/// Errors: InputError at a key that has no effect on what was observed.
+/// Throws InputError at a key that has no effect on the observed quantity.
 void refuse_idle_keys(const Node& row, const Observation& observation) {
   const std::set<std::string> always{"name", "what", "source", "note", "job", "vary"};
   const std::string kind = observation.cycles      ? "cycles"
@@ -136,7 +136,7 @@ void refuse_idle_keys(const Node& row, const Observation& observation) {
                        "leave it out");
 }
 
-/// "line 1-b" -> "line_1_b".
+/// Returns "line_1_b" for "line 1-b".
 std::string name_that_fits(std::string name) {
   for (char& letter : name)
     if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
@@ -173,7 +173,7 @@ Observation read_one(const Node& item) {
   return observation;
 }
 
-/// Every motion gives the bending table; this one is the fastest.
+/// Adds the motion that is computed fastest: the bending table does not depend on the motion.
 void add_still_motion(Node& job) {
   Node rig;
   rig["kind"] = scalar("axial");
@@ -230,7 +230,7 @@ std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file)
 ValidationStudy read_observations(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   ValidationStudy made;
   made.study.name = "validate_" + file.stem().string();
-  std::vector<std::string> all_sets{"uncertainty.enabled=false"};  // the model's own, by the scatter of wires
+  std::vector<std::string> all_sets{"uncertainty.enabled=false"};  // the model's own life, with the scatter of wires only
   all_sets.insert(all_sets.end(), sets.begin(), sets.end());
   std::vector<ObservedTest> tests = read_observed_tests(file);
   made.doubts = doubtful_rows(tests);
@@ -261,7 +261,7 @@ std::array<double, 3> lives_of(const Observation& observation, const RankingRow&
                                                                             : row.conductor_hours;
   const double unit = observation.hours || !observation.service.empty() ? 1 : 3600 / row.repeat_seconds * observation.cycles_per_repeat;
   std::array<double, 3> lives;
-  // Without damage there is no scatter.
+  // NaN: without damage there is no scatter.
   for (std::size_t i = 0; i < lives.size(); ++i) lives[i] = std::isnan(hours[i]) ? endless : hours[i] * unit;
   return lives;
 }
@@ -286,7 +286,7 @@ Prediction predicted(const Observation& observation, const Study& study,
     prediction.low = std::min(prediction.low, lives[0]);
     prediction.high = std::max(prediction.high, lives[2]);
     medians.push_back(lives[1]);
-    // Of the same number as the medians: a conductor's, where the row has one.
+    // The bounds belong to the same quantity as the medians: a conductor, if the row has one.
     const bool of_wire = observation.criterion == FailureCriterion::first_wire || std::isnan(row->glued_hours[1]);
     const double from_hours = 3600 / row->repeat_seconds;
     prediction.stuck =

@@ -17,8 +17,8 @@ using Eigen::VectorXd;
 
 // ---- the maximum ------------------------------------------------------------------------------------------
 
-/// Slope and curvature of minus ln posterior. The emulator's parabolas end at kinks; a step this wide hardly
-/// sees them.
+/// Step of the differences for slope and curvature of minus ln posterior. The emulator's parabolas end at kinks, which have
+/// little influence at this step.
 constexpr double difference = 1e-3;
 
 struct Local {
@@ -66,7 +66,7 @@ class Chain {
     set_shape(shape);
   }
 
-  /// draws (draw, axis): filled.
+  /// draws: (draw, axis), receives the samples.
   void walk(Eigen::Ref<MatrixXd> draws) {
     for (Index k = 0; k < draws.rows(); ++k) {
       const VectorXd there = at_ + step_ * numbers_.normals(VectorXd(at_.size()));
@@ -75,7 +75,7 @@ class Chain {
       draws.row(k) = at_.transpose();
     }
   }
-  /// In rounds, each in the shape of the second half of what was drawn before.
+  /// Warms up in rounds. Each round uses the covariance of the second half of all previous samples.
   void warm_up(int draws) {
     constexpr int rounds = 6;
     MatrixXd all(draws, at_.size());
@@ -105,8 +105,8 @@ class Chain {
 
 constexpr int chains = 4;
 
-/// Split R-hat and the worth of the draws of one axis, from eight halves of chains: variance between them
-/// over that within; worth by the variance of the means of batches.
+/// Computes split R-hat and the effective sample size of one axis. Split R-hat compares the variance between eight half chains
+/// with the variance within; the sample size follows from the variance of the means of batches.
 void judge(const VectorXd& axis, Posterior& posterior) {
   constexpr Index halves = 2 * chains;
   const Index length = axis.size() / halves;
@@ -121,7 +121,7 @@ void judge(const VectorXd& axis, Posterior& posterior) {
   const double all = within * static_cast<double>(length - 1) / static_cast<double>(length) + between;
   posterior.chains_disagree = std::max(posterior.chains_disagree, std::sqrt(all / within));
 
-  constexpr Index batches = 64;  // far longer than what neighbours remember of each other
+  constexpr Index batches = 64;  // batches are much longer than the correlation between successive samples
   const Index batch = axis.size() / batches;
   VectorXd of_batches(batches);
   for (Index k = 0; k < batches; ++k) of_batches[k] = axis.segment(k * batch, batch).mean();
@@ -160,7 +160,7 @@ double log_posterior(const std::vector<LogLikelihood>& terms, const VectorXd& z)
 
 Laplace laplace_of(const std::vector<LogLikelihood>& terms, const VectorXd& start) {
   constexpr int most_steps = 200;
-  constexpr double small = 1e-7;  // of a prior deviation; differences are good to about 1e-8
+  constexpr double small = 1e-7;  // of a prior deviation; the differences are accurate to about 1e-8
   const Index n = start.size();
   const MatrixXd identity = MatrixXd::Identity(n, n);
   Laplace found{start, identity};

@@ -14,14 +14,14 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int predicted_draws = 2000;  // a decile of them is known to 3 % of the deviation
+constexpr int predicted_draws = 2000;  // the error of a decile is 3 % of the deviation
 
 PredictedDeciles quantiles(const std::vector<double>& numbers) {
   return {quantile(numbers, 0.1), quantile(numbers, 0.5), quantile(numbers, 0.9)};
 }
 
-/// A specimen's life in each draw of z: a variant by how likely it makes the observation there (`weighed`) or
-/// any, and its scatter.
+/// Returns deciles of a specimen's life with its scatter. In each draw of z a variant is chosen by its likelihood (`weighed`), or
+/// with equal probability.
 PredictedDeciles predicted_deciles(const ObservedLife& life, const Eigen::MatrixXd& draws, bool weighed) {
   RandomNumbers numbers(7);
   std::vector<double> lives;
@@ -29,7 +29,7 @@ PredictedDeciles predicted_deciles(const ObservedLife& life, const Eigen::Matrix
     const VectorXd z = draws.row(k).transpose();
     std::vector<double> weight;
     for (const LifeVariant& variant : life.variants) {
-      if (!life.service.empty()) {  // a new dresspack is like none of them
+      if (!life.service.empty()) {  // a new dresspack has other individual values
         weight.push_back(0);
         continue;
       }
@@ -67,7 +67,7 @@ PredictedDeciles predicted_deciles(const EmulatedTest& test, const Eigen::Matrix
 ServiceChance service_chance(const ObservedLife& life, const std::vector<ServiceRecord>& records, const Eigen::MatrixXd& draws) {
   int failures = 0;
   for (const ServiceFactor& one : life.service) failures += one.failed ? one.count : 0;
-  std::map<long, int> entries;  // ages within 5 % count as one
+  std::map<long, int> entries;  // (age) number of dresspacks; ages within 5 % are one age
   int begun = 0;
   for (const ServiceRecord& one : records)
     if (one.entry_hours > 0) ++entries[std::lround(std::log(one.entry_hours) / 0.05)], ++begun;
@@ -83,7 +83,7 @@ ServiceChance service_chance(const ObservedLife& life, const std::vector<Service
     };
     double mean = 0;
     for (const ServiceFactor& one : life.service) mean -= one.count * log_alive(one.log_age);
-    double below = 0, term = std::exp(-mean);  // of fewer failures; of this number
+    double below = 0, term = std::exp(-mean);  // probability of fewer failures; probability of exactly this number
     for (int n = 1; n <= failures; ++n) below += term, term *= mean / n;
     chance.few += (below + term) / all, chance.many += (1 - below) / all;
     for (const auto& [bin, count] : entries) chance.reach += count * std::exp(log_alive(0.05 * double(bin))) / begun / all;

@@ -12,22 +12,23 @@ namespace dresslife::pipeline {
 /// Quantiles of a life or a number: 10, 50, 90 %. A life without damage is infinite.
 using PredictedDeciles = std::array<double, 3>;
 
-/// Samples of all parameters, (draw, parameter): of the prior, or of the posterior with the prior of the others.
+/// Return samples of all parameters, (draw, parameter): from the prior; from the posterior, with the prior for the others.
 Eigen::MatrixXd prior_draws();
 Eigen::MatrixXd posterior_draws(const Posterior& posterior, const Axes& axes);
 
-/// Over samples and variants: life of one specimen with its scatter, in the observer's unit; of a bending test the
-/// moment at its largest curvature [N m], or the stiffness [N m2]. weighed: variants are weighted by their likelihood
+/// Returns deciles over samples and variants. For a life: life of one specimen with its scatter, in the observer's unit. For a
+/// bending test: moment at its largest curvature [N m], or stiffness [N m2]. weighed: variants are weighted by their likelihood
 /// in each sample; else equally.
 PredictedDeciles predicted_deciles(const EmulatedTest& test, const Eigen::MatrixXd& draws, bool weighed);
 
-/// How likely the records of dresspacks in service are, means over samples. Their number of failures is Poisson's with the mean
-/// sum of ln S(e) - ln S(x), of (P5).
+/// Probability of the records of dresspacks in service, means over samples. The number of failures has a Poisson distribution
+/// with the mean sum of ln S(e) - ln S(x), of (P5).
 struct ServiceChance {
   double few = 1, many = 1;  ///< P(as many failures as in the records or fewer), P(as many or more)
-  double reach = 1;          ///< P(a new dresspack reaches the age e), mean over those that the records begin with; 1: none
+  /// P(a new dresspack reaches the age e), mean over the dresspacks in use at the begin of the records; 1: none
+  double reach = 1;
 };
-/// Precondition: life.service is of these records.
+/// Precondition: life.service was made from these records.
 ServiceChance service_chance(const ObservedLife& life, const std::vector<ServiceRecord>& records, const Eigen::MatrixXd& draws);
 
 }  // namespace dresslife::pipeline

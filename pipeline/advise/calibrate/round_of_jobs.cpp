@@ -32,7 +32,7 @@ bool any_in_hose(const Job& job) {
                      [](const MountedDresspack& mounted) { return !mounted.dresspack.cable_alone; });
 }
 
-/// Whether a parameter can move the job's life.
+/// Returns whether a parameter can change the job's life.
 bool acts(const Job& job, Uncertain parameter) {
   switch (parameter) {
     case Uncertain::friction_inside:
@@ -63,7 +63,7 @@ RoundOfJobs::RoundOfJobs(const std::vector<ObservedTest>& tests, const std::vect
                          std::string name, VectorXd centre, VectorXd step)
     : sets_(sets), centre_(std::move(centre)), step_(std::move(step)) {
   const Sources read_once;
-  sets_.push_back("uncertainty.ratings=none");  // they would count twice, and z is from the keys' defaults
+  sets_.push_back("uncertainty.ratings=none");  // ratings would be used twice, and z is relative to the keys' defaults
   study_.name = std::move(name);
   for (const ObservedTest& test : tests) {
     runs_.emplace_back();
@@ -106,7 +106,7 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
   return runs;
 }
 
-/// The job's place in the study; one that is there already under the same settings is not added again.
+/// Returns the index of the job in the study. A job with the same settings as an earlier one is not added again.
 std::size_t RoundOfJobs::add(const ObservedTest& test, const ObservedTest::Variant& variant, const VectorXd& z) {
   std::vector<std::string> sets = sets_;
   sets.push_back(fmt::format("uncertainty.enabled={}", test.observation.is_life()));

@@ -1,6 +1,6 @@
-// What is run to learn from observations: the model at a centre of the uncertain parameters. Of a life the file itself says
-// how it depends on them (pipeline/life/life_response.h); a bending test is also run one step to either side along every
-// parameter that moves it.
+// The jobs that are run to learn from observations: the model at a centre of the uncertain parameters. For a life, the life file
+// contains its dependence on them (pipeline/life/life_response.h). A bending test is also run one step to either side along every
+// parameter that changes it.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,21 +16,22 @@
 
 namespace dresslife::pipeline {
 
-/// The jobs of a round. One with the same settings as another is there once.
+/// The jobs of a round. Jobs with the same settings are included once.
 class RoundOfJobs {
  public:
   struct Arms {
-    std::size_t low, high;  ///< jobs
+    std::size_t low, high;  ///< indices of jobs
   };
   struct Runs {
-    std::size_t centre;  ///< job
-    std::array<bool, uncertain_count> moves{};              ///< (parameter) whether it can move the job
-    std::array<bool, uncertain_count> own{};    ///< (parameter) whether it can, and each dresspack in service has its own
-    std::array<std::optional<Arms>, uncertain_count> arms;  ///< (parameter) of a bending test that it moves
+    std::size_t centre;  ///< index of the job
+    std::array<bool, uncertain_count> moves{};              ///< (parameter) whether it can change the job's result
+    /// (parameter) whether it can, with an individual value for each dresspack in service
+    std::array<bool, uncertain_count> own{};
+    std::array<std::optional<Arms>, uncertain_count> arms;  ///< (parameter) jobs of a bending test that this parameter changes
   };
 
-  /// sets: for every job. centre, step: of z, (parameter). Errors: InputError at the row of a job that cannot
-  /// be made, or that gives what is to be learned.
+  /// sets: `--set` for every job. centre, step: (parameter) values of z. Errors: InputError at the row of a job that is invalid,
+  /// or that sets a parameter that is to be learned.
   RoundOfJobs(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets, std::string name,
               Eigen::VectorXd centre, Eigen::VectorXd step);
 
@@ -46,18 +47,19 @@ class RoundOfJobs {
   std::vector<std::string> sets_;
   Eigen::VectorXd centre_, step_;
   Study study_;
-  std::map<std::string, std::size_t> known_;  ///< jobs by the digest of their settings
+  std::map<std::string, std::size_t> known_;  ///< job indices by the digest of their settings
   std::vector<std::vector<Runs>> runs_;
 };
 
-/// Between all parameters and those that some test depends on.
+/// Map between all parameters and the parameters on which some test depends.
 class Axes {
  public:
   explicit Axes(const RoundOfJobs& round);
-  const std::vector<Eigen::Index>& places() const { return places_; }  ///< parameters
+  const std::vector<Eigen::Index>& places() const { return places_; }  ///< indices of the parameters
   Eigen::Index size() const { return static_cast<Eigen::Index>(places_.size()); }
-  bool has_own(Eigen::Index parameter) const { return own_[static_cast<std::size_t>(parameter)]; }  ///< of some test's Runs
-  Eigen::VectorXd all(const Eigen::VectorXd& some) const;  ///< 0 for the others
+  /// whether it is Runs::own in some test
+  bool has_own(Eigen::Index parameter) const { return own_[static_cast<std::size_t>(parameter)]; }
+  Eigen::VectorXd all(const Eigen::VectorXd& some) const;  ///< values of all parameters, 0 for the others
   Eigen::VectorXd some(const Eigen::VectorXd& all_of_them) const;
 
  private:

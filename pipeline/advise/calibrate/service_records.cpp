@@ -25,7 +25,7 @@ enum Column { robot, dresspack, installed, replaced, reason, hours_per_week, job
 
 struct ColumnWords {
   std::string_view name;
-  std::vector<std::string_view> titles;  ///< without letters other than a to z
+  std::vector<std::string_view> titles;  ///< letters a to z only
 };
 const std::array<ColumnWords, column_count>& columns() {
   static const std::array<ColumnWords, column_count> all{{
@@ -81,7 +81,7 @@ const std::array<ColumnWords, column_count>& columns() {
   return all;
 }
 
-/// Lower case letters a to z of a text.
+/// Returns the letters of a text that are a to z, in lower case.
 std::string letters_of(const std::string& text) {
   std::string letters;
   for (const unsigned char letter : text)
@@ -96,7 +96,8 @@ bool has_any(const std::string& text, std::initializer_list<std::string_view> wo
 
 enum class End { failed, removed, in_use };
 
-/// absent: not known. "unplanned" holds "planned", so failures come first. Letters beyond ASCII are left out of the words.
+/// Returns the kind of end; absent: not known. "unplanned" contains "planned", so failures are tested first. The words omit
+/// letters that are not ASCII.
 std::optional<End> end_in(const std::string& text) {
   const std::string letters = letters_of(text);
   if (has_any(letters, {"notfail", "nofail", "notdefect", "nodefect", "notbroke", "nobreak", "kein", "nicht",
@@ -109,7 +110,7 @@ std::optional<End> end_in(const std::string& text) {
                          "correctiv",   "noprogramad", "noplanificad", "imprevist"}) ||
        letters == "falla" || letters.ends_with("avera")) &&
       !has_any(letters, {"prevent", "prventiv", "praeventiv", "vorbeug"}))
-    // A cable that broke in a crash is no life. The words may also mean a cable that broke first.
+    // A crash is no failure by wear. But the text may also describe a crash after the cable broke, so the kind is not known.
     return has_any(letters, {"collision", "crash", "kollision"}) ? std::nullopt : std::optional(End::failed);
   if (has_any(letters, {"prevent",    "planned",    "scheduled",  "maintenance",   "inspection", "prventiv",
                         "praeventiv", "vorbeug",    "geplant",    "planm",         "wartung",    "collision",
@@ -123,7 +124,7 @@ std::optional<End> end_in(const std::string& text) {
   return std::nullopt;
 }
 
-/// Whether a hose, sleeve or jacket is named, and not the whole dresspack ("hose pack", "Schlauchpaket").
+/// Returns whether a text names a hose, sleeve or jacket and not the whole dresspack ("hose pack", "Schlauchpaket").
 bool names_hose(const std::string& text) {
   std::string words = " ";
   for (const unsigned char letter : text) words += letter < 128 && std::isalpha(letter) ? static_cast<char>(std::tolower(letter)) : ' ';
@@ -135,7 +136,7 @@ bool names_hose(const std::string& text) {
 struct Row {
   int line = 0;
   Where where;
-  std::string name;  ///< of the place: robot and dresspack
+  std::string name;  ///< name of the place: robot and dresspack
   Day from{}, to{};
   End end = End::in_use;
   bool of_hose = false;  ///< its reason names a hose
@@ -188,7 +189,8 @@ class Export {
         at_[c] = k;
       }
     }
-    if (!at_[hours_per_week])  // left out, a usual value counts: a column that seems to hold it is asked about
+    // Without this column a default is used. So an error asks about a column that may contain the hours.
+    if (!at_[hours_per_week])
       for (const CsvCell& title : titles_)
         if (has_any(letters_of(title.text), {"week", "woche", "semana", "semaine", "settimana"}))
           throw InputError(reader_.where(title), fmt::format("column '{}' may mean hours_per_week, and is not known", title.text),
@@ -237,7 +239,7 @@ class Export {
     read_end(cells, row);
     if (const std::string hours = text(cells, hours_per_week); !hours.empty()) {
       row.hours_per_week = exported_number(hours);
-      constexpr double fewest = 0.1, most = 168;  // of a week
+      constexpr double fewest = 0.1, most = 168;  // hours of a week
       if (!row.hours_per_week || !(*row.hours_per_week >= fewest && *row.hours_per_week <= most))
         refuse(cells, hours_per_week,
                fmt::format("hours_per_week is '{}' (must be {:g} .. {:g})", hours, fewest, most),
@@ -280,7 +282,7 @@ class Export {
           "correct one of the dates");
   }
 
-  /// A dresspack that is there twice would count twice.
+  /// Throws if a dresspack is in the table twice for the same time, because it would count twice.
   void check_overlaps(const std::vector<Row>& rows) const {
     std::map<std::string, std::vector<const Row*>> places;
     for (const Row& row : rows) places[row.name].push_back(&row);
@@ -304,7 +306,7 @@ class Export {
   std::array<std::optional<std::size_t>, column_count> at_{};
 };
 
-/// "spot_welding" of "jobs/spot_welding.yaml": fit for a folder.
+/// Returns "spot_welding" for "jobs/spot_welding.yaml": fit for a folder.
 std::string test_name(const std::string& job) {
   std::string name = std::filesystem::path(job).stem().string();
   for (char& letter : name)
@@ -317,7 +319,7 @@ struct Program {
   double share_of_time = 1;
 };
 
-/// "a.yaml", or "a.yaml 60 % + b.yaml 25 %".
+/// Reads "a.yaml", or "a.yaml 60 % + b.yaml 25 %".
 std::vector<Program> programs_of(const Row& row) {
   const std::string& text = row.job;
   if (!text.ends_with('%')) return {{text, 1}};
@@ -336,7 +338,7 @@ std::vector<Program> programs_of(const Row& row) {
     programs.push_back({part.substr(0, part.find_last_not_of(' ', blank) + 1), *percent / 100});
     sum += *percent;
   }
-  constexpr double rounding = 0.1;  // per cent, of shares with one decimal
+  constexpr double rounding = 0.1;  // per cent, the error of shares with one decimal
   if (sum > 100 + rounding)
     throw InputError(row.job_where, fmt::format("the shares of the programs add up to {:g} %", sum), "at most 100");
   return programs;
@@ -357,11 +359,11 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
                      "give the day from which the table has every removal, or that of the first installation if no dresspack was ever removed: --records-since DATE");
 
   ServiceTests read;
-  std::map<std::string, std::size_t> known;  // tests by their job
+  std::map<std::string, std::size_t> known;  // (job) index of its test
   std::set<std::string> names;
   std::map<std::string, double> hours_per_week;
   std::size_t failed = 0, removed = 0, in_use = 0, before = 0, early = 0;
-  std::vector<std::string> hoses;  // lines of failures whose reason names a hose
+  std::vector<std::string> hoses;  // one line per failure whose reason names a hose
   Where first_hose;
   const Row* short_week = nullptr;
   for (const Row& row : rows) {
@@ -384,7 +386,7 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
       hours_per_week[row.job] =
           job_from(test.variants.front().job, request.sets).fatigue.operating_hours_per_week;
     }
-    // Removals of the first day define it; they are no evidence of lives (a stopping time).
+    // Removals on the first day define this day, so they are no evidence of lives (a stopping time).
     const bool too_early = row.to < *since || (!request.since && row.end != End::in_use && row.to == *since);
     if (too_early) {
       ++early;
@@ -393,7 +395,7 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
     constexpr double day = 24;  // [h]: robots of plants run 40 h a week and more
     if (!short_week && row.hours_per_week.value_or(2 * day) <= day) short_week = &row;
     const double hours_per_day = row.hours_per_week.value_or(hours_per_week[row.job]) / 7;
-    // Half a day for one that was removed on the day on which it was put in, or on which the records begin.
+    // At least half a day, for a dresspack that was removed on the day of its installation or on the first day of the records.
     const double entry_days = std::max(0.0, days_between(row.from, *since));
     const double days = std::max(days_between(row.from, row.to), entry_days + 0.5);
     const ServiceRecord record{days * hours_per_day, entry_days * hours_per_day, row.end == End::failed};

@@ -12,15 +12,16 @@ using Eigen::Index;
 double share_between_cables(std::size_t parameter) {
   switch (uncertain_parameters()[parameter].shared) {
     case SharedBy::construction:
-      return 6.0 / 7;  // the prior is the spread of seven cables, whose mean is known to a seventh of their variance
+      return 6.0 / 7;  // the prior is the scatter of seven cables, whose mean has a seventh of their variance
     case SharedBy::material:
-      return 0.5;  // ESTIMATE: half is the rule that gave the constants, half the maker's wire: 220 to 250 MPa, tin, alloys
+      // ESTIMATE: half comes from the rule that gave the constants, half from the maker's wire: 220 to 250 MPa, tin, alloys
+      return 0.5;
     case SharedBy::everything:
       return 0;
     case SharedBy::installation:
       break;
   }
-  return 0.99;  // each for itself; the common part must keep a variance
+  return 0.99;  // no common part, but its variance must be above 0
 }
 
 LogLikelihood narrower_prior(std::vector<Index> parameters) {
@@ -43,7 +44,7 @@ void add_own_deviations(Posterior& posterior, const std::vector<Index>& paramete
   }
   const double disagree = posterior.chains_disagree, worth = posterior.worth;
   summarise(posterior);
-  posterior.chains_disagree = disagree;  // those of the chains, which draws for themselves hide
+  posterior.chains_disagree = disagree;  // the value of the chains before the independent draws, which would hide a disagreement
   posterior.worth = worth;
 }
 

@@ -1,9 +1,9 @@
 // Parameters of a typical cable, learned from cables of different makers.
 //
-// Of the prior variance of z a share differs from cable to cable; the rest is common to all:
-//     z of a cable = m + d,   m ~ N(0, 1 - share) common,   d ~ N(0, share) of each cable for itself.       (P4)
-// A test of one cable informs m. Its own d adds share (d ln life/d z)^2 to the variance of its life, as ln life is linear
-// in z over a deviation. A cable that no test had has the posterior of m plus a d of its own.
+// A share of the prior variance of z differs from cable to cable; the rest is common to all cables:
+//     z of a cable = m + d,   m ~ N(0, 1 - share) common,   d ~ N(0, share) for each cable.                 (P4)
+// A test of one cable informs m. The d of this cable adds share (d ln life/d z)^2 to the variance of its life, because ln life is
+// linear in z over one deviation. A cable without a test has the posterior of m plus an independent d.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,20 +16,21 @@
 
 namespace dresslife::pipeline {
 
-/// 0 .. 0.99. Precondition: parameter < uncertain_count.
+/// Returns the share, 0 .. 0.99. Precondition: parameter < uncertain_count.
 double share_between_cables(std::size_t parameter);
 
-/// ln of the prior of m over the standard normal one, up to a constant: a term of posterior_of(). parameters: of its axes.
+/// Returns ln of the ratio of the prior of m to the standard normal prior, up to a constant: a term of posterior_of().
+/// parameters: parameters of its axes.
 LogLikelihood narrower_prior(std::vector<Eigen::Index> parameters);
 
-/// m plus a d of its own in every draw, with mean, covariance and quantiles of the sum. The seed is fixed.
+/// Adds an independent d to m in every draw, with mean, covariance and quantiles of the sum. The seed is fixed.
 void add_own_deviations(Posterior& posterior, const std::vector<Eigen::Index>& parameters);
 
-/// Deviation of ln life between cables. median: ln life at z, (parameter). acts: parameters on which it depends.
+/// Returns the standard deviation of ln life between cables. median: ln life at z, (parameter). acts: parameters of ln life.
 template <class LogMedian>
 double deviation_between_cables(const LogMedian& median, const std::array<bool, uncertain_count>& acts,
                                 const Eigen::VectorXd& z) {
-  constexpr double step = 0.5;  // deviations to either side
+  constexpr double step = 0.5;  // standard deviations to either side
   double variance = 0;
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const double share = share_between_cables(p);

@@ -37,7 +37,7 @@ bool is_yaml_file(const std::string& of) {
   return of.ends_with(".yaml") || of.ends_with(".yml") || fs::path(of).has_parent_path();
 }
 
-/// The job that `of` names; a null node: it names none.
+/// Returns the job with the name `of`; a null node: no such job.
 Node job_named(const std::string& of) {
   if (of.ends_with(".urdf")) return {};
   if (is_yaml_file(of)) {
@@ -58,7 +58,7 @@ Robot robot_of(const Node& document) {
   return robot;
 }
 
-/// A motion that any robot can stand in.
+/// Returns a motion at rest that every robot can perform.
 Node standing(const Robot& robot) {
   std::string angles;
   for (const Joint& joint : robot.joints)
@@ -78,13 +78,13 @@ std::string link_or(const std::string& asked, const Node* routing, const char* c
   return link && link->is_scalar() ? link->text : otherwise;
 }
 
-/// The keys of a routing that a search does not change. given: null: there is none.
+/// Keeps the keys of a routing that a search does not change. given: null: no routing.
 void keep_settings(Node& routing, const Node* given) {
   for (const char* key : {"mounting_pose_deg", "longest_bracket_mm"})
     if (const Node* value = given ? given->find(key) : nullptr) routing[key] = *value;
 }
 
-/// Clamps on the links, with placeholder positions and length.
+/// Returns clamps on the links, with placeholders for positions and length.
 Node links_only(const RouteRequest& request, const Robot& robot, const Node* given) {
   if (robot.links.size() < 2)
     throw InputError({request.of}, "its robot has fewer than two links", "name a robot that moves");
@@ -100,12 +100,12 @@ Node links_only(const RouteRequest& request, const Robot& robot, const Node* giv
   return routing;
 }
 
-/// From which the names in an entry count.
+/// Returns the folder to which paths in an entry are relative.
 fs::path folder_of(const Node& entry) {
   return entry.where.file == command_line ? fs::path() : fs::path(entry.where.file).parent_path();
 }
 
-/// Whether all names in an entry mean the same in a job in that folder.
+/// Returns whether all paths in an entry have the same meaning in a job in that folder.
 bool counts_from(const Node& entry, const fs::path& folder) {
   const auto within = [&](const Node& node) { return counts_from(node, folder); };
   return inode_of(folder / ".") == inode_of(folder_of(entry) / ".") &&
@@ -113,8 +113,8 @@ bool counts_from(const Node& entry, const fs::path& folder) {
          std::ranges::all_of(entry.entries, [&](const Entry& one) { return within(one.value); });
 }
 
-/// An entry as it can stand in a job in another folder: a file by its path from there; a null node: by nothing shorter
-/// than what it names.
+/// Returns an entry for a job in another folder: a file is named by its path from that folder. A null node: no reference is
+/// possible, so the entry must be written out.
 Node reference(const Node& entry, const std::optional<fs::path>& folder) {
   if (!folder) return {};
   if (counts_from(entry, *folder)) return entry;

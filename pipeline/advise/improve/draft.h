@@ -1,4 +1,4 @@
-// A job whose routing is still open: from a robot's name, or from another job without its routing.
+// A job with an open routing: made from a robot's name, or from another job without its routing.
 #pragma once
 
 #include <filesystem>
@@ -12,27 +12,27 @@
 namespace dresslife::pipeline {
 
 struct RouteRequest {
-  std::string of;           ///< a job's file or name, or a robot's (also a URDF)
-  std::string dresspack{};  ///< instead of the job's; of a robot spot_welding
-  std::string motion{};     ///< instead of the job's; default of a robot: a motion of its wrist
-  std::string base_link{}, tool_link{};  ///< that carry the clamps; empty: those of the job's routing; else
-                                         ///< the link that axis 3 moves and the last one
+  std::string of;           ///< file or name of a job or of a robot (also a URDF)
+  std::string dresspack{};  ///< replaces that of the job; default for a robot: spot_welding
+  std::string motion{};     ///< replaces that of the job; default for a robot: a motion of its wrist
+  /// links with the clamps; empty: the links of the job's routing, or the link moved by axis 3 and the last link
+  std::string base_link{}, tool_link{};
   std::vector<std::string> sets{};
 };
 
 struct Draft {
-  std::string name;       ///< of the job or robot, fit for a file
-  Node document;          ///< as it was written
+  std::string name;       ///< name of the job or robot, fit for a file name
+  Node document;          ///< document as it was written
   Job job;                ///< only the links of its routing are valid
-  bool exercise = false;  ///< its motion is a placeholder for a standard exercise
+  bool exercise = false;  ///< true: the motion is a placeholder for a standard exercise
 };
 
-/// Errors: InputError: neither job nor robot; unknown links; more than one dresspack.
+/// Makes a draft. Errors: InputError for a name that is neither job nor robot; unknown links; more than one dresspack.
 Draft draft_of(const RouteRequest& request);
 
-/// The draft with a routing, and what else is given. routing, motion: YAML; motion may be empty. factor: of the
-/// dresspack's size, 1: as it is. folder: the document reads back from there; absent: from any folder. Entries of the
-/// shipped catalogue stay names. Where a folder is given, files stay references; all else is written out.
+/// Returns the draft's document with a routing and the other changes. routing, motion: YAML; motion may be empty. factor: scale
+/// of the dresspack's size, 1: unchanged. folder: folder from which the document can be read; absent: any folder. Entries of the
+/// shipped catalogue stay names. If a folder is given, files stay references; all other values are written out.
 Node routed(const Draft& draft, const std::string& routing, const std::string& motion, double factor,
             const std::optional<std::filesystem::path>& folder = {});
 

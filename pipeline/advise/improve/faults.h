@@ -7,8 +7,8 @@ namespace dresslife::pipeline {
 
 struct Job;
 
-/// Faults of the dresspacks that no routing can cure. refuse: InputError for a cable that is pressed in its room beyond
-/// the limit of all results.
+/// Returns the faults of the dresspacks that no routing can cure. refuse: throws InputError for a cable that is compressed in its
+/// room beyond the limit of all results.
 std::vector<Warning> dresspack_faults(const Job& job, bool refuse);
 
 }  // namespace dresslife::pipeline

@@ -9,10 +9,10 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_finalists = 6;  // that have pages
+constexpr std::size_t most_finalists = 6;  // number of finalists with pages
 
-/// The best candidates; with two objectives the whole front, without the original jobs, which are listed
-/// anyhow.
+/// Returns the best candidates; with two objectives the whole front. The original jobs are left out, because they are always
+/// included.
 std::vector<std::size_t> finalists_of(const Improvement& found) {
   std::vector<std::size_t> best;
   if (found.front.size() > 1) {
@@ -127,7 +127,7 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
   for (const Final* of : best_first) finalists.push_back(finalist_of(of));
   const std::vector<WithinTolerance> judged = within_tolerance(finalists, as_it_is, progress);
   for (std::size_t k = 0; k < judged.size(); ++k) best_first[k]->tolerance = judged[k];
-  // The original jobs are compared within the tolerance, too, unless the best is better than they are as drawn.
+  // The original jobs are also evaluated within the tolerance, unless the best is better than their merit without offset.
   const Final* const best = finals.best();
   Final& original = finals.of.front();
   if (best && best->tolerance && best->tolerance->whole && as_it_is.feasible() &&

@@ -12,15 +12,15 @@
 
 namespace dresslife::pipeline {
 
-/// Runs what is not up to date of a study.
+/// Runs the stages of a study that are not up to date. Returns its rows.
 using MakeRows = std::function<std::vector<RankingRow>(const Study&)>;
 
-/// Of the jobs with one set of changes.
+/// The jobs with one set of changes.
 struct Final {
   std::vector<std::string> jobs;  ///< names
-  double hours = 0;               ///< of the worst, p10
+  double hours = 0;               ///< p10 life of the worst job
   std::size_t trial = 0;
-  Merit merit{};                               ///< as drawn
+  Merit merit{};                               ///< merit without offsets by the mounting tolerance
   std::optional<WithinTolerance> tolerance{};  ///< absent: not evaluated
 };
 
@@ -29,29 +29,29 @@ struct Finals {
   std::vector<Final> of;  ///< the original jobs first
   std::vector<RankingRow> rows;
 
-  const Final* best_drawn() const;  ///< of the candidates, by merit; null: there is none
-  /// Of the candidates by merit within the tolerance, if evaluated.
+  const Final* best_drawn() const;  ///< best candidate by `merit`; null: no candidate
+  /// Returns the best candidate by its merit within the tolerance, if this was evaluated. Null: no candidate.
   const Final* best() const;
-  /// Whether the candidate is clearly better than the original jobs, within the tolerance if both were evaluated.
+  /// Returns whether the candidate is clearly better than the original jobs, within the tolerance if both were evaluated.
   bool is_gain(const Final& candidate) const;
-  /// Of the worst of its jobs; null: none is done.
+  /// Returns the row of the worst of its jobs; null: none is done.
   const RankingRow* worst_row(const Final& of) const;
 };
 
-/// With two objectives the whole Pareto front, with one the best few.
+/// Runs the finalists and the original jobs: with two objectives the whole Pareto front, with one objective the best few.
 Finals finals_of(const Improvement& found, const ImproveRequest& request, const MakeRows& make_rows);
 
-/// Evaluates the finalists within the mounting tolerance (T1), and the original jobs if they may be better there; with two objectives
-/// the best by merit only.
+/// Evaluates the finalists within the mounting tolerance (T1), and the original jobs if they may be better within it. With two
+/// objectives evaluates only the best by merit.
 void judge(Finals& finals, const Improvement& found, const ImproveRequest& request,
            const MountingTolerance& tolerance, const StudyPlaces& places, const MakeRows& make_rows,
            const ToleranceProgress& progress = {});
 
-/// Share of samples in which the wires of the worst job of `best` live longer than those of the worst original job; absent
-/// where nothing is uncertain.
+/// Returns the share of samples in which the wires of the worst job of `best` live longer than those of the worst original job;
+/// absent if no input is uncertain.
 std::optional<double> share_longer(const Finals& finals, const Final& best, const StudyPlaces& places);
 
-/// Whether a row is of one of these jobs.
+/// Returns whether a row belongs to one of these jobs.
 bool is_of(const RankingRow& row, const std::vector<std::string>& jobs);
 
 }  // namespace dresslife::pipeline

@@ -26,9 +26,9 @@ using Eigen::VectorXd;
 constexpr const char* ways =
     "write LOW .. HIGH, SPREAD around, ANGLE deg around, LOW .. HIGH along LINK (or along [x, y, z]), or a "
     "list [A, B, ...]";
-constexpr double steps = 1e4;  // in which a range is gone through
+constexpr double steps = 1e4;  // number of steps of a range
 
-/// A round step of at most a ten-thousandth of a range.
+/// Returns a round step of at most a ten-thousandth of a range.
 double step_of(double range) { return std::pow(10, std::floor(std::log10(range / steps))); }
 
 Node number_node(double value, double step) {
@@ -84,7 +84,7 @@ class NumberRange : public FreeKey {
   double low_, high_;
 };
 
-/// Each coordinate of a position so far from its centre.
+/// A range for each coordinate of a position around its centre.
 class PositionBox : public FreeKey {
  public:
   PositionBox(const Vector3d& centre, double spread) : centre_(centre), spread_(spread) {}
@@ -127,9 +127,8 @@ class PositionLine : public FreeKey {
   double low_, high_;
 };
 
-/// Directions within an angle of an axis, each as likely by its tangent plane: tan(angle) q, q in the unit
-/// disc, to which the unit square is mapped after P. Shirley and K. Chiu (Journal of Graphics Tools 2 (1997)
-/// 45).
+/// Directions within an angle of an axis, uniform in its tangent plane: tan(angle) q, with q in the unit disc. The unit square is
+/// mapped to the disc after P. Shirley and K. Chiu (Journal of Graphics Tools 2 (1997) 45).
 class DirectionCone : public FreeKey {
  public:
   DirectionCone(const Vector3d& axis, double angle_deg)
@@ -198,7 +197,7 @@ class Choice : public FreeKey {
   std::vector<Node> values_;
 };
 
-/// What stands at a path of the jobs, which all must have in common. Null: nothing, or not the same.
+/// Returns the value at a path, which all jobs must have in common. Null: a job has none, or the values differ.
 const Node* common_value(const std::vector<Node>& documents, const std::string& path) {
   const Node* first = nullptr;
   for (const Node& document : documents) {
@@ -209,7 +208,7 @@ const Node* common_value(const std::vector<Node>& documents, const std::string& 
   return first;
 }
 
-/// From the origin of a link's frame to that of the next, in its frame.
+/// Returns the vector from the origin of a link's frame to that of the next link, in the link's frame.
 std::optional<Vector3d> along_link(const Job& job, const std::string& link) {
   const Robot& robot = job.robot;
   for (std::size_t k = 0; k < robot.joints.size() && k < robot.links.size(); ++k)
@@ -217,7 +216,7 @@ std::optional<Vector3d> along_link(const Job& job, const std::string& link) {
   return std::nullopt;
 }
 
-/// The written form of what a key may be, taken apart.
+/// Parser of the written range of a key.
 class Reader {
  public:
   Reader(std::string path, const Node& written, const std::vector<Node>& documents,
@@ -324,7 +323,7 @@ class Reader {
   const std::vector<std::shared_ptr<const Job>>& jobs_;
 };
 
-/// As far as a bracket of another make reaches.
+/// Frees the position of a clamp by the reach of another bracket.
 void free_place(Node& free, const std::string& path) {
   free[path + "position_m"] = scalar("0.15 around");
   free[path + "direction"] = scalar("45 deg around");
@@ -394,7 +393,7 @@ Index Freedom::variables() const {
 }
 
 std::vector<std::string> Freedom::at_ends(const VectorXd& place) const {
-  constexpr double end = 0.02;  // of a range: as near as a search of some dozen trials comes to it
+  constexpr double end = 0.02;  // share of a range: a search of some dozen trials ends this near to an end
   std::vector<std::string> notes;
   Index at = 0;
   for (const FreeVariable& freed : keys_) {

@@ -52,7 +52,7 @@ AskedLimits limits_of(const Node& document) {
   return limits;
 }
 
-/// "{KEY.PATH: VALUE, ...}" of "KEY.PATH=VALUE".
+/// Returns "{KEY.PATH: VALUE, ...}" for "KEY.PATH=VALUE".
 std::string changes_of(const std::vector<std::string>& sets) {
   std::string text;
   for (const std::string& set : sets) {
@@ -138,7 +138,7 @@ class Improver {
     while (static_cast<int>(done_.trials.size()) < request_.trials) {
       const int left = request_.trials - static_cast<int>(done_.trials.size());
       const std::vector<VectorXd> asked = search.ask(std::min(left, request_.at_a_time));
-      if (asked.empty()) break;  // it has given up
+      if (asked.empty()) break;  // the search has ended
       std::vector<Candidate> looks;
       for (Trial& trial : tried(sets_at(asked))) {
         trial.place = asked[looks.size()];
@@ -150,10 +150,10 @@ class Improver {
     }
   }
 
-  /// On the best trial, where its wires break beside a clamp, or on the nearest to the limits, where a bend passes its limit. Those by
-  /// which something fails earlier are refused, and the order of trials decides about the others.
+  /// Tries bend reliefs: on the best trial if its wires break beside a clamp, or on the trial nearest to the limits if a bend
+  /// exceeds its limit. Reliefs that make something fail earlier are refused; the order of trials decides about the others.
   void try_reliefs() {
-    if (aims() > 1) return;  // a relief has a price of its own, which no second aim knows
+    if (aims() > 1) return;  // a relief has a cost that a second objective does not include
     const std::optional<std::size_t> best = done_.best();
     const std::size_t of = best ? *best : nearest_trial(done_.trials);
     if (of == done_.trials.size()) return;
@@ -201,8 +201,8 @@ class Improver {
     return std::make_unique<SurrogateSearch>(freedom_.variables(), settings, screen, rehearse);
   }
 
-  /// Errors: InputError where no value of the freed keys makes a job: a key that is not there, or a range in another
-  /// unit.
+  /// Checks that some values of the free keys give a valid job. Errors: InputError for a key that does not exist, or a range in
+  /// another unit.
   void check_ranges() const {
     std::string failure;
     for (const double at : {0.5, 0.0, 1.0}) {
@@ -221,7 +221,7 @@ class Improver {
                      "correct `free`, or --free");
   }
 
-  /// Jobs whose routing can be screened, one of each set of equal geometry.
+  /// Finds the jobs whose routing can be screened by geometry.
   void find_screened() {
     for (const auto& job : jobs_) {
       const ScreenedList list =
@@ -230,13 +230,13 @@ class Improver {
     }
   }
 
-  /// (trial) of the job that is worst by geometry: how far beyond its limits it is, and what it passes.
+  /// (trial) result of the job with the largest geometric violation.
   struct ScreeningResult {
     double violation = 0;
     bool rejected = false;
     std::vector<double> beyond;
     std::string words;
-    double bracket = -HUGE_VAL;  ///< (V7) of the job that is worst by that
+    double bracket = -HUGE_VAL;  ///< (V7) of the job with the largest value
   };
   std::vector<ScreeningResult> screened(const std::vector<std::vector<std::string>>& sets) const {
     const std::string candidates = list_of_changes(sets);
@@ -245,7 +245,7 @@ class Improver {
       const ScreenedList list =
           screening_of(*job, candidates, ScreenedBy::geometry, request_.longest_bracket, places_.folder);
       for (std::size_t k = 0; k < list.candidates.size() && k < sets.size(); ++k) {
-        constexpr double no_job = 10;  // beyond every geometry that is one
+        constexpr double no_job = 10;  // larger than the violation of every valid job
         const ScreenedCandidate& of = list.candidates[k];
         const double violation = of.refusal.empty() ? of.violation() : no_job;
         worst[k].rejected = worst[k].rejected || of.rejected;
@@ -266,13 +266,13 @@ class Improver {
     return text;
   }
 
-  /// (place) the worst of all jobs' short runs. A trial that does not run is graded by geometry in one (V1)
-  /// to (V5).
+  /// Returns, (place), the worst of all jobs' short runs. A trial that does not run has its violation of the geometric limits
+  /// (V1) to (V5).
   std::vector<Candidate> rehearsed(const std::vector<VectorXd>& places) {
     const std::string candidates = list_of_changes(sets_at(places));
     std::vector<Candidate> looks;
     for (const VectorXd& place : places) looks.push_back({place, true, {}, {}});
-    std::vector<std::pair<double, std::string>> worst(places.size());  // how far beyond, by what
+    std::vector<std::pair<double, std::string>> worst(places.size());  // violation and its limits
     for (const auto& job : screened_) {
       const ScreenedList list =
           screening_of(*job, candidates, ScreenedBy::short_runs, request_.longest_bracket, places_.folder);
@@ -315,7 +315,7 @@ class Improver {
   std::vector<Trial> tried(const std::vector<std::vector<std::string>>& sets) {
     std::vector<Trial> trials(sets.size());
     Study study{done_.name, {}, done_.keep_trials};
-    std::map<std::string, std::pair<std::size_t, std::size_t>> trial_of;  // job: trial, and which of its jobs
+    std::map<std::string, std::pair<std::size_t, std::size_t>> trial_of;  // (job) its trial, and its index among the trial's jobs
     std::map<std::string, std::shared_ptr<const Job>> study_job_of;
     for (std::size_t k = 0; k < sets.size(); ++k) {
       Trial& trial = trials[k];
@@ -332,7 +332,7 @@ class Improver {
       }
     }
     for (const RankingRow& row : makers_.make_rows(study)) {
-      if (done_.trials.empty()) check_evaluated(done_.limits, row);  // the jobs as they are
+      if (done_.trials.empty()) check_evaluated(done_.limits, row);  // the original jobs
       const auto [k, j] = trial_of.at(row.job);
       trials[k].outcomes[j] = outcome_of(row, places_.job(row.job), done_.limits);
       trials[k].cycle_seconds += row.repeat_seconds;
@@ -343,7 +343,8 @@ class Improver {
     return trials;
   }
 
-  /// Of what failed, geometry says how far it was from running; of what ran, whether brackets carry it.
+  /// Adds geometry: to failed trials their violation of the geometric limits, to the others whether a bracket can carry the
+  /// clamps.
   void add_geometry(std::vector<Trial>& trials) const {
     if (screened_.empty()) return;
     std::vector<std::vector<std::string>> sets;
@@ -374,8 +375,8 @@ class Improver {
   std::vector<std::size_t> best_trials() const {
     const std::optional<std::size_t> best = done_.best();
     if (!best) return {};
-    if (aims() == 1) return {*best};  // of equals the first
-    // Where some trial makes no mode worse, the others are no answer.
+    if (aims() == 1) return {*best};  // of equal trials the first
+    // If some trials make no mode worse, only these are considered.
     std::vector<Candidate> looks;
     for (std::size_t k = 0; k < done_.trials.size(); ++k) {
       looks.push_back(look_of(done_.trials[k], {}));
@@ -392,7 +393,7 @@ class Improver {
   Freedom freedom_;
   Improvement done_;
   std::vector<Warning> faults_;
-  double nearest_ = HUGE_VAL;  // of the short runs to keeping all limits, and what it passes
+  double nearest_ = HUGE_VAL;  // smallest violation of the short runs, and its limits
   std::string nearest_words_;
 };
 

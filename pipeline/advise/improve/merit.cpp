@@ -12,9 +12,9 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
-constexpr double alike = 1.1;  // of two lives; the reason is at (M1)
+constexpr double alike = 1.1;  // smallest relevant ratio of two lives; reason: (M1)
 
-/// (M1) A mode that comes earlier is worse.
+/// Returns the life below which a mode gets worse (M1).
 double least_life(const ModeLife& mode, const Outcome& outcome, const Outcome& as_it_is) {
   return std::min({outcome.robot_life, outcome.hours, life_by(as_it_is, mode.mode) / alike});
 }
@@ -68,11 +68,12 @@ Merit merit_of(const Outcome& outcome, const Outcome& as_it_is) {
 }
 
 double search_value(const Outcome& outcome, const Outcome& as_it_is) {
-  static constexpr double shortest = 1e-9, longest = 1e9;  // [h] finite for the models
+  static constexpr double shortest = 1e-9, longest = 1e9;  // [h] limits that keep the models finite
   const auto log_life = [](double hours) { return std::log(std::clamp(hours, shortest, longest)); };
   double value = log_life(std::min(outcome.hours, outcome.robot_life));
   if (std::isfinite(outcome.robot_life) && outcome.hours >= outcome.robot_life) {
-    // 0 .. 1 for a first mode after 1 h .. the robot's life: orders wires that count alike, and is a small step beside other gains.
+    // 0 .. 1 for a first mode after 1 h .. the robot's life: orders trials with equal life of the wires, and is small beside
+    // other gains.
     const double first = std::max(1.0, std::min(outcome.robot_life, first_mode(outcome).hours));
     value += std::log(first) / std::max(1.0, std::log(outcome.robot_life));
   }

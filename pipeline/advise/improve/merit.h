@@ -2,9 +2,10 @@
 //
 // (M1) it runs; it keeps all limits; no mode without a validated law gets worse.
 //      t_m: p10 life by mode m (abrasion, jacket wear, ...). h: p10 life of the wires. L: fatigue.robot_life_hours.
-//      Mode m gets worse if t_m < min(L, h, t_m0 / 1.1), t_m0 being the life by that mode in the job as it is.
-//      A mode after L or h replaces no dresspack. 1.1: twice the segments change a wear depth by up to 10 %.
-// (M2) longer min(h, L, t_m of the modes that get worse): wires that outlive the robot gain nothing by a longer life
+//      Mode m gets worse if t_m < min(L, h, t_m0 / 1.1). t_m0 is the life by that mode in the original job.
+//      A mode that comes after L or h is no reason to replace a dresspack. 1.1: twice the segments change a wear depth by up to
+// 10 %.
+// (M2) longer min(h, L, t_m of the modes that get worse): wires that outlive the robot gain nothing from a longer life
 // (M3) longer min(L, all t_m): the mode that comes first
 // (M4) larger distance to the nearest limit
 // (M5) longer h
@@ -23,7 +24,7 @@ enum class Kept {
   run,
   limits,
   modes
-};  ///< (M1) rising: it does not run; it passes a limit; a mode gets worse; all is kept
+};  ///< (M1) in rising order: it does not run; it violates a limit; a mode gets worse; all is kept
 
 struct Merit {
   Kept kept = Kept::nothing;
@@ -31,30 +32,30 @@ struct Merit {
   double first_hours = 0;    ///< (M3)
   double margin = 0;         ///< (M4), unit of Outcome::beyond
   double hours = 0;          ///< (M5)
-  /// Greater: better.
+  /// Compares in the order of the members. Greater: better.
   std::partial_ordering operator<=>(const Merit&) const = default;
 };
 
-/// as_it_is: the job before any change. If it does not run, or lacks a mode, t_m0 is infinite.
+/// Returns the merit. as_it_is: outcome of the original job. If it does not run, or lacks a mode, t_m0 is infinite.
 Merit merit_of(const Outcome& outcome, const Outcome& as_it_is);
 
-/// Hours until this mode; infinite: it does not come, or the job does not run.
+/// Returns the hours until this mode; infinite: the mode does not occur, or the job does not run.
 double life_by(const Outcome& outcome, const std::string& mode);
 
-/// The modes that get worse (M1), the earliest first.
+/// Returns the modes that get worse (M1), the earliest first.
 std::vector<ModeLife> worse_modes(const Outcome& outcome, const Outcome& as_it_is);
 
-/// The mode that comes first; its hours are infinite if none comes before the end of the robot's life.
+/// Returns the mode that comes first; its hours are infinite if none comes within the robot's life.
 ModeLife first_mode(const Outcome& outcome);
 
-/// One number for the models of a search: the larger, the better. It follows (M2) and (M3), and a mode that gets worse
-/// reduces it by the logarithm of t_m over its limit in (M1). Precondition: the outcome ran.
+/// Returns one number for the models of a search; larger is better. It follows (M2) and (M3). A mode that gets worse
+/// reduces it by the logarithm of the ratio of its limit in (M1) to t_m. Precondition: the outcome ran.
 double search_value(const Outcome& outcome, const Outcome& as_it_is);
 
-/// Whether the first is better by more than the 10 % of (M1) in (M2), or with equal (M2) in (M3), or in (M1).
+/// Returns whether the first is better by more than the 10 % of (M1) in (M2), or with equal (M2) in (M3), or in (M1).
 bool clearly_better(const Merit& one, const Merit& other);
 
-/// "jacket wear from 5,890 h": what comes before the end of the robot's life, the earliest first, joined by commas. Empty: none.
+/// Returns the modes within the robot's life, the earliest first, joined by commas: "jacket wear from 5,890 h". Empty: none.
 std::string mode_words(const Outcome& outcome);
 
 }  // namespace dresslife::pipeline

@@ -42,7 +42,7 @@ class Nudges {
             fmt::format("{}={:.6g}", key, (own + turn) / degree));
   }
 
-  /// Its position along the axes of its link, and its direction about two axes across it.
+  /// Adds offsets of a position along the axes of its link, and of its direction about two axes perpendicular to it.
   void add_place(const std::string& path, const std::string& name, const Vector3d& position,
                  const Vector3d& direction) {
     if (!(by_.off > 0)) return;

@@ -19,8 +19,7 @@ std::size_t nearest_trial(const std::vector<Trial>& trials) {
 
 namespace {
 
-/// Limits that stand against the trials: those that none keeps; if each is kept by some, those that the
-/// nearest passes.
+/// Returns the limits that no trial keeps; if each limit is kept by some trial, the limits that the nearest trial violates.
 std::vector<std::string> binding(const std::vector<Trial>& trials, const Trial& nearest) {
   std::vector<std::string> lines;
   std::string together;
@@ -43,8 +42,8 @@ std::vector<std::string> binding(const std::vector<Trial>& trials, const Trial& 
   return lines;
 }
 
-/// "; it lives 3.2 times as long as the jobs as they are", by trials, so without what is not known; empty
-/// where there is nothing to hold it against.
+/// Returns "; it lives 3.2 times as long as the jobs as they are", by the p10 lives of both trials; empty if the original jobs
+/// have no finite life above 0.
 std::string life_words(const Trial& nearest, const Trial& as_they_are) {
   const double ratio = nearest.worst.hours / as_they_are.worst.hours;
   if (!as_they_are.worst.failure.empty() || !std::isfinite(ratio) || ratio <= 0) return "";

@@ -1,4 +1,4 @@
-// Why no trial is feasible: the limits that no trial satisfies, the smallest violation, and the keys at an end of their
+// Reasons why no trial is feasible: the limits that no trial satisfies, the smallest violation, and the keys at an end of their
 // ranges.
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace dresslife::pipeline {
 
-/// The trial that ran with the smallest violation; trials.size(): none ran.
+/// Returns the trial that ran with the smallest violation; trials.size(): no trial ran.
 std::size_t nearest_trial(const std::vector<Trial>& trials);
 
-/// A line each: the trial with the smallest violation, its violated limits and its life beside the original jobs (the
-/// first trial); each limit that no trial satisfies; ends of ranges at which that trial is. Precondition: no trial is
+/// Returns one line each: the trial with the smallest violation, its violated limits and its life compared with the original jobs
+/// (the first trial); each limit that no trial satisfies; ends of ranges at which that trial is. Precondition: no trial is
 /// feasible.
 std::vector<std::string> obstacle_words(const std::vector<Trial>& trials, const Freedom& freedom);
 

@@ -19,12 +19,12 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A line of the program: a step that is no block.
+/// A line of the program: a step that is not a block.
 struct Line {
   const MotionStep* step;
   std::string path, name;
   const MotionStep* from =
-      nullptr;  ///< the move before it, of a block's first line the block's last; null: none
+      nullptr;  ///< the previous move; for the first line of a block the last line of the block; null: none
 };
 
 bool leads_joints(const MotionStep& step) { return step.repeat == 0 && !step.joints.empty(); }
@@ -55,7 +55,7 @@ std::string joints_set(const Line& line, const std::vector<double>& joints) {
   return fmt::format("{}.joints_deg=[{}]", line.path, list);
 }
 
-/// Absent: a line has no such way.
+/// Returns the changes for a turn; absent: a line cannot be turned in this way.
 std::optional<std::vector<std::string>> turned(const std::vector<Line>& lines, const NamedTurn& named) {
   std::vector<std::string> sets;
   for (const Line& line : lines) {
@@ -75,13 +75,14 @@ std::optional<std::string> slower(const Job& job, const Line& line, double facto
                      step.speed_percent.value_or(job.motion.speed_percent) * factor);
 }
 
-/// Where a line's move may go by: arm and wrist one after the other. The line becomes a block of two.
+/// Returns alternatives for a line's move through a point: arm and wrist one after the other. The line becomes a block of two
+/// lines.
 std::vector<OtherWay> by_a_point(const Robot& robot, const Line& line) {
   std::vector<OtherWay> ways;
   const MotionStep& step = *line.step;
   if (!line.from || line.from->joints.size() != 6 || step.joints.size() != 6 || step.duration) return ways;
   constexpr double none = degree,
-                   rounded = 30;  // a part that moves less has no way of its own; [deg] of the corner
+                   rounded = 30;  // smallest movement of a part; [deg] rounding of the corner
   for (const bool arm_first : {true, false}) {
     std::vector<double> point = arm_first ? step.joints : line.from->joints;
     const std::vector<double>& wrist = arm_first ? line.from->joints : step.joints;
@@ -106,7 +107,7 @@ std::vector<OtherWay> by_a_point(const Robot& robot, const Line& line) {
   return ways;
 }
 
-/// (line) What happens while the robot stands was set going by the move before.
+/// Returns, (line), the damage of moves. The damage while the robot stands is added to the previous move.
 std::vector<double> cost_of_moves(const std::vector<Line>& lines, const std::vector<double>& line_damage) {
   std::vector<double> cost(lines.size(), 0.0);
   std::size_t move = 0;

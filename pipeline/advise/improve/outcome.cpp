@@ -23,7 +23,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double unasked = -1e3;  // of a limit that is not set: far from it, and finite for the models
+constexpr double unasked = -1e3;  // value of a limit that is not set: far from violation, and finite for the models
 
 enum Limit {
   bend,
@@ -44,14 +44,14 @@ enum Limit {
 };
 static_assert(bracket == bracket_limit && bend == bend_limit);
 
-/// reached: value and limit in words.
+/// reached: value and limit as text.
 void see(Outcome& outcome, Limit limit, double g, const std::string& reached = "") {
-  if (!(g > outcome.beyond[limit])) return;  // not a number: not known
+  if (!(g > outcome.beyond[limit])) return;  // NaN: not known
   outcome.beyond[limit] = g;
   outcome.reached[limit] = reached;
 }
 
-/// "353 mm, at least 600 mm", with a unit that is `scale` of the values' unit.
+/// Returns "353 mm, at least 600 mm". scale: converts the values to the unit.
 std::string at_least(double value, double limit, const char* unit, double scale = 1) {
   return fmt::format("{}{}, at least {}{}", readable(scale * value), unit, readable(scale * limit), unit);
 }
@@ -63,7 +63,7 @@ double log_ratio(double value, double limit) {
   return value > 0 ? std::clamp(std::log(value / limit), unasked, -unasked) : unasked;
 }
 
-/// A limit of a mode that the planner's hours leave out.
+/// A limit of a mode that the planner's hours do not include.
 struct ModeLimit {
   const char* key;
   const char* mode;
@@ -87,7 +87,7 @@ void see_modes(Outcome& outcome, const RankingRow& row, const AskedLimits& asked
             at_least(of.value(mode), *(asked.*of.least), of.limit == kink ? " times" : " h"));
 }
 
-/// The shortest life by each mode of each dresspack.
+/// Keeps the shortest life by each mode of each dresspack.
 void see_lives(std::vector<ModeLife>& lives, const ModeLife& of) {
   const auto same =
       std::find_if(lives.begin(), lives.end(), [&](const ModeLife& one) { return one.mode == of.mode; });
@@ -97,10 +97,10 @@ void see_lives(std::vector<ModeLife>& lives, const ModeLife& of) {
     same->hours = std::min(same->hours, of.hours);
 }
 
-/// Less slack than asked for, as a share of the length. Its limit is a share of the length, too: so the
-/// length is known.
+/// Adds the violation of the required slack, as a share of the length. The limit is also a share of the length, which gives the
+/// length.
 void see_slack(Outcome& outcome, const std::string& name, double slack, double limit) {
-  constexpr double least_share = 0.02, most_share = 1.0 / 3;  // of a length, as the checks ask for slack
+  constexpr double least_share = 0.02, most_share = 1.0 / 3;  // shares of a length that the checks require as slack
   if (name == check_name::too_short)
     see(outcome, too_short, least_share * (limit - slack) / limit,
         at_least(slack, limit, " mm of slack", 1e3));
@@ -123,7 +123,7 @@ void see_check(Outcome& outcome, const CheckedValue& check, const AskedLimits& a
     see(outcome, pull, log_ratio(value, *asked.tension), at_most(value, *asked.tension, " N"));
   if (name == check_name::contact_force && asked.contact_force)
     see(outcome, contact, log_ratio(value, *asked.contact_force), at_most(value, *asked.contact_force, " N"));
-  constexpr double at_its_end = 1e-9;  // a unit that is pulled out wholly holds no more
+  constexpr double at_its_end = 1e-9;  // a retraction at the end of its stroke does not hold the hose any more
   if (name == check_name::travel)
     see(outcome, stroke, value / limit - 1 + at_its_end, at_most(value, limit, " mm", 1e3));
 }
@@ -189,7 +189,7 @@ const std::map<std::string, Limit>& limit_of_screened() {
 
 std::string passed_text(const std::string& screened, double beyond) {
   const auto found = limit_of_screened().find(screened);
-  // (V5), in the robot: a share of the diameter as (V7).
+  // (V5), inside the robot: a share of the diameter, as (V7).
   return passed_text(found == limit_of_screened().end() ? bracket : found->second, beyond);
 }
 

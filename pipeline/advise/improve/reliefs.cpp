@@ -13,8 +13,8 @@ namespace {
 
 struct ClampPlace {
   const Clamp* clamp;
-  std::string key;  ///< after "routing."
-  double at;        ///< along the dresspack from the base clamp [m]
+  std::string key;  ///< path behind "routing."
+  double at;        ///< distance along the dresspack from the base clamp [m]
 };
 
 std::vector<ClampPlace> clamps_of(const Routing& routing) {
@@ -50,7 +50,7 @@ std::vector<std::vector<std::string>> reliefs_of(const Job& job) {
         if (k + 1 < clamps.size()) room = std::min(room, clamps[k + 1].at - clamps[k].at);
         BendRelief relief = relief_of(job, mounted);
         relief.stiffness *= share;
-        constexpr double rounding = 1e-9;  // of differences of lengths [mm]
+        constexpr double rounding = 1e-9;  // rounding error of differences of lengths [mm]
         relief.length = std::min(relief.length, std::floor(1e3 * room / 2 + rounding) / 1e3);
         all.push_back(fmt::format("{}{}.bend_relief={}", path, clamps[k].key, relief_text(relief)));
         ways.push_back({all.back()});

@@ -4,7 +4,7 @@ namespace dresslife::pipeline {
 
 std::string set_text(const Node& value) {
   if (!value.is_map() && !value.is_list()) {
-    const std::string alone = to_yaml(list_of({value}));  // quoted as within brackets
+    const std::string alone = to_yaml(list_of({value}));  // quoted as it must be within brackets
     const std::size_t begin = alone.find('[') + 1;
     return alone.substr(begin, alone.rfind(']') - begin);
   }

@@ -1,4 +1,4 @@
-// Values as they follow the = of --set.
+// Values as text behind the = of --set.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace dresslife::pipeline {
 
-/// In one line, in braces and brackets, quoted where YAML needs it.
+/// Returns a value in one line, in braces and brackets, quoted if YAML requires it.
 std::string set_text(const Node& value);
 
 }  // namespace dresslife::pipeline

@@ -28,7 +28,7 @@ ImprovementStory::Lives lives_of(const Finals& finals, const Final& of, const Ou
   return lives;
 }
 
-/// "449,000 h, all limits kept; not validated: jacket wear from 5,890 h"
+/// Returns "449,000 h, all limits kept; not validated: jacket wear from 5,890 h".
 std::string outcome_words(const Outcome& outcome, double hours) {
   if (!outcome.failure.empty()) return "it does not run: " + outcome.failure;
   const std::string modes = mode_words(outcome);
@@ -36,7 +36,7 @@ std::string outcome_words(const Outcome& outcome, double hours) {
                      modes.empty() ? "" : "; not validated: " + modes);
 }
 
-/// That another trial is better as drawn, but not as people mount it; empty: none is.
+/// Returns a note that another trial is better without offsets, but not within the mounting tolerance; empty: none is.
 std::string other_words(const Improvement& found, const Finals& finals) {
   const Final &best = *finals.best(), &drawn = *finals.best_drawn();
   if (best.trial == drawn.trial || !drawn.tolerance) return "";
@@ -46,7 +46,7 @@ std::string other_words(const Improvement& found, const Finals& finals) {
                      outcome_words(worst, worst.hours));
 }
 
-/// That the wires of another trial live longer, but a mode without a validated law gets worse; empty: none do.
+/// Returns a note that the wires of another trial live longer, but a mode without a validated law gets worse; empty: none do.
 std::string refused_words(const Improvement& found, const Outcome& best) {
   const Outcome& as_it_is = found.trials.front().worst;
   std::optional<std::size_t> longest;
@@ -66,7 +66,7 @@ std::string refused_words(const Improvement& found, const Outcome& best) {
                      hours_text(of.hours), modes);
 }
 
-/// Of the bend reliefs that keep all limits, but make something fail earlier.
+/// Returns a note on bend reliefs that keep all limits, but make something fail earlier.
 std::string relief_words(const Improvement& found) {
   std::string text;
   for (std::size_t k = 0; k < found.trials.size(); ++k)
@@ -76,7 +76,7 @@ std::string relief_words(const Improvement& found) {
   return text;
 }
 
-/// That the jobs should stay as they are, and why; empty: the best is a gain.
+/// Returns the reason to keep the original jobs; empty: the best trial is a gain.
 std::string keep_words(const Finals& finals) {
   const Final& best = *finals.best();
   if (finals.is_gain(best)) return "";
@@ -85,7 +85,8 @@ std::string keep_words(const Finals& finals) {
              : "Keep the job as it is. Nothing that was tried is clearly better.";
 }
 
-/// The worst results within the mounting tolerance, by which the best was chosen, and why others were not, as lines; empty: none.
+/// Returns lines: the worst results within the mounting tolerance, by which the best was chosen, and the reasons against others;
+/// empty: none.
 std::string choice_words(const Improvement& found, const Finals& finals) {
   const Final& best = *finals.best();
   std::string text;
@@ -127,7 +128,7 @@ std::string front_words(const Improvement& found, const Finals& finals, const Im
   return text + fmt::format("Trial {}: {}", best->trial, tolerance_words(story.nudges, tolerance));
 }
 
-/// The freed keys whose errors nothing judged, as a line; empty: none.
+/// Returns a line with the freed keys whose errors were not evaluated; empty: none.
 std::string unjudged_words(const Improvement& found, const Trial& best) {
   std::string keys;
   for (const std::string& key : found.freed)

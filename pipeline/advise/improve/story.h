@@ -9,15 +9,16 @@
 
 namespace dresslife::pipeline {
 
-/// Pages of jobs are linked to where they are already written.
+/// Returns the results for the page. Existing pages of jobs are linked.
 ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second,
                           const StudyPlaces& places);
 
-/// What a candidate gains over the original jobs, in sentences; empty: they do not run. longer_in: ImprovementStory.
+/// Returns sentences about the gain of a candidate over the original jobs; empty: these do not run. longer_in:
+/// ImprovementStory::longer_in.
 std::string gain_words(const Merit& best, const Outcome& after, const Merit& original, const Outcome& before,
                        const std::optional<double>& longer_in);
 
-/// Lines: the original jobs, the best candidate, its gain and its changes, or why none is feasible.
+/// Returns lines: the original jobs, the best candidate, its gain and its changes, or the reason why none is feasible.
 std::string improvement_words(const Improvement& found, const Finals& finals, const ImprovementStory& story,
                               SecondAim second, const MountingTolerance& tolerance,
                               const StudyPlaces& places);

@@ -11,15 +11,16 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t usually_judged = 3;  // each 24 jobs
+constexpr std::size_t usually_judged = 3;  // 24 jobs for each
 
-/// How much is lost by a nudge, as far as other finalists show it: 0, it does not run or passes a limit; else its share of the life.
+/// Returns the smallest remaining share of the life with a nudge, over the other finalists; 0: it does not run or violates a
+/// limit.
 double kept_share(std::size_t number, const std::vector<WithinTolerance>& others) {
-  double least = 1;  // not seen: after all that lost something
+  double least = 1;  // a nudge without result comes after all nudges with a loss
   for (const WithinTolerance& other : others)
     for (std::size_t k = 0; k < other.numbers.size(); ++k)
       if (const ImprovementStory::Nudge& nudge = other.nudges[k]; other.numbers[k] == number) {
-        const double share = std::isnan(nudge.share) ? 1 : nudge.share;  // no damage, off or not
+        const double share = std::isnan(nudge.share) ? 1 : nudge.share;  // NaN: no damage with and without the offset
         least = std::min(least, nudge.words.empty() ? share : 0);
       }
   return least;
@@ -29,7 +30,7 @@ WithinTolerance none_evaluated(const Finalist& of, const Outcome& as_it_is) {
   return {{}, {}, merit_of(of.drawn, as_it_is), of.drawn, of.nudges.empty()};
 }
 
-/// The next few of the nudges that are left.
+/// Returns the next few of the remaining nudges.
 std::vector<std::size_t> next_of(const Finalist& of, const WithinTolerance& judged,
                                  const std::vector<WithinTolerance>& others) {
   std::vector<std::size_t> left;
@@ -98,7 +99,7 @@ std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_
     others.erase(others.begin() + (leader - all.begin()));
     evaluate(*leader, of, next_of(of, *leader, others), as_it_is);
   }
-  // Of equals the first leads, so those without a run are the last.
+  // Of equal finalists the first leads, so finalists without a run are at the end.
   while (!all.empty() && all.back().numbers.empty() && !all.back().whole) all.pop_back();
   return all;
 }

@@ -15,14 +15,15 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double least_percent = 1;     // of time: 48 minutes of a week of 80 hours
-constexpr double shares_at_most = 1.5;  // percent of repeats of all programs together, if they were shares
+constexpr double least_percent = 1;     // of the time: 48 minutes of a week of 80 hours
+// sum of the percent of repeats of all programs, if shares were written instead of per cent
+constexpr double shares_at_most = 1.5;
 constexpr double least_week = 5;        // [h]: an hour per working day
 constexpr double day = 24;              // [h]: robots of plants run 40 h a week and more
 constexpr double least_shift = 2, most_shift = 24;  // [h]
 constexpr double longest_history = 175'000;         // [h]: 20 years day and night
 constexpr double most_times_cost = 100;             // between the largest and the smallest cost of one kind
-constexpr double rounded_percent = 1.5;              // three programs of 33 % each
+constexpr double rounded_percent = 1.5;              // rounding error of three programs of 33 % each
 constexpr std::chrono::days oldest{20 * 365};       // robots are overhauled or replaced after 40,000 h
 
 class Doubts {
@@ -150,7 +151,7 @@ class Doubts {
       add(where, fmt::format("{} is {:g} (limit more than {:g})", key, hours, day), "hours of a day",
           fmt::format("hours_per_week: {:g} if that was per working day; leave it if the robot runs so little", 5 * hours));
   }
-  /// Small letters and digits alone.
+  /// Returns the letters in lower case and the digits of a name.
   static std::string plain(const std::string& name) {
     std::string letters;
     for (const unsigned char letter : name)
@@ -175,7 +176,7 @@ std::vector<Warning> doubtful_fleet(const Fleet& fleet, Day today) {
 
 std::vector<Warning> doubtful_ages(const Fleet& fleet, const Plan& plan) {
   if (plan.reach_their_age >= usual_reach) {
-    // The oldest of many places is older than most new dresspacks become: P(none of so many reaches its age) counts.
+    // The oldest of many dresspacks is older than most new ones become, so P(one of so many reaches its age) is compared.
     const auto oldest = std::ranges::min_element(plan.rows, {}, &RowPlan::reach_its_age);
     const double limit = 1 - std::pow(1 - usual_reach, 1 / double(plan.rows.size()));
     if (oldest->reach_its_age >= limit) return {};

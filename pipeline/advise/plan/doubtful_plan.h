@@ -1,4 +1,4 @@
-// Numbers of a file of duties and of a fleet that another unit or a slip explains, before anything is computed.
+// Checks of a file of duties and of a fleet for values that are likely errors of unit or typing, before anything is computed.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace dresslife::pipeline {
 
-/// Each with its place, the value with its limit, the likely cause and a remedy.
+/// Return one warning per doubtful value: its place, the value with its limit, the likely cause and a remedy.
 std::vector<Warning> doubtful_duties(const DutyFile& file);
 std::vector<Warning> doubtful_fleet(const Fleet& fleet, Day today);
 
-/// Dresspacks that hardly any new one gets as old as (usual_reach). plan: of this fleet.
+/// Returns a warning for dresspacks with an age that few new dresspacks reach (usual_reach). plan: plan of this fleet.
 std::vector<Warning> doubtful_ages(const Fleet& fleet, const Plan& plan);
 
 }  // namespace dresslife::pipeline

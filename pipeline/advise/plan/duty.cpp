@@ -13,7 +13,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double most_repeats = 1e6;  // in an hour: a motion takes more than 3 ms
+constexpr double most_repeats = 1e6;  // per hour: the limit means a motion of 3.6 ms
 
 std::vector<std::string> names_of(const DutyFile& file) {
   std::vector<std::string> names;
@@ -21,7 +21,7 @@ std::vector<std::string> names_of(const DutyFile& file) {
   return names;
 }
 
-/// key: of the duty, "duties[2]".
+/// key: path of the duty, "duties[2]".
 void check(const Duty& duty, const std::string& key, Problems& problems) {
   if (duty.programs.empty() && !problems.touch(key + ".programs"))
     problems.add(duty.where, fmt::format("duty '{}' has no programs", duty.name), "add 'programs:' and a list");
@@ -142,7 +142,7 @@ std::array<Day, 2> PastDuty::days(Day today) const {
 
 namespace {
 
-/// Converts days to hours.
+/// Converts the days of a history to hours.
 void fill_hours(const DutyFile& file, std::vector<PastDuty>& history, Day today, Problems& problems) {
   std::vector<std::pair<std::array<Day, 2>, const PastDuty*>> periods;
   for (PastDuty& past : history)
@@ -173,7 +173,7 @@ double DutyProgram::rate(double repeat_seconds, double shift_hours, std::optiona
 }
 
 DutyFile read_duties(const std::filesystem::path& name, Day today) {
-  check_utf8(read_text(name), name.string());  // else the names of duties are not those of a fleet
+  check_utf8(read_text(name), name.string());  // with another encoding the names of duties would differ from those of a fleet
   const Node document = read_yaml(name);
   if (document.is_map() && !document.find("duties")) refuse_other_kind(document, DocumentKind::duties);
   DutyFile file;

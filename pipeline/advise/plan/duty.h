@@ -1,4 +1,4 @@
-// What robots do in their hours of operation: the programs of one dresspack, and how often each of them runs.
+// Duties: the programs of one dresspack in its hours of operation, and how often each of them runs.
 //
 //   study: two_robots                    the jobs: a study by name, or its file
 //   duties:
@@ -9,10 +9,10 @@
 //         - {job: hard, percent_of_time: 5, deviation_percent: 10}
 //       order:
 //         - {job: spot_robot_1, repeats: 20}   20 times in a row
-//         - {job: hard, repeats: 1}            once; then again the first. Or batch_size: 20 and 1 in the programs
+//         - {job: hard, repeats: 1}            once; then the round begins again. Or batch_size: 20 and 1 in the programs
 //       history:
-//         - {duty: night, hours: 2000}   what the dresspack has done before
-//         - {duty: day, from: 2026-01-05, to: 2026-06-30}   the same by dates, both days included
+//         - {duty: night, hours: 2000}   earlier hours of the dresspack
+//         - {duty: day, from: 2026-01-05, to: 2026-06-30}   earlier hours by dates, both days included
 #pragma once
 
 #include <array>
@@ -29,30 +29,33 @@ namespace dresslife::pipeline {
 class Fields;
 struct KeyRow;
 
-/// How often one program runs; exactly one of the optional numbers is given.
+/// How often one program runs. Exactly one of the optional numbers is given.
 struct DutyProgram {
   Where where;
   std::string job;
   std::optional<double> repeats_per_hour, repeats_per_shift, percent_of_time, percent_of_repeats;
-  double deviation_percent = 0;  ///< standard deviation of its number of repeats, the same for the whole life of a dresspack
-  std::string recording_of;  ///< programs with one name here are one cycle of a log; empty: a cycle of its own
-  int batch_size = 0;  ///< repeats before the next program begins: read_duties() makes an order of them; 0: not given
+  /// standard deviation of the number of repeats between dresspacks; constant for the life of a dresspack
+  double deviation_percent = 0;
+  /// name of a recording: programs with the same name are one cycle of its log; empty: a separate cycle
+  std::string recording_of;
+  int batch_size = 0;  ///< repeats before the next program begins: read_duties() converts them to an order; 0: not given
 
-  /// Repeats in an hour of operation. repeat_seconds: of its motion.
+  /// Returns the repeats in an hour of operation. repeat_seconds: duration of its motion.
   double rate(double repeat_seconds, double shift_hours, std::optional<double> all_repeats_per_hour) const;
 };
 
-/// Hours under a duty in the past: a number, or days.
+/// Hours under a duty in the past, given as a number or by dates.
 struct PastDuty {
   Where where;
-  std::string duty, from, to;    ///< dates as they stand in the file; empty: hours are given
-  std::optional<double> hours;  ///< of operation; read_duties() converts days by the duty's hours per week
+  std::string duty, from, to;    ///< dates as written in the file; empty: hours are given
+  std::optional<double> hours;  ///< hours of operation; read_duties() converts days by the duty's hours per week
 
-  /// Of days in full, both included. Errors: InputError for what is no date, ends before it begins, or lies after `today`.
+  /// Returns the first and the last day, both included. Errors: InputError for text that is no date, for dates in reverse order,
+  /// or after `today`.
   std::array<Day, 2> days(Day today) const;
 };
 
-/// Repeats of one program in a row, in the order of a duty.
+/// Consecutive repeats of one program in the order of a duty.
 struct OrderedProgram {
   Where where;
   std::string job;
@@ -62,11 +65,11 @@ struct OrderedProgram {
 struct Duty {
   Where where;
   std::string name;
-  double hours_per_week = 80;              ///< of operation: motion, pauses, waits
-  double shift_hours = 8;                  ///< of repeats_per_shift
-  std::optional<double> repeats_per_hour;  ///< of all programs together, of percent_of_repeats
+  double hours_per_week = 80;              ///< hours of operation: motion, pauses, waits
+  double shift_hours = 8;                  ///< length of a shift for repeats_per_shift
+  std::optional<double> repeats_per_hour;  ///< repeats of all programs together, for percent_of_repeats
   std::vector<DutyProgram> programs;
-  std::vector<OrderedProgram> order;  ///< of a round; empty: changes between programs do not count
+  std::vector<OrderedProgram> order;  ///< order of a round; empty: changes between programs are not counted
   std::vector<PastDuty> history;
 };
 
@@ -76,14 +79,15 @@ struct DutyFile {
   std::vector<Duty> duties;
 };
 
-/// Errors: InputError with all problems: unknown keys, a program without a number or with several, two duties of one
-/// name, batch sizes beside an order or of one program only, a history that names no duty, or whose dates overlap.
+/// Reads a file of duties. Errors: InputError with all problems: unknown keys; a program without a number or with several; two
+/// duties of one name; batch sizes together with an order, or for only one program; a history with an unknown duty or with dates
+/// that overlap.
 DutyFile read_duties(const std::filesystem::path& file, Day today = dresslife::pipeline::today());
 
-/// The duty of this name. Errors: InputError at `named_at`.
+/// Returns the duty of this name. Errors: InputError at `named_at`.
 const Duty& duty_named(const DutyFile& file, const std::string& name, const Where& named_at);
 
-/// The keys of a file of duties.
+/// Returns the keys of a file of duties.
 std::vector<KeyRow> duty_keys();
 
 }  // namespace dresslife::pipeline

@@ -15,12 +15,12 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// The robot lived through the history, too.
+/// Returns the remaining life of the robot, which also ran during the history.
 double robot_life_left(const DutyResult& duty) {
   return std::max(0.0, duty.robot_life_hours - duty.past_hours);
 }
 
-/// What the first of the modes that no test validates may do before these hours.
+/// Returns the possible failure by the first unvalidated mode before these hours, with the action.
 std::string inspection(const DutyResult& duty, double hours) {
   const auto first = std::min_element(duty.others.begin(), duty.others.end(),
                                       [](const DutyMode& a, const DutyMode& b) { return a.hours < b.hours; });
@@ -40,7 +40,7 @@ std::string inspection(const DutyResult& duty, double hours) {
                      first->mode == UnvalidatedMode::wall ? "crack" : "wear through", after);
 }
 
-/// "by abrasion 1 of 10 is worn through after 3,000 h"
+/// Returns "by abrasion 1 of 10 is worn through after 3,000 h".
 std::string other_words(const DutyMode& mode) {
   const std::string hours = hours_text(mode.hours),
                     of = mode.dresspack.empty() ? "" : " of " + mode.dresspack;
@@ -120,7 +120,7 @@ std::string caution_words(const DutyResult& duty) {
 namespace {
 
 std::string recording_words(const DutyResult& duty) {
-  constexpr double worth_a_word = 0.01;  // of the duty's damage
+  constexpr double worth_a_word = 0.01;  // share of the duty's damage
   std::map<std::string, std::vector<std::size_t>> cycles;
   for (std::size_t k = 0; k < duty.parts.size(); ++k)
     if (!duty.parts[k].recording_of.empty() && duty.parts[k].repeats_per_hour > 0) cycles[duty.parts[k].recording_of].push_back(k);
@@ -163,7 +163,7 @@ std::string mixture_words(const DutyResult& duty) {
     text += wrapped(fmt::format("The programs damage different places. If all damaged the same place, the damage would be larger: {}.",
                                 fmt::join(larger, ", ")),
                     118, "  ");
-  // Measured pairs: README. Strain: damage grows with its power 1/0.112 (copper.yaml).
+  // Measured pairs: README. Strain: damage is proportional to strain to the power 1/0.112 (copper.yaml).
   if (duty.has_order)
     text += wrapped(fmt::format("The order runs {} times per hour. For three pairs of programs its damage differed by 2 % from that of one long motion of both, "
                                 "which is 0.2 % of strain. For gentle programs, whose lives are far beyond the robot's, it differed by factors. Abrasion between the programs is not counted.{}",

@@ -28,20 +28,20 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double fewest_survivors = 1e-3;  // of the samples: percentiles of fewer than ten are chance
+constexpr double fewest_survivors = 1e-3;  // share of the samples: percentiles of fewer than ten samples depend on chance
 
-/// The jobs of a study by their names.
+/// Finds the jobs of a study by their names.
 class Jobs {
  public:
   explicit Jobs(const Study& study) : study_(study) {
     for (const StudyJob& job : study.jobs) by_name_.emplace(job.name, &job);
   }
-  /// null: there is none, or it was not expanded.
+  /// Returns null if no such job exists or it was not expanded.
   const Job* find(const std::string& name) const {
     const auto found = by_name_.find(name);
     return found == by_name_.end() ? nullptr : found->second->job.get();
   }
-  /// Errors: InputError for a program that is none of them.
+  /// Errors: InputError if the program is not a job of the study.
   const StudyJob& of(const DutyProgram& program) const {
     if (const auto found = by_name_.find(program.job); found != by_name_.end()) return *found->second;
     std::vector<std::string> names;
@@ -57,7 +57,7 @@ class Jobs {
   std::unordered_map<std::string_view, const StudyJob*> by_name_;
 };
 
-/// All of a job but its motion. The texts of two jobs agree if their damage can be added.
+/// Returns all sections of a job except the motion. The damage of two jobs can be added if their sections are equal.
 std::map<std::string, std::string> beside_motion(const Job& job) {
   const Node text = parse_yaml(job_text(job), "job");
   std::map<std::string, std::string> sections;
@@ -66,13 +66,13 @@ std::map<std::string, std::string> beside_motion(const Job& job) {
   return sections;
 }
 
-/// Equal texts are equal sections beside the motion, and need no comparison of their keys.
+/// Returns a text that is equal only if all sections except the motion are equal, so that their keys need no comparison.
 std::string text_beside_motion(Job job) {
   job.motion = {};
   return job_text(job);
 }
 
-/// A number for each text_beside_motion() of the programs in a file; jobs of one result are one Job.
+/// Returns a number for each different text_beside_motion() of the programs in a file; jobs with one result share one Job.
 std::map<const Job*, std::size_t> texts_of(const DutyFile& file, const Jobs& jobs) {
   std::map<const Job*, std::size_t> numbers;
   std::map<std::string, std::size_t> known;
@@ -107,14 +107,15 @@ void check_same_dresspack(const DutyFile& file, const Duty& duty, const Jobs& jo
   }
 }
 
-constexpr double turned = 20;  // [deg]: on a metre of hose a tenth of the twist that makers allow
+constexpr double turned = 20;  // [deg]: on one metre of hose a tenth of the twist that makers allow
 
-/// Joint angles [rad] in which a job's program starts; empty: not known.
+/// Returns the joint angles [rad] in which a job's program starts; empty: not known.
 std::vector<double> first_pose_in(const Job& job) {
   return job.motion.steps.empty() ? std::vector<double>{} : job.motion.steps.front().joints;
 }
 
-/// The same of a robot program in a file, whose poses only a run knows. axes: of the robot; further ones move other machines.
+/// Returns the same for a robot program in a file, from its strain file. axes: joints of the robot; further axes move other
+/// machines.
 std::vector<double> first_pose_in(const RankingRow& row, std::size_t axes) {
   const std::filesystem::path strain = row.life_file.parent_path() / "strain.h5";
   std::vector<double> pose;
@@ -132,16 +133,16 @@ bool is_turned(const std::vector<double>& a, const std::vector<double>& b) {
   return false;
 }
 
-/// The poses in which the programs of duties start. Those of a file are read once.
+/// The poses in which the programs of duties start. The pose of a file is read once.
 class FirstPoses {
  public:
-  /// rows: of the study after its run; null: before it.
+  /// rows: rows of the study after its run; null: before the run.
   FirstPoses(const Study& study, const std::vector<RankingRow>* rows) : jobs_(study), runs_(rows) {
     if (rows)
       for (const RankingRow& row : *rows) rows_.emplace(row.job, &row);
   }
-  /// A warning if the hose is mounted in another pose for each program of the duty, and only the present state of the study
-  /// can say so: before the run of poses in jobs, after it of poses in program files.
+  /// Returns a warning if each program of the duty mounts the hose in another pose. Before the run it compares poses in jobs,
+  /// after the run also poses of program files; a warning that was possible before the run is not repeated.
   std::optional<Warning> warning_of_mounting(const Duty& duty) {
     const StudyJob& first = jobs_.of(duty.programs.front());
     if (!first.job || !first.job->motion.needs_robot() || first.job->dresspacks.empty() ||
@@ -190,28 +191,28 @@ class FirstPoses {
   std::map<std::string, std::vector<double>> poses_;
 };
 
-/// Precondition: the duty has an order.
+/// Returns the round of a duty as a program. Precondition: the duty has an order.
 DutyProgram program_of_round(const Duty& duty) {
   DutyProgram round;
   round.where = duty.order.front().where, round.job = round_name(duty);
   return round;
 }
 
-/// Programs of all duties. Jobs that share their last stage are read once.
+/// Results of the programs of all duties. Jobs that share their last stage are read once.
 class Programs {
  public:
   Programs(const Study& study, const std::vector<RankingRow>& rows) : jobs_(study) {
     for (const RankingRow& row : rows) rows_.emplace(row.job, &row);
   }
 
-  /// All of a duty, on one dresspack.
+  /// Returns all programs of a duty, on one dresspack.
   std::vector<EvaluatedProgram> of(const Duty& duty) {
     std::vector<EvaluatedProgram> all;
     for (const DutyProgram& program : duty.programs) all.push_back(of(program));
     for (const EvaluatedProgram& program : all) check_layout(duty, all.front(), program.job, *program.wires);
     return all;
   }
-  /// The round of a duty's order, at the medians of the uncertain parameters; empty: it has none.
+  /// Returns the damage of the round of a duty's order, at the medians of the uncertain parameters; empty: no order.
   std::optional<WireDamage> round_of(const Duty& duty, const EvaluatedProgram& first) const {
     if (duty.order.empty()) return std::nullopt;
     const DutyProgram round = program_of_round(duty);
@@ -229,7 +230,7 @@ class Programs {
     return *row->second;
   }
 
-  /// null: its study was not expanded.
+  /// Returns null if the study was not expanded.
   const Job* job(const DutyProgram& program) const { return jobs_.of(program).job.get(); }
 
   std::vector<RankingRow> rows(const Duty& duty) const {
@@ -257,7 +258,7 @@ class Programs {
       throw InputError(program.where,
                        fmt::format("job '{}' has no samples of uncertain parameters", program.job),
                        "set uncertainty.enabled: true in the study");
-    // A file that jobs share is one file with several names (shared_stages.h).
+    // Jobs that share a result have hard links to one file (shared_stages.h).
     const FileState state = state_of(of.life_file);
     auto& [modes, wires] = lives_[{state.inode, state.changed_ns}];
     if (!modes) {
@@ -272,14 +273,14 @@ class Programs {
   std::unordered_map<std::string_view, const RankingRow*> rows_;
   std::map<std::pair<std::uint64_t, std::int64_t>,
            std::pair<std::shared_ptr<const FailureModes>, std::shared_ptr<const WireDamage>>>
-      lives_;  ///< by inode and time of change
+      lives_;  ///< key: inode and time of change
 };
 
-constexpr std::size_t draws = 64;  // dresspacks in each world: a probability of 10 % is known to 3.8 % in one world
+constexpr std::size_t draws = 64;  // dresspacks in each world: the error of a probability of 10 % in one world is 3.8 %
 
-/// Which programs of duties have one result, and which are one job.
+/// Numbers of the different results and of the different jobs among the programs of duties.
 struct Shares {
-  std::vector<std::vector<std::size_t>> result, job;  ///< (duty, program) number
+  std::vector<std::vector<std::size_t>> result, job;  ///< (duty, program) number of the result, number of the job
   std::vector<std::size_t> programs_of_result, programs_of_job;
 
   explicit Shares(std::span<const std::vector<EvaluatedProgram>> duties) {
@@ -301,8 +302,8 @@ struct Shares {
   }
 };
 
-/// Damage of one repeat for one dresspack in each world. Programs with one result share it while duties need it, and so do duties with
-/// one program.
+/// Damage of one repeat for one dresspack in each world. Programs with one result share it until the last duty has used it;
+/// duties with one program share it, too.
 class DrawDamage {
  public:
   DrawDamage(const Shares& shares, std::size_t draw, std::size_t worlds)
@@ -310,7 +311,7 @@ class DrawDamage {
     for (std::size_t k = 0; k < damage_.size(); ++k) damage_[k].programs = shares.programs_of_result[k];
     for (std::size_t k = 0; k < factors_.size(); ++k) factors_[k].programs = shares.programs_of_job[k];
   }
-  /// (world) of the mode that fails first. Each duty is asked for once.
+  /// Returns, (world), the damage of the mode that fails first. Precondition: each duty is requested once.
   std::vector<double> under(std::size_t duty, const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                             const std::vector<double>& share) {
     const auto number = [&](const EvaluatedProgram& program) { return static_cast<std::size_t>(&program - programs.data()); };
@@ -336,7 +337,7 @@ class DrawDamage {
  private:
   template <class Value>
   struct Shared {
-    std::size_t programs = 0;  ///< that still need it
+    std::size_t programs = 0;  ///< number of programs that still need the value
     Value value{};
 
     void release() {
@@ -350,7 +351,7 @@ class DrawDamage {
   std::vector<Shared<std::pair<double, std::vector<double>>>> factors_;
 };
 
-/// (program) per hour.
+/// Returns the repeats per hour, (program).
 std::vector<double> repeats_of(const std::vector<DutyPart>& parts) {
   std::vector<double> repeats;
   for (const DutyPart& part : parts) repeats.push_back(part.repeats_per_hour);
@@ -371,7 +372,7 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
                          program.job);
   }
   if (!duty.order.empty()) {
-    double moves = programs.row(program_of_round(duty)).repeat_seconds;  // between the programs of a round
+    double moves = programs.row(program_of_round(duty)).repeat_seconds;  // moves between the programs of a round
     for (const OrderedProgram& ordered : duty.order)
       for (const DutyProgram& program : duty.programs)
         if (program.job == ordered.job) moves -= programs.row(program).repeat_seconds;
@@ -388,9 +389,9 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
   return rates;
 }
 
-/// Lives at other numbers of repeats of one program at a time.
+/// Computes lives for other numbers of repeats, for one program at a time.
 void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result) {
-  constexpr int steps = 10;  // of a chart
+  constexpr int steps = 10;  // points of a chart
   const std::vector<double> repeats = repeats_of(result.parts);
   double idle = 1;
   for (const DutyPart& part : result.parts) idle -= part.share_of_time;
@@ -403,7 +404,7 @@ void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result)
     };
     part.without = lives_at(0), part.as_twice = lives_at(2);
     if (!(part.share_of_time > 0)) continue;
-    const double most = std::max(part.share_of_time, part.share_of_time + idle);  // no rounding below today's
+    const double most = std::max(part.share_of_time, part.share_of_time + idle);  // at least the present share, without rounding
     for (int i = 0; i <= steps; ++i)
       part.over_share.push_back({most * i / steps, lives_at(most * i / steps / part.share_of_time)});
   }
@@ -470,7 +471,7 @@ std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingR
 
 namespace {
 
-/// What needs no samples. rates: of the programs.
+/// Returns the part of the result that needs no samples. rates: receives the rates of the programs.
 DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& rates) {
   DutyResult result;
   result.name = duty.name;
@@ -490,7 +491,7 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
   }
   result.others = other_modes(result.parts, programs.rows(duty));
   result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
-  std::vector<DutyProgram> all;  // that run
+  std::vector<DutyProgram> all;  // programs that run
   for (std::size_t k = 0; k < duty.programs.size(); ++k)
     if (result.parts[k].repeats_per_hour > 0) all.push_back(duty.programs[k]);
   if (!duty.order.empty()) all.push_back(program_of_round(duty));
@@ -517,7 +518,8 @@ std::vector<DutyResult> outlines(const DutyFile& file, const Study& study,
 std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study,
                                   const std::vector<RankingRow>& rows) {
   Programs programs(study, rows);
-  // One name for all duties, and that of a job's own summary: a dresspack that changes its duty stays the same one.
+  // All duties use one dresspack name, the one in a job's own summary, so that a dresspack keeps its values when its duty
+  // changes.
   const std::string dresspack;
   std::vector<DutyResult> results;
   for (const Duty& duty : file.duties) {
@@ -563,7 +565,7 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study,
 
 namespace {
 
-/// What the lives of these programs depend on and dresspacks share, each once.
+/// Returns the values on which the lives of these programs depend and that dresspacks share, each once.
 std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& programs, std::size_t worlds) {
   std::vector<SharedValue> values;
   std::set<const FailureModes*> seen;
@@ -620,8 +622,8 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
     table.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
     tasks.push_back({&table, std::move(rates), std::move(share)});
   }
-  // The lives of a draw depend on no other one, so any number of threads gives the same. Draw after draw, and not duty after duty: what
-  // the programs of one draw need stays in the processor's cache.
+  // The lives of a draw do not depend on other draws, so the number of threads does not change the result. The loop runs over
+  // draws and inside over duties, so that the data of one draw stay in the processor's cache.
   const Shares shares(all);
   const std::size_t threads = std::min(thread_count(), draws);
   in_parallel(threads, [&](std::size_t part) {
@@ -635,7 +637,7 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
       }
     }
   });
-  // From (draw, world) to (world, draw), rising.
+  // From (draw, world) to (world, draw), rising in each world.
   in_parallel(threads, [&](std::size_t part) {
     for (std::size_t k = tasks.size() * part / threads; k < tasks.size() * (part + 1) / threads; ++k) {
       std::vector<float> by_draw = tasks[k].table->hours;

@@ -16,9 +16,9 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::chrono::days longest_plan{3653};  // duties and robots change sooner
+constexpr std::chrono::days longest_plan{3653};  // duties and robots change earlier
 
-/// A row by the titles of its columns.
+/// Access to the cells of a row by the titles of the columns.
 class Row {
  public:
   Row(const CsvReader& table, const CsvRow& titles, const CsvRow& row) : table_(table) {
@@ -29,7 +29,7 @@ class Row {
     for (std::size_t k = 0; k < row.size(); ++k) cells_[titles[k].text] = &row[k];
   }
   Where where(const std::string& title) const { return table_.where(*cells_.at(title)); }
-  /// Empty: no such column, or an empty cell.
+  /// Returns an empty text if the column or the cell is empty.
   std::string text(const std::string& title) const {
     const auto found = cells_.find(title);
     return found == cells_.end() ? "" : found->second->text;
@@ -47,7 +47,7 @@ class Row {
           value ? fmt::format("give a number of {:g} .. {:g}", low, high) : number_remedy(text(title)));
     return value;
   }
-  /// Money. A point before three digits may separate thousands. Precondition: not empty.
+  /// Returns an amount of money. A point before three digits may be a thousands separator. Precondition: the cell is not empty.
   double cost(const std::string& title) const {
     constexpr double most = 1e12;
     const std::string cell = text(title);
@@ -99,7 +99,7 @@ Installed installed_from(const Row& row, Day today, bool has_costs, Problems& pr
   return one;
 }
 
-/// Whether the title may stand for a column that is known, so that leaving it out would change the plan.
+/// Returns whether a title resembles a known column, so that ignoring the column might change the plan.
 bool may_be_known(const std::string& title) {
   return std::ranges::any_of(std::initializer_list<std::string_view>{"hour", "stunde", "week", "woche", "cost", "kosten", "instal", "date", "datum"},
                              [&](std::string_view word) { return title.find(word) != title.npos; });

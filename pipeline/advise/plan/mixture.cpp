@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t nothing = 0xffffffff;
 
-/// "signal cable" of "signal cable 3".
+/// Returns "signal cable" for "signal cable 3".
 std::string_view without_number(std::string_view name) {
   const std::size_t digits = name.find_last_not_of("0123456789");
   return digits != std::string_view::npos && digits + 1 < name.size() && name[digits] == ' '
@@ -26,7 +26,7 @@ std::string_view without_number(std::string_view name) {
              : name;
 }
 
-/// Whether the wires of a conductor with this path belong to a mode ("wires of signal cable", fatigue/failure_modes.h).
+/// Returns whether the wires of a conductor with this path belong to a mode ("wires of signal cable", fatigue/failure_modes.h).
 bool is_in_mode(std::string_view conductor, const LifeResponse& mode) {
   std::string name = mode.dresspack;
   if (!name.empty()) {
@@ -38,7 +38,7 @@ bool is_in_mode(std::string_view conductor, const LifeResponse& mode) {
   return mode.mode == (name.empty() ? "wires" : "wires of " + name);
 }
 
-/// The conductor that holds a wire: of those with a path that the wire's begins with, the longest.
+/// Returns the conductor that contains a wire: the conductor with the longest path that is a prefix of the wire's path.
 std::uint32_t conductor_of(const std::string& wire,
                            const std::unordered_map<std::string, std::uint32_t>& conductors) {
   for (std::size_t end = wire.rfind('/'); end != std::string::npos;
@@ -49,7 +49,7 @@ std::uint32_t conductor_of(const std::string& wire,
   return whole == conductors.end() ? nothing : whole->second;
 }
 
-/// (mode) damage of the place that fails first, of these damages (site).
+/// Returns, (mode), the damage of the place that fails first. damage: (site).
 std::vector<double> worst_places(const WireDamage& wires, const std::vector<double>& damage,
                                  std::size_t modes) {
   std::vector<double> of_wire(wires.place.size(), 0.0);
@@ -70,10 +70,10 @@ std::vector<double> worst_places(const WireDamage& wires, const std::vector<doub
   return worst;
 }
 
-/// Standard deviation of ln of a number with this relative deviation.
+/// Returns the standard deviation of ln of a number with this relative standard deviation.
 double log_deviation(double percent) { return std::sqrt(std::log1p(percent * percent / 1e4)); }
 
-/// R of (D1). sum, largest: of c r / L over the programs.
+/// Returns R of (D1). sum, largest: sum and maximum of c r / L over the programs.
 double at_least_alone(double sum, double largest, double c) { return c > 0 ? std::max(sum, largest / c) : sum; }
 
 double log10_life(double damage) { return damage > 0 ? -std::log10(damage) : infinity; }
@@ -109,7 +109,7 @@ WireDamage wire_damage(const std::filesystem::path& life_file, const FailureMode
       found->second = {conductor_of(component[site], conductors),
                        static_cast<std::uint32_t>(known.size() - 1)};
     const Wire& wire = found->second;
-    if (wire.conductor == nothing || mode_of[wire.conductor] == nothing) continue;  // the hose's wall
+    if (wire.conductor == nothing || mode_of[wire.conductor] == nothing) continue;  // a site of the hose's wall
     const std::uint64_t key = std::uint64_t{wire.index} << 32 | static_cast<std::uint32_t>(segment[site]);
     const auto [at, first_site] = wire_at.try_emplace(key, static_cast<std::uint32_t>(wires.place.size()));
     wires.wire[site] = at->second;
@@ -183,7 +183,7 @@ std::vector<double> repeat_factors(const std::string& job, double deviation_perc
                                    const std::string& dresspack, std::size_t samples) {
   const double deviation = log_deviation(deviation_percent);
   if (!(deviation > 0)) return std::vector<double>(samples, 1.0);
-  thread_local std::vector<double> factors;  // of the last deviation: thousands of programs have the same
+  thread_local std::vector<double> factors;  // factors of the previous deviation: thousands of programs have the same one
   thread_local double of_deviation = 0;
   if (factors.size() != samples || of_deviation != deviation) {
     factors = standard_strata(samples), of_deviation = deviation;

@@ -18,17 +18,19 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Simulated plants: a mean of counts is known to 3 % of their deviation, and better where a plant takes little time, because few dresspacks
-/// seldom fail. Of one dresspack that fails in 1 of 1,000 plants, 100,000 have 100 failures.
+/// Returns the number of simulated plants. The error of a mean count is at most 3 % of its standard deviation. Small plants take
+/// little time and rarely fail, so they get more: with one dresspack that fails in 1 of 1,000 plants, 100,000 plants have 100
+/// failures.
 std::size_t plant_count(std::size_t dresspacks, std::size_t windows) {
-  constexpr std::size_t fewest = 1000, most = 100'000, decisions = 200'000;  // the last: a tenth of a second
+  // limit on the number of decisions: a tenth of a second
+  constexpr std::size_t fewest = 1000, most = 100'000, decisions = 200'000;
   return std::clamp(decisions / (std::max<std::size_t>(1, dresspacks) * (windows + 1)), fewest, most);
 }
-constexpr double shortest_life = 1;   // [h] of a new dresspack in a simulated plant, so that each plant ends
+constexpr double shortest_life = 1;   // [h] of a new dresspack in a simulated plant, so that the simulation ends
 constexpr double days_per_year = 365.2425;
-constexpr std::size_t ages = 400;  // of (D6), between a tenth of the shortest life and the robot's: 2 % steps
+constexpr std::size_t ages = 400;  // of (D6), between a tenth of the shortest life and the robot's life, in steps of 2 %
 
-/// Weights of worlds, and failures of one dresspack that lives at some age.
+/// Weights of worlds, and failure probabilities of one dresspack that lives at a given age.
 class Worlds {
  public:
   Worlds(std::size_t count, const std::vector<double>& known) : Worlds(count) {
@@ -36,7 +38,7 @@ class Worlds {
   }
   explicit Worlds(std::size_t count) : log_weight_(count, 0.0), weight_(count, 1.0 / static_cast<double>(count)) {}
 
-  /// A dresspack that has survived (D3). Of some draws none that does stands for half a draw.
+  /// Adds the evidence that a dresspack has survived (D3). If no draw of a world survives, half a draw is assumed.
   void survived(const LifeTable& table, double age) {
     for (std::size_t w = 0; w < log_weight_.size(); ++w)
       log_weight_[w] += std::log((table.alive(w, age) * double(table.draws) + 0.5) / (double(table.draws) + 0.5));
@@ -48,9 +50,9 @@ class Worlds {
     for (double& weight : weight_) weight /= sum;
     all_alive_ = sum / static_cast<double>(weight_.size()) * std::exp(most);
   }
-  /// P(all dresspacks have survived), before the weights.
+  /// Returns P(all dresspacks have survived), before the weights.
   double all_alive() const { return all_alive_; }
-  /// P(a new dresspack reaches an age).
+  /// Returns P(a new dresspack reaches an age).
   double reaches(const LifeTable& table, double age) const {
     double sum = 0;
     for (std::size_t w = 0; w < weight_.size(); ++w) sum += weight_[w] * table.alive(w, age);
@@ -63,17 +65,17 @@ class Worlds {
   }
   const std::vector<double>& weights() const { return weight_; }
 
-  /// P(failure at an age in (from, to] | it lives at `now`). Its survival is part of what is known of the worlds.
+  /// Returns P(failure at an age in (from, to] | it lives at `now`). Its survival is already included in the weights.
   double fails(const LifeTable& table, double now, double from, double to) const {
     double sum = 0, all = 0;
     for (std::size_t w = 0; w < weight_.size(); ++w)
       if (const double lives = table.alive(w, now); lives > 0)
         sum += weight_[w] * (table.alive(w, from) - table.alive(w, to)) / lives, all += weight_[w];
     if (all > 0) return sum / all;
-    return from <= now && to > from ? 1 : 0;  // no world has a life of its age: it fails at once
+    return from <= now && to > from ? 1 : 0;  // no world has such a long life: it fails at once
   }
-  /// (interval) P(failure in it | it lives at `now`), of intervals that end at these ages. Each life is spread evenly between the middles to its
-  /// neighbours: an interval of few lives would otherwise show their chance.
+  /// Returns, (interval), P(failure in it | it lives at `now`), for intervals that end at these ages. Each life is spread evenly
+  /// between the midpoints to its neighbours, because in an interval with few lives the result would depend on chance.
   std::vector<double> fails_in(const LifeTable& table, double now, const std::vector<double>& ends) const {
     std::vector<double> fails(ends.size(), 0.0);
     const auto interval_of = [&](double age) { return static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), age) - ends.begin()); };
@@ -82,14 +84,14 @@ class Worlds {
       const float *const begin = table.hours.data() + w * table.draws, *const end = begin + table.draws, *const first = table.first_after(w, now);
       if (first == end) continue;
       all += weight_[w];
-      const auto above = [&](const float* life) -> double {  // the end of its part
+      const auto above = [&](const float* life) -> double {  // end of the interval of a life
         if (life + 1 != end && std::isfinite(life[1])) return (double(life[0]) + life[1]) / 2;
         return life == begin ? life[0] : life[0] + (double(life[0]) - life[-1]) / 2;
       };
       const auto below = [&](const float* life) -> double {
         return life == begin ? std::max(life[0] / 2.0, 2 * double(life[0]) - above(life)) : above(life - 1);
       };
-      const auto left = [&](const float* life) {  // share of its part that lies after `now`
+      const auto left = [&](const float* life) {  // share of the interval of a life that lies after `now`
         const double from = std::isinf(*life) ? now : below(life), to = std::isinf(*life) ? now : above(life);
         return to > from ? std::clamp((to - now) / (to - from), 0.0, 1.0) : *life > now ? 1.0 : 0.0;
       };
@@ -123,9 +125,9 @@ class Pace {
  public:
   Pace(const Installed& row, const LifeTable& table)
       : after_(hours_in_day(row, table)), before_(row.change ? row.change->hours_per_day : after_), change_(row.change ? row.change->day : 0) {}
-  /// Until a day. Days before today have negative hours.
+  /// Returns the hours until a day. Days before today have negative hours.
   double hours(double day) const { return before_ * std::min(day, change_) + after_ * std::max(0.0, day - change_); }
-  /// The day of these hours.
+  /// Returns the day after these hours.
   double day(double hours) const {
     const double until_change = before_ * change_;
     return hours < until_change ? hours / before_ : change_ + (hours - until_change) / after_;
@@ -140,7 +142,7 @@ double run_of(const Installed& row, const LifeTable& table, Day today) {
   return row.run_hours.value_or(days_between(row.since, today) * hours_in_day(row, table));
 }
 
-/// Life of a dresspack that has spells of (D10), in hours of operation. spells: {hours, life under that duty alone}.
+/// Returns the life of a dresspack with spells (D10), in hours of operation. spells: {hours, life under that duty alone}.
 double life_after(std::span<const std::array<double, 2>> spells, double own_life) {
   double used = 0, hours = 0;
   for (const auto& [spell, life] : spells) {
@@ -175,14 +177,13 @@ Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tab
   return worlds;
 }
 
-/// What follows for a dresspack that lives at an age: means over the worlds in which it can, by its later age in steps of
-/// a few hours.
+/// Future of a dresspack that lives at an age: means over the worlds in which it can live, at later ages in steps of a few hours.
 class LaterLife {
  public:
   /// rate: (world) [1/h]
   LaterLife(const LifeTable& table, const std::vector<double>& weights, const Eigen::VectorXd& rate, double age, double last_age)
       : age_(age), step_((last_age - age) / double(steps)), alive_(steps + 1, 0.0), running_(steps + 1, 0.0) {
-    // Until the sums below, an element has what ends in the step before its age.
+    // Before the sums below, each element contains the lives that end in the step before its age.
     std::vector<double> rate_ended(steps + 1, 0.0);
     double alive = 0, rate_alive = 0, run = 0;
     for (std::size_t w = 0; w < table.worlds; ++w) {
@@ -203,13 +204,13 @@ class LaterLife {
       running_[k] = ((run += running_[k]) + rate_alive * step_ * double(k)) / all;
     }
   }
-  /// Of S_w(later) / S_w(age).
+  /// Returns the mean of S_w(later) / S_w(age).
   double alive(double later) const { return at(alive_, later); }
-  /// Of rate_w times the integral of S_w from the age until later / S_w(age).
+  /// Returns the mean of rate_w times the integral of S_w from the age until later / S_w(age).
   double running(double later) const { return at(running_, later); }
 
  private:
-  static constexpr std::size_t steps = 8192;  // of 8 h where a robot lives 40,000 h: a tenth of a week
+  static constexpr std::size_t steps = 8192;  // 8 h for a robot's life of 40,000 h: a tenth of a week
 
   double at(const std::vector<double>& values, double later) const {
     const double place = std::min((later - age_) / step_, double(steps));
@@ -221,16 +222,17 @@ class LaterLife {
   std::vector<double> alive_, running_;  ///< (step)
 };
 
-/// Decides by (D4) or (D5).
+/// Decides on replacements by (D4) or (D5).
 class Decision {
  public:
-  /// hours: of operation within the plan, at most.
+  /// hours: largest number of hours of operation within the plan.
   Decision(const Worlds& worlds, const PlanRule& rule, double hours) : worlds_(worlds), rule_(rule), hours_(hours) {}
 
-  /// What follows for a dresspack with these lives that lives at this age, until the ages at which replace() asks. table: of its duty.
+  /// Returns the future of a dresspack with these lives that lives at this age, until the last age that replace() needs. table:
+  /// table of its duty.
   LaterLife later_life(const Installed& row, const LifeTable& table, const LifeTable& lives, double age) { return later_life(lives, policy(row, table).rate, age); }
-  /// Whether a dresspack is replaced at the age `from`, of which `life` is known. interval: to the next window [h]. Both
-  /// ages of a window lie within the plan.
+  /// Returns whether a dresspack is replaced at the age `from`. life: its future from an earlier age. interval: hours until the
+  /// next window. Precondition: both ages of a window lie within the plan.
   bool replace(const Installed& row, const LifeTable& table, const LaterLife& life, double from, double interval) {
     if (!rule_.by_cost) {
       const double left = life.alive(from);
@@ -243,17 +245,17 @@ class Decision {
       if (saved(from) <= saved(from + hours)) return false;
     return true;
   }
-  /// The same for a dresspack that is put in later.
+  /// Returns whether a dresspack that is installed later is replaced at the age `from`.
   bool replace_new(const Installed& row, const LifeTable& table, double from, double interval) {
     return replace(row, table, policy(row, table).life, from, interval);
   }
 
  private:
-  static constexpr double growth = 1.5;  // of the times T: a curve of costs without corners
+  static constexpr double growth = 1.5;  // ratio of successive times T: the cost is a smooth function of T
 
   struct Policy {
     Eigen::VectorXd rate;  ///< (world) (D6); 0 without costs
-    LaterLife life;        ///< of a new dresspack
+    LaterLife life;        ///< future of a new dresspack
   };
 
   LaterLife later_life(const LifeTable& table, const Eigen::VectorXd& rate, double age) const {
@@ -283,13 +285,13 @@ std::size_t weeks_until(double days) { return static_cast<std::size_t>(std::ceil
 /// One simulated plant.
 struct Outcome {
   std::vector<int> planned, unplanned;  ///< (year)
-  std::vector<int> failures;            ///< (week) of dresspacks that were put in later
+  std::vector<int> failures;            ///< (week) failures of dresspacks that were installed later
   double cost = 0;
 };
 
 class Simulation {
  public:
-  /// tables, earlier: (row) of its duty, and of that until its change.
+  /// tables, earlier: (row) tables of its duty, and of the duty before its change.
   Simulation(const Fleet& fleet, const std::vector<const LifeTable*>& tables, const std::vector<const LifeTable*>& earlier, const std::vector<Pace>& paces,
              const std::vector<RowPlan>& rows, const std::vector<double>& times, const Worlds& worlds)
       : fleet_(fleet), tables_(tables), earlier_(earlier), paces_(paces), rows_(rows), times_(times) {
@@ -299,7 +301,7 @@ class Simulation {
     weeks_ = weeks_until(times.back());
   }
 
-  /// decision: null: only failures are replaced.
+  /// Simulates one plant. decision: null: only failed dresspacks are replaced.
   Outcome plant(RandomNumbers& random, Decision* decision) const {
     Outcome outcome{std::vector<int>(years_, 0), std::vector<int>(years_, 0), std::vector<int>(weeks_, 0)};
     const double at = random.uniform() * until_.back();
@@ -309,13 +311,13 @@ class Simulation {
   }
 
  private:
-  /// A life in a world that is longer than an age.
+  /// Samples a life in a world that is longer than an age.
   static double draw(const LifeTable& table, std::size_t world, double age, RandomNumbers& random) {
     const float *const first = table.first_after(world, age), *const end = table.hours.data() + (world + 1) * table.draws;
     return first == end ? age : first[static_cast<std::size_t>(random.uniform() * double(end - first))];
   }
 
-  /// Of a dresspack that is put in at these hours from today.
+  /// Samples the life of a dresspack that is installed at these hours from today.
   double draw_new(std::size_t i, std::size_t world, double begun, RandomNumbers& random) const {
     const LifeTable& table = *tables_[i];
     const double until_change = fleet_.rows[i].change ? paces_[i].hours(fleet_.rows[i].change->day) - begun : 0;
@@ -372,7 +374,7 @@ double LifeTable::alive(std::size_t world, double age) const {
 }
 
 double LifeTable::horizon() const {
-  constexpr double longest = 1e5;  // [h]: twice a robot's life; a rig has no life of its own
+  constexpr double longest = 1e5;  // [h]: twice a robot's life; needed because a test rig has no robot life
   return std::min(robot_life_hours, longest);
 }
 
@@ -409,7 +411,7 @@ AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned
   for (std::size_t k = 0; k < ages; ++k) at.push_back(first * std::pow(last / first, double(k) / double(ages - 1)));
   const auto all = double(table.draws);
   for (std::size_t w = 0; w < table.worlds; ++w) {
-    // Ages and lives rise: one pass through both.
+    // Ages and lives are rising, so one pass through both is enough.
     const float *life = table.hours.data() + w * table.draws, *const end = life + table.draws;
     double ended = 0;  // [h] sum of the lives until this age
     for (std::size_t k = 0; k < ages; ++k) {
@@ -475,7 +477,8 @@ std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std
       run += row.before.back().hours;
     }
     row.run_hours = run;
-    if (days > 0 && given > all + hours_in(7, row.duty) && count++ == 0)  // a week: dates are seldom exact to the day
+    // a tolerance of one week, because dates are often inexact
+    if (days > 0 && given > all + hours_in(7, row.duty) && count++ == 0)
       younger = &row, words = fmt::format("{}, and its history by hours has more: {}", hours_text(all), hours_text(given));
   }
   if (!younger) return {};
@@ -493,7 +496,7 @@ std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet, co
     for (std::size_t i = part; i < lives.size(); i += threads) {
       const LifeTable& own = tables.at(fleet.rows[i].duty);
       if (fleet.rows[i].before.empty())
-        lives[i] = {std::shared_ptr<const LifeTable>(), &own};  // owned by `tables`
+        lives[i] = {std::shared_ptr<const LifeTable>(), &own};  // refers to `tables` without owning it
       else
         lives[i] = std::make_shared<const LifeTable>(lives_after(fleet.rows[i].before, own, tables));
     }
@@ -519,7 +522,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   plan.all_alive = worlds.all_alive();
   std::vector<const LifeTable*> of_row, earlier;
   std::vector<Pace> paces;
-  double most_hours = 0;  // within the plan
+  double most_hours = 0;  // hours of operation within the plan
   for (const Installed& row : fleet.rows) {
     of_row.push_back(&tables.at(row.duty));
     earlier.push_back(row.change ? &tables.at(row.before.back().duty) : of_row.back());
@@ -553,7 +556,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   plan.failures_in_week_without_windows = plan.failures_in_week;
   for (const RowPlan& row : plan.rows)
     for (std::size_t week = 0; week < row.fails_in_week.size(); ++week) {
-      const double until = row.window ? times[*row.window] / 7 - double(week) : 1;  // its replacement [weeks]
+      const double until = row.window ? times[*row.window] / 7 - double(week) : 1;  // time until its replacement [weeks]
       plan.failures_in_week[week] += std::clamp(until, 0.0, 1.0) * row.fails_in_week[week];
       plan.failures_in_week_without_windows[week] += row.fails_in_week[week];
     }
@@ -562,7 +565,8 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   const auto share = 1 / static_cast<double>(plants);
   std::vector<std::vector<double>> replaced;  // (year, plant)
   for (std::size_t p = 0; p < plants; ++p) {
-    RandomNumbers random(mixed(seed + p)), same(mixed(seed + p));  // costs are compared plant by plant
+    // both simulations of a plant use the same random numbers, so that their costs are comparable
+    RandomNumbers random(mixed(seed + p)), same(mixed(seed + p));
     const Outcome outcome = simulation.plant(random, &decision);
     plan.years.resize(outcome.planned.size());
     replaced.resize(outcome.planned.size());

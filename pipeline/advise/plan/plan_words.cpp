@@ -20,19 +20,19 @@ namespace {
 
 constexpr std::size_t width = 118;
 
-/// "1 dresspack", "2.5 spare dresspacks".
+/// Returns "1 dresspack", "2.5 spare dresspacks".
 std::string dresspacks_text(const std::string& number, const char* kind = "") {
   return fmt::format("{} {}dresspack{}", number, kind, number == "1" ? "" : "s");
 }
 
-/// Text of an iCalendar property in lines of at most 75 bytes.
+/// Returns the text of an iCalendar property, folded into lines of at most 75 bytes.
 std::string folded(std::string line) {
   std::string text;
   constexpr std::size_t most = 75;
   while (line.size() > most) {
     std::size_t end = most;
     while (end > 1 && (static_cast<unsigned char>(line[end]) & 0xc0) == 0x80)
-      --end;  // not within a character
+      --end;  // do not fold inside a UTF-8 character
     text += line.substr(0, end) + "\r\n";
     line = " " + line.substr(end);
   }
@@ -72,7 +72,7 @@ std::string percent_text(double share) { return readable(100 * share, 2) + " %";
 std::string expected_words(const Plan& plan) {
   double before = 0;
   for (const RowPlan& row : plan.rows) before += row.fails_before_first;
-  constexpr double surprising = 0.023;  // beyond two deviations
+  constexpr double surprising = 0.023;  // one-sided probability of more than two standard deviations
   std::string alive;
   if (plan.all_alive < surprising)
     alive = fmt::format(
@@ -158,8 +158,8 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
 }
 
 std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
-  constexpr double worth_a_line = 1e-3;  // of the cost
-  constexpr double coin = 0.01;          // in any currency less is nothing
+  constexpr double worth_a_line = 1e-3;  // of the plan's cost
+  constexpr double coin = 0.01;          // smaller amounts are not relevant in any currency
   constexpr std::size_t most = 3;
   std::string lines;
   std::size_t count = 0;
@@ -178,7 +178,7 @@ std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
 
 std::string check_words(const std::optional<std::vector<CheckValue>>& checks, const Inspection& inspection,
                         const Fleet& fleet, const Plan& plan) {
-  constexpr double worth_a_line = 1e-3;  // of one unplanned replacement
+  constexpr double worth_a_line = 1e-3;  // of the cost of one unplanned replacement
   constexpr std::size_t most = 3;
   if (!checks)
     return wrapped(
@@ -251,7 +251,7 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
 
 std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
   std::vector<BesideRow> rows;
-  // digits: 0: a count.
+  // digits: 0: the number is a count.
   const auto add = [&](const std::string& what, double now, double then, int digits, const std::string& now_range = "", const std::string& then_range = "") {
     const auto text = [&](double value) { return digits == 0 ? fmt::format("{:.0f}", value) : readable(value, digits); };
     rows.push_back({what, text(now) + now_range, text(then) + then_range,
@@ -339,18 +339,19 @@ std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan) {
 
 std::string plan_calendar(const Fleet& fleet, const Plan& plan) {
   std::string text = "BEGIN:VCALENDAR\r\nPRODID:-//dresslife//plan//EN\r\nVERSION:2.0\r\n";
-  // A calendar replaces an event by another one of its UID: the next plan of this plant, not that of another one.
+  // A calendar replaces an event by an event with the same UID. The UID identifies the plant, so the next plan replaces the
+  // events.
   const Installed& first = fleet.rows.front();
   const std::string plant = xxh3(std::filesystem::path(first.where.file).stem().string() + "\n" + first.name);
   for (std::size_t n = 0; n < plan.windows.size(); ++n) {
-    // A window without work has an event, too: it says so, and takes the place of that of an earlier plan.
+    // A window without replacements also has an event, which replaces the event of an earlier plan.
     const std::vector<std::string> names = replaced_in(fleet, plan, n);
     const Window& window = plan.windows[n];
     text += "BEGIN:VEVENT\r\n";
     text += fmt::format("UID:{}-{}@dresslife\r\nDTSTAMP:{}T000000Z\r\n", compact(window.first), plant.substr(0, 16),
                         compact(plan.today));
     text += fmt::format("DTSTART;VALUE=DATE:{}\r\nDTEND;VALUE=DATE:{}\r\n", compact(window.first),
-                        compact(window.last + std::chrono::days(1)));  // the end is the day after
+                        compact(window.last + std::chrono::days(1)));  // in iCalendar the end is the day after the last day
     text += folded(names.empty() ? "SUMMARY:No dresspack to replace" : fmt::format("SUMMARY:Replace {} dresspack{}", names.size(), names.size() == 1 ? "" : "s"));
     text += folded("DESCRIPTION:" + escaped(names.empty() ? expected_words(plan) : fmt::format("{}", fmt::join(names, ", "))));
     text += "END:VEVENT\r\n";

@@ -11,54 +11,55 @@
 
 namespace dresslife::pipeline {
 
-/// What to replace in which window, failures before it, spare parts per year, costs. Ends with a line feed.
+/// Returns the plan as text: replacements per window, failures before it, spare parts per year, costs. Ends with a line feed.
 std::string plan_words(const Fleet& fleet, const Plan& plan);
 
-/// The first sentence of it.
+/// Returns the first sentence of plan_words().
 std::string expected_words(const Plan& plan);
-/// Why dresspacks are replaced in no window, a line per reason. Empty: all are.
+/// Returns the reasons why dresspacks are replaced in no window, one line per reason. Empty: all are replaced.
 std::string kept_words(const Fleet& fleet, const Plan& plan);
-/// Names of the dresspacks that are replaced in a window.
+/// Returns the names of the dresspacks that are replaced in a window.
 std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::size_t window);
-/// "2027-07-12 .. 2027-08-01", "4.2 %"
+/// Return "2027-07-12 .. 2027-08-01", and "4.2 %".
 std::string window_text(const Window& window);
 std::string percent_text(double share);
 
-/// What tests are worth, a line each of those that save a thousandth of the plan's cost or more, three at most.
+/// Returns the value of tests, one line for each test that saves a thousandth of the plan's cost or more, at most three.
 std::string test_words(const std::vector<TestValue>& tests, const Plan& plan);
 
-/// What visual checks for abrasion are worth: of one check today the three dresspacks with most, then all regular checks. checks: of
-/// values_of_checks(); inspection: of the jobs.
+/// Returns the value of visual checks for abrasion: of one check today for the three dresspacks with the largest value, then of
+/// all regular checks. checks: result of values_of_checks(); inspection: checks of the jobs.
 std::string check_words(const std::optional<std::vector<CheckValue>>& checks, const Inspection& inspection, const Fleet& fleet,
                         const Plan& plan);
 
-/// By when a mode that no test validates has ended 1 of 10 dresspacks under a duty [h of operation], and its name.
+/// Hours of operation by which a mode that no test validates has ended 1 of 10 dresspacks under a duty, and the mode's name.
 struct AgeLimit {
   std::string mode;
   double hours = 0;
 };
-/// Dresspacks that reach such an age before they are replaced, or before the end of the plan: a line for each mode, those that are
-/// past it today first. limits: (name of the duty) its modes. week_hours: (name of the duty) hours per week where the fleet gives none.
-/// Empty: none does.
+/// Returns the dresspacks that reach such an age before their replacement or before the end of the plan: one line per mode,
+/// dresspacks already above it first. limits: (name of the duty) its modes. week_hours: (name of the duty) hours per week if the
+/// fleet gives none. Empty: no dresspack.
 std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::string, std::vector<AgeLimit>>& limits,
                       const std::map<std::string, double>& week_hours);
 
-/// A number of two plans, and how much larger the second is; "": no difference of numbers.
+/// A number of two plans and its increase; more is empty if it is no difference of numbers.
 struct BesideRow {
   std::string what, now, then, more;
 };
-/// A plan beside the one of today's fleet: failures, windows, spare dresspacks, cost.
+/// Returns the numbers of the present fleet's plan and of another plan: failures, windows, spare dresspacks, cost.
 std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
-/// The same as text, and the dresspacks with another window. name: of the changed fleet.
+/// Returns beside_rows() as text, and the dresspacks with another window. name: name of the changed fleet.
 std::string what_if_words(const std::string& name, const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
 
-/// One row per dresspack and one column per week from today: P(failure in it) of today's dresspack, if it is not replaced.
+/// Returns a row per dresspack and a column per week from today: P(failure in this week) of today's dresspack if not replaced.
 std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan);
 
-/// One row per dresspack; numbers read back exactly. checks: of values_of_checks(); absent: their cells are empty.
+/// Returns one row per dresspack; numbers are exact when they are read back. checks: result of values_of_checks(); absent: their
+/// cells are empty.
 std::string plan_csv(const Fleet& fleet, const Plan& plan, const std::optional<std::vector<CheckValue>>& checks = std::nullopt);
 
-/// An iCalendar file (RFC 5545) with an event for each window in which something is replaced.
+/// Returns an iCalendar file (RFC 5545) with an event for each window.
 std::string plan_calendar(const Fleet& fleet, const Plan& plan);
 
 }  // namespace dresslife::pipeline

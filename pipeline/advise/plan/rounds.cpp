@@ -17,9 +17,9 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double share_of_speed = 0.5, share_of_acceleration = 0.25;  // of moves between programs
+constexpr double share_of_speed = 0.5, share_of_acceleration = 0.25;  // for moves between programs
 constexpr double same_pose = 1e-3 * std::numbers::pi / 180;  // [rad]: a hundred times the rounding of a row
-constexpr std::size_t longest_name = 150;                    // of a folder
+constexpr std::size_t longest_name = 150;                    // of a folder's name
 
 class Recording {
  public:
@@ -29,7 +29,7 @@ class Recording {
     text_ += '\n';
   }
 
-  /// The robot stands for one interval where a program begins: a spline is at rest between equal rows.
+  /// Adds a program. The robot stands for one interval before it begins: the spline has zero speed between equal rows.
   void add(const JointCourse& program) {
     const std::size_t axes = axes_.size();
     move_to({program.angles.begin(), program.angles.begin() + static_cast<std::ptrdiff_t>(axes)});
@@ -40,11 +40,11 @@ class Recording {
     }
   }
 
-  /// From where the robot stands; nothing before the first row, or where it stands there already.
+  /// Adds a move from the present pose. Does nothing before the first row, or if the robot is already there.
   void move_to(const std::vector<double>& target) {
     if (pose_.empty()) return;
     constexpr double top_speed = 15.0 / 8,
-                     top_acceleration = 5.7735;  // of 10 u^3 - 15 u^4 + 6 u^5; 10/sqrt(3)
+                     top_acceleration = 5.7735;  // maxima of the derivatives of 10 u^3 - 15 u^4 + 6 u^5; the second is 10/sqrt(3)
     const std::vector<double> from = pose_;
     double seconds = 0, way = 0;
     for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
@@ -80,7 +80,7 @@ class Recording {
   double interval_;  ///< [s] between rows of a move
   std::string text_;
   double time_ = 0;
-  std::vector<double> pose_;  ///< of the last row [rad]
+  std::vector<double> pose_;  ///< pose of the last row [rad]
 };
 
 std::vector<Joint> driven(const Robot& robot) {
@@ -90,7 +90,7 @@ std::vector<Joint> driven(const Robot& robot) {
   return joints;
 }
 
-/// From the strains of a program, which stay longer than its motion.
+/// Returns the joint angles of a program from its strain file, which is kept longer than its motion file.
 JointCourse course_of(const OrderedProgram& program, const std::vector<RankingRow>& rows, std::size_t axes) {
   const auto row =
       std::find_if(rows.begin(), rows.end(), [&](const RankingRow& one) { return one.job == program.job; });

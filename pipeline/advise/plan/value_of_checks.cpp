@@ -9,14 +9,14 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t values_of_z = 1000;  // equally likely: a share is known to 0.001
+constexpr std::size_t values_of_z = 1000;  // of equal probability: the resolution of a share is 0.001
 constexpr double fewest_plants = 1e-3;
 
 double log10_spread(const AbrasionLife& life) {
   return std::log10(life.median / life.early) / -normal_quantile(0.1);
 }
 
-/// Share of the dresspacks whose wires live so many hours from today.
+/// Returns the share of the dresspacks whose wires live `hours` from today.
 double wires_live(const RowPlan& row, double hours, double hours_per_week) {
   double lives = 1;
   const auto weeks = static_cast<std::size_t>(hours / hours_per_week);
@@ -25,10 +25,10 @@ double wires_live(const RowPlan& row, double hours, double hours_per_week) {
   return std::max(lives, 0.0);
 }
 
-/// Of one dresspack with the life T of one z, without the wires. planned: hours until its planned replacement; end: until the end of
-/// the plan.
+/// Failures by abrasion of one dresspack and its successors for the life T at one z, without failures of wires. planned: hours
+/// until the planned replacement; end: hours until the end of the plan.
 struct Failures {
-  double first_found = 0;  ///< 0: it does not fail before
+  double first_found = 0;  ///< 0: the first one does not fail before its replacement
   bool first_fails = false;
   double others = 0, others_found = 0;
 };
@@ -42,7 +42,7 @@ Failures failures_of(double life, double age, std::optional<double> planned, dou
   const double until = planned.value_or(end), left = life - age;
   failures.first_fails = left < until;
   if (failures.first_fails) failures.first_found = found(std::min((1 - visible_from) * life, left));
-  const double begun = failures.first_fails ? left : until;  // of the next one
+  const double begun = failures.first_fails ? left : until;  // begin of the next dresspack
   failures.others = std::floor((end - begun) / life);
   failures.others_found = failures.others * found((1 - visible_from) * life);
   return failures;
@@ -59,7 +59,7 @@ std::optional<std::vector<CheckValue>> values_of_checks(const Fleet& fleet,
     const auto found = lives.find(row.duty);
     return found == lives.end() || !std::isfinite(found->second.median) ? nullptr : &found->second;
   };
-  double survived = 0;  // share of z below that of all that live
+  double survived = 0;  // share of z below the value at which all dresspacks live today
   for (std::size_t i = 0; i < fleet.rows.size(); ++i)
     if (const AbrasionLife* const life = life_of(fleet.rows[i]); life && plan.rows[i].age_hours > 0)
       survived = std::max(
@@ -76,7 +76,7 @@ std::optional<std::vector<CheckValue>> values_of_checks(const Fleet& fleet,
     if (!abrasion) continue;
     const RowPlan& planned = plan.rows[i];
     const double week = row.hours_per_week.value_or(tables.at(row.duty).hours_per_week),
-                 age = planned.age_hours;  // the rubbing of other duties counts as that of its own
+                 age = planned.age_hours;  // abrasion of other duties counts as that of the present duty
     const double end = times.back() / 7 * week, spread = log10_spread(*abrasion),
                  saves = row.unplanned_cost - row.planned_cost;
     std::optional<double> replaced;

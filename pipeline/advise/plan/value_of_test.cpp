@@ -15,9 +15,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index bins = 16;  // of the result: half of them are narrower than a fifth of its deviation
+constexpr Index bins = 16;  // of the result: half of the bins are narrower than a fifth of its deviation
 
-/// (world, bin) P(j | w). The bins have equal probabilities if z is normal over the weighted worlds.
+/// Returns P(j | w), (world, bin). The bins have equal probabilities if z is normal over the weighted worlds.
 MatrixXd results_of(const std::vector<double>& z, double error, const std::vector<double>& weights) {
   double mean = 0, variance = 0;
   for (std::size_t w = 0; w < z.size(); ++w) mean += weights[w] * z[w];
@@ -37,10 +37,10 @@ MatrixXd results_of(const std::vector<double>& z, double error, const std::vecto
   return share;
 }
 
-/// (D7) of one dresspack: the part beside A, and hours at the rate g_w(A).
+/// (D7) for one dresspack: the part that does not depend on A, and the hours that are multiplied by g_w(A).
 struct Costs {
   MatrixXd fixed, hours;  ///< (time, world)
-  VectorXd weights;       ///< (world) of those in which it can live, their sum is 1
+  VectorXd weights;       ///< (world) weights of the worlds in which it can live; their sum is 1
 };
 
 Costs costs_of(const Installed& row, const LifeTable& table, double age, double hours_per_day,
@@ -48,7 +48,7 @@ Costs costs_of(const Installed& row, const LifeTable& table, double age, double 
                const VectorXd& best) {
   std::vector<double> until;  // [h]
   for (std::size_t k = 0; k + 1 < times.size(); ++k) until.push_back(times[k] * hours_per_day);
-  constexpr double growth = 1.5;  // of later times, as in (D5)
+  constexpr double growth = 1.5;  // ratio of successive later times, as in (D5)
   const double end = times.back() * hours_per_day, interval = end - until.back(), last = until.back();
   for (double hours = interval; hours < growth * std::max(interval, table.horizon()); hours *= growth)
     until.push_back(last + hours);
@@ -60,13 +60,13 @@ Costs costs_of(const Installed& row, const LifeTable& table, double age, double 
     if (!(lives > 0)) continue;
     costs.weights[w] = world_weights[world];
     const double begun = table.running(world, 0, age), ended = table.running(world, 0, age + end);
-    // Times and lives rise: one pass through both.
+    // Times and lives are rising, so one pass through both is enough.
     const float *life = table.hours.data() + world * table.draws, *const last_life = life + table.draws;
     double lived = 0;  // [h] sum of the lives until this time
     for (Index t = 0; t < count; ++t) {
       const double at = age + until[std::size_t(t)];
       for (; life != last_life && *life <= at; ++life) lived += *life;
-      const double running = (lived + double(last_life - life) * at) / double(table.draws);  // from 0 to then
+      const double running = (lived + double(last_life - life) * at) / double(table.draws);  // integral from 0 to this time
       const double left = end - (std::min(running, ended) - begun) / lives, beyond = std::max(0.0, running - ended) / lives;
       costs.fixed(t, w) = row.planned_cost +
                           (row.unplanned_cost - row.planned_cost) * (1 - table.alive(world, at) / lives) -
@@ -78,13 +78,13 @@ Costs costs_of(const Installed& row, const LifeTable& table, double age, double 
   return costs;
 }
 
-/// The values of several tests at once.
+/// Computes the values of several tests together.
 class Values {
  public:
   Values(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const Plan& plan)
       : fleet_(fleet), tables_(tables), plan_(plan) {}
 
-  /// results: (test) of results_of().
+  /// Returns the values, (test). results: (test) results_of().
   std::vector<double> of(const std::vector<MatrixXd>& results) {
     const std::vector<double> times = times_of(plan_.windows, plan_.today);
     std::vector<double> saves(results.size(), 0.0);
@@ -113,9 +113,9 @@ class Values {
 
  private:
   struct Policies {
-    VectorXd now;                 ///< (world) g_w at the age that is best now
-    VectorXd best;                ///< (world) at the one that is best in it
-    std::vector<MatrixXd> after;  ///< (test) (world, bin) at the one that is best after the result
+    VectorXd now;                 ///< (world) g_w at the age with the least mean now
+    VectorXd best;                ///< (world) g_w at the best age of this world
+    std::vector<MatrixXd> after;  ///< (test) (world, bin) g_w at the age with the least mean after the result
   };
   const Policies& policies_of(const Installed& row, const LifeTable& table,
                               const std::vector<MatrixXd>& results) {
@@ -128,8 +128,8 @@ class Values {
     MatrixXd all(weights.size(), static_cast<Index>(results.size()) * bins);
     for (std::size_t k = 0; k < results.size(); ++k)
       all.middleCols(static_cast<Index>(k) * bins, bins) = weights.asDiagonal() * results[k];
-    // The least of a mean over the ages, as in least(): of each 8th age, then of those beside it. The mean of many worlds
-    // has no narrower minimum.
+    // Minimum of a mean over the ages, as in least(): first every 8th age, then the ages near the minimum. The mean over many
+    // worlds has no narrower minimum.
     constexpr Index stride = 8;
     const MatrixXd some = rates.rate(Eigen::seq(0, Eigen::last, stride), Eigen::all), mean = some * all;  // (age, result and bin)
     for (std::size_t k = 0; k < results.size(); ++k) {

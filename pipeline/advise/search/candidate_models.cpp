@@ -14,10 +14,10 @@ using Shape = GaussianProcess::Shape;
 
 namespace {
 
-constexpr std::size_t most_rehearsals = 250;  // in a model: its cost grows with their cube
-constexpr Index most_for_shape = 120;         // for a fit of the shapes: its cost grows so, too
+constexpr std::size_t most_rehearsals = 250;  // in a model: the cost grows with the cube of their number
+constexpr Index most_for_shape = 120;         // for a fit of the shapes: the same growth of cost
 constexpr int shape_evaluations = 60;
-constexpr double same = 1e-9;  // values and places that differ by less are one
+constexpr double same = 1e-9;  // values and places with a smaller difference are equal
 
 constexpr GaussianProcess::Scale missed_by_rehearsals{0.1, 3};
 
@@ -27,7 +27,7 @@ Shape& shape_of(CandidateModels::Shapes& shapes, std::size_t limit, bool differe
   return shapes[of_limits + 2 * limit + (difference ? 1 : 0)];
 }
 
-/// Those at places of looks first, then the nearest to the centre.
+/// Returns the rehearsals at places of results first, then those nearest to the centre.
 std::vector<const Candidate*> chosen(const std::vector<Candidate>& rehearsals,
                                      const std::vector<Candidate>& looks, const VectorXd& centre) {
   std::vector<std::pair<double, const Candidate*>> some;
@@ -125,7 +125,7 @@ bool CandidateModels::holds(const VectorXd& place) const {
   return false;
 }
 
-/// A look decides whether the place runs, if there is one.
+/// Adds a rehearsal. If the same place has a result, only the result determines whether the place runs.
 void CandidateModels::add_rehearsal(const Candidate& rehearsal) {
   if (!holds(rehearsal.place)) {
     failed_.add(rehearsal.place, failure_of(rehearsal));

@@ -1,15 +1,15 @@
-// Surrogate models of the results so far: the objective, each constraint, and whether a candidate runs.
-// A result is of a full evaluation, a "rehearsal" of a low-fidelity evaluation (a short run).
+// Surrogate models of the present results: the objective, each constraint, and whether a candidate runs.
+// A "result" comes from a full evaluation, a "rehearsal" from a low-fidelity evaluation (a short run).
 //
 // (Q5) A constraint that rehearsals compute is modelled in two parts, g(x) = r(x) + d(x): r from rehearsals near the
 //      centre of the search, d from the differences between results and r. Both are independent Gaussian processes
 //      (Q4), so their variances add up (M. Kennedy and A. O'Hagan, Biometrika 87 (2000) 1, eq. 2 with rho = 1). r is
 //      known at rehearsed places. Before the first results d has a standard deviation of about 0.1, in the units of
-//      the constraints. Other constraints and the objective are modelled from the results alone.
+//      the constraints. Other constraints and the objective are modelled from the results only.
 //
-// (Q7) If rehearsals give a constraint in pieces, each piece is modelled and r is the maximum. That has an edge
-//      where another piece takes over, which no smooth function follows; the pieces have none (composite Bayesian
-//      optimization: R. Astudillo and P. Frazier, ICML 2019). A bound of r at c deviations is the largest of the
+// (Q7) If rehearsals give a constraint in pieces, each piece is modelled and r is the maximum. The maximum has an edge
+//      where another piece becomes the largest, which a smooth function cannot follow; the pieces have no edges (composite
+//      Bayesian optimization: R. Astudillo and P. Frazier, ICML 2019). A bound of r at c deviations is the largest of the
 //      pieces' bounds.
 #pragma once
 
@@ -21,15 +21,15 @@
 
 namespace dresslife::pipeline {
 
-/// (Q3) sign(g) ln(1 + |g|). NaN stays NaN.
+/// Returns (Q3) sign(g) ln(1 + |g|). NaN stays NaN.
 double tamed(double g);
 
 class CandidateModels {
  public:
   using Shapes = std::vector<GaussianProcess::Shape>;
 
-  /// Precondition: at least one candidate or rehearsal ran. Of many rehearsals only the 250 nearest to `centre` count.
-  /// shapes: shapes() of an earlier model; empty: default shapes.
+  /// Builds the models from the results `looks` and the rehearsals. Uses at most the 250 rehearsals nearest to `centre`.
+  /// shapes: shapes() of an earlier model; empty: default shapes. Precondition: at least one candidate or rehearsal ran.
   CandidateModels(const std::vector<Candidate>& looks, const std::vector<Candidate>& rehearsals,
                   const Eigen::VectorXd& centre, Shapes shapes);
 
@@ -37,23 +37,24 @@ class CandidateModels {
   void fit();
   const Shapes& shapes() const { return shapes_; }
 
-  /// Adds the expected result at the place, so that the next candidate lies elsewhere.
+  /// Adds the expected result at this place, so that the next candidate lies elsewhere.
   void believe(const Eigen::VectorXd& place);
   void believe_rehearsal(const Eigen::VectorXd& place);
   void learn(const std::vector<Candidate>& rehearsals);
 
   bool any_feasible() const { return any_feasible_; }  ///< whether a result is feasible
-  /// Whether the models contain a result or rehearsal at this place.
+  /// Returns whether the models contain a result or rehearsal at this place.
   bool holds(const Eigen::VectorXd& place) const;
 
-  /// (constraint that varies) mean + deviations x standard deviation, tamed. The last entry is <= 0 if it runs.
+  /// Returns (constraint that varies) mean + deviations x standard deviation, transformed by tamed(). The last entry is <= 0 if
+  /// the candidate is expected to run.
   Eigen::VectorXd beyond(const Eigen::VectorXd& place, double deviations) const;
-  double excess(const Eigen::VectorXd& place, double deviations) const;  ///< sum of its positive entries
-  /// Objective: mean - deviations x standard deviation; 0 if no candidate ran.
+  double excess(const Eigen::VectorXd& place, double deviations) const;  ///< sum of the positive entries of beyond()
+  /// Returns the objective: mean - deviations x standard deviation; 0 if no candidate ran.
   double aim_at(const Eigen::VectorXd& place, double deviations) const;
 
  private:
-  /// Data and model of a function, or of the pieces whose maximum it is.
+  /// Data and model of a function, or of the pieces of which it is the maximum.
   struct FunctionModel {
     Eigen::MatrixXd places, values;  // (place, variable), (place, piece)
     std::optional<GaussianProcess> model{};
@@ -63,10 +64,10 @@ class CandidateModels {
     void build(const GaussianProcess::Shape& shape, const GaussianProcess::Scale& scale = {});
   };
   struct Limit {
-    FunctionModel rehearsed, looked;  // looked: values of g
+    FunctionModel rehearsed, looked;  // looked: values of g from results
     FunctionModel difference{};
     bool varies = false;
-    /// Prediction of the piece with the largest bound.
+    /// Returns the prediction of the piece with the largest bound.
     GaussianProcess::Prediction at(const Eigen::VectorXd& place, double deviations) const;
   };
 
@@ -75,7 +76,7 @@ class CandidateModels {
   void build_all();
 
   std::vector<Limit> limits_;
-  FunctionModel aim_, failed_;  // failed: -1: it ran; else 1 + the violation
+  FunctionModel aim_, failed_;  // failed_: -1 if the candidate ran; else 1 + its violation
   Shapes shapes_;               // aim, failed, then rehearsed and difference of each limit
   bool any_failed_ = false, any_feasible_ = false;
 };

@@ -14,8 +14,8 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double least_noise =
-    1e-8;                       // of the variance: a Cholesky factor of some hundred near places still exists
-constexpr double flat = 1e-12;  // variance below it: a constant
+    1e-8;                       // share of the variance: with this noise a Cholesky factor of hundreds of close places exists
+constexpr double flat = 1e-12;  // functions with a smaller variance are constant
 
 double correlation(double squared) {
   const double r = std::sqrt(5 * squared);
@@ -48,9 +48,9 @@ MatrixXd centred_at(const MatrixXd& values, const VectorXd& mean) {
 
 VectorXd mean_of(const MatrixXd& values) { return values.colwise().mean().transpose(); }
 
-/// -2 ln(likelihood x prior), but for constants, with the likeliest s^2 of each function.
+/// Returns -2 ln(likelihood x prior) up to constants, with the most likely s^2 of each function.
 double unlikeliness(const MatrixXd& points, const MatrixXd& centred, const GaussianProcess::Shape& shape) {
-  constexpr double length_spread = 1.2, noise_spread = 3;  // of their logarithms
+  constexpr double length_spread = 1.2, noise_spread = 3;  // standard deviations of ln l and ln n
   const Eigen::LLT<MatrixXd> factor(correlations(points * per_length(shape).asDiagonal(), noise_of(shape)));
   const auto n = static_cast<double>(centred.rows());
   const VectorXd squares =
@@ -66,7 +66,7 @@ double unlikeliness(const MatrixXd& points, const MatrixXd& centred, const Gauss
 GaussianProcess::Shape GaussianProcess::usual_shape(Index variables) {
   Shape shape(variables + 1);
   shape.setConstant(
-      std::log(0.5 * std::sqrt(static_cast<double>(variables))));  // across a unit box in all variables
+      std::log(0.5 * std::sqrt(static_cast<double>(variables))));  // half of the diagonal of the unit box
   shape[variables] = std::log(1e-4);
   return shape;
 }
@@ -89,7 +89,7 @@ GaussianProcess::Shape GaussianProcess::likeliest_shape(const MatrixXd& points, 
                                                         const Shape& start, int evaluations) {
   const MatrixXd centred = centred_at(values, mean_of(values));
   if (centred.squaredNorm() <= flat) return start;
-  constexpr double widest = 5;  // of a logarithm about the usual
+  constexpr double widest = 5;  // largest difference of a logarithm from its usual value
   const Shape usual = usual_shape(points.cols());
   SearchBox box{usual.array() - widest, usual.array() + widest};
   box.low[usual.size() - 1] = std::log(least_noise);

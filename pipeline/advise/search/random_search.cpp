@@ -17,7 +17,8 @@ VectorXd RandomSearch::drawn() {
 }
 
 std::vector<VectorXd> RandomSearch::ask(int count) {
-  constexpr std::size_t drawn_for_each = 16;  // then the one with the smallest violation is returned
+  // draws per candidate; if all are rejected, the one with the smallest violation is returned
+  constexpr std::size_t drawn_for_each = 16;
   std::vector<VectorXd> places;
   while (places.size() < static_cast<std::size_t>(count)) {
     std::vector<VectorXd> some;

@@ -1,4 +1,4 @@
-// Uniform random candidates: the baseline of searches.
+// Search with uniform random candidates: the baseline for other searches.
 #pragma once
 
 #include "pipeline/advise/search/search.h"
@@ -8,7 +8,7 @@ namespace dresslife::pipeline {
 
 class RandomSearch : public Search {
  public:
-  /// screen: rejected candidates are replaced, a few times.
+  /// screen: a rejected candidate is replaced, at most a few times.
   RandomSearch(Eigen::Index variables, std::uint64_t seed, Screen screen);
   std::vector<Eigen::VectorXd> ask(int count) override;
   void tell(const std::vector<Candidate>&) override {}

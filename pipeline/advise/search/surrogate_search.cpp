@@ -16,32 +16,33 @@ namespace {
 
 constexpr double first_width = 0.3, most_width = 0.5, least_width = 1e-4;  // half a side of the trust region
 constexpr int hits_to_widen = 3, least_misses_to_narrow = 4;
-constexpr double near = 1e-6;  // places nearer than that are one
+constexpr double near = 1e-6;  // places with a smaller distance are equal
 constexpr int candidate_count = 200, polish_evaluations = 150;
 constexpr double moved_at_once =
     6;  // mean number of variables in which a candidate differs from the best one
 constexpr std::size_t screened_at_once = 24;
 constexpr std::size_t rehearsed_for_a_look = 4;
 constexpr int rehearsed_together = 8;
-constexpr int rehearsed_again = 24;   // per look while none is feasible: a look costs about as much
-constexpr int spread_share = 4;       // of the first looks: feasible places are spread by chance, too
-constexpr double cautious = 1;        // deviations of constraints while no candidate is feasible
-constexpr double least_ahead = 0.02;  // width at which the search starts again elsewhere
+constexpr int rehearsed_again = 24;   // per evaluation while none is feasible; together they take about as long as an evaluation
+// one of this number among the first evaluations is spread, because feasible places may have no common region
+constexpr int spread_share = 4;
+constexpr double cautious = 1;        // deviations of the constraints while no candidate is feasible
+constexpr double least_ahead = 0.02;  // smallest width; below it the search starts again at another place
 // Violation of a hopeless search: a bend of half the least radius (ln 2). In searches of better_hard and
-// better_side_panel, three seeds each, the nearest short run missed by 0.64 at most after 27 of 480, and by 0.16
+// better_side_panel, three seeds each, the smallest violation of the short runs was at most 0.64 after 27 of 480, and 0.16
 // after a third of them.
 constexpr double hopeless = 0.7;
-constexpr double least_gain = 1e-3;  // gain of a constraint that counts as progress
-constexpr double much_more = 1.3;    // data for a new fit of the shapes
+constexpr double least_gain = 1e-3;  // smallest gain of a constraint that counts as progress
+constexpr double much_more = 1.3;    // ratio of the number of data that causes a new fit of the shapes
 
 const Candidate& best_of(const std::vector<Candidate>& looks) {
   return *std::min_element(looks.begin(), looks.end(), better);
 }
 
-/// The less, the better.
+/// Smaller is better.
 using Merit = std::pair<double, double>;
 
-/// Order by predicted violation: first the mean, then the cautious bound.
+/// Returns the order by predicted violation: first the mean, then the cautious bound.
 Merit nearness(const CandidateModels& models, const VectorXd& place) {
   return {models.excess(place, 0), models.excess(place, cautious)};
 }
@@ -75,7 +76,7 @@ SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& setti
     for (const double weight : {1.0, 0.5, 0.8, 0.2, 0.9}) regions_.push_back({weight, first_width});
 }
 
-/// Far from all candidates, and not rejected by the screen if possible.
+/// Returns a place far from all candidates, and not rejected by the screen if possible.
 VectorXd SurrogateSearch::first_look() {
   constexpr int drawn = 40;
   std::vector<VectorXd> some;
@@ -93,7 +94,7 @@ VectorXd SurrogateSearch::first_look() {
   return some[best];
 }
 
-/// Squared distance to the nearest candidate with or without a result.
+/// Returns the squared distance to the nearest candidate with or without a result.
 double SurrogateSearch::distance_to_known(const VectorXd& place) const {
   double least = static_cast<double>(variables_);
   for (const Candidate& look : looks_) least = std::min(least, (look.place - place).squaredNorm());
@@ -107,7 +108,7 @@ bool SurrogateSearch::is_known(const VectorXd& place) const {
          std::any_of(pending_.begin(), pending_.end(), same);
 }
 
-/// A share of the variables, at least one, lie anywhere in the box, the others as at the centre.
+/// Returns candidates: a share of the variables, at least one, are anywhere in the box, the others equal those of the centre.
 std::vector<VectorXd> SurrogateSearch::candidates(const SearchBox& box, const VectorXd& centre,
                                                   double share) {
   std::vector<VectorXd> some;
@@ -122,7 +123,7 @@ std::vector<VectorXd> SurrogateSearch::candidates(const SearchBox& box, const Ve
   return some;
 }
 
-/// The first that is neither known nor rejected; if all are rejected, the one with the smallest violation.
+/// Returns the first place that is neither known nor rejected; if all are rejected, the one with the smallest violation.
 VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
   std::vector<VectorXd> some;
   for (const VectorXd& place : by_merit)
@@ -132,7 +133,7 @@ VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
   return some[static_cast<std::size_t>(std::min_element(beyond.begin(), beyond.end()) - beyond.begin())];
 }
 
-/// Places about the best one and results of local searches from them, sorted by violation, then by objective.
+/// Returns places around the best one, and results of local searches from them, sorted by violation, then by objective.
 std::vector<VectorXd> SurrogateSearch::ranked(const CandidateModels& models, const VectorXd& best,
                                               double width, const Trust& trust) {
   const SearchBox whole{VectorXd::Zero(variables_), VectorXd::Ones(variables_)};
@@ -173,7 +174,7 @@ void SurrogateSearch::rehearse(const std::vector<VectorXd>& places) {
   for (Candidate& rehearsed : rehearse_(places)) rehearsals_.push_back(std::move(rehearsed));
 }
 
-/// Rehearses candidates that were evaluated without a rehearsal, so that the difference is known there.
+/// Rehearses candidates that were evaluated without a rehearsal, so that the difference is known at their places.
 void SurrogateSearch::rehearse_looks(const std::vector<Candidate>& looks) {
   std::vector<VectorXd> places;
   for (const Candidate& look : looks)
@@ -181,7 +182,7 @@ void SurrogateSearch::rehearse_looks(const std::vector<Candidate>& looks) {
   if (!places.empty()) rehearse(places);
 }
 
-/// Rehearses the first few, then returns the best of all rehearsed places by the new models.
+/// Rehearses the first few places, then returns the best of all rehearsed places by the new models.
 VectorXd SurrogateSearch::rehearsed_pick(CandidateModels& models, const std::vector<VectorXd>& by_merit,
                                          const Trust& trust) {
   std::vector<VectorXd> some;
@@ -202,7 +203,7 @@ VectorXd SurrogateSearch::rehearsed_pick(CandidateModels& models, const std::vec
   return best ? best->place : first_look();
 }
 
-/// Rehearsed places without a full evaluation, most likely feasible first.
+/// Returns rehearsed places without a full evaluation, most likely feasible first.
 std::vector<VectorXd> SurrogateSearch::promising(const CandidateModels& models) const {
   std::vector<VectorXd> places;
   for (const Candidate& rehearsal : rehearsals_)
@@ -212,7 +213,7 @@ std::vector<VectorXd> SurrogateSearch::promising(const CandidateModels& models) 
   return places;
 }
 
-/// The rehearsal from `first` on that runs and has the smallest predicted violation. Precondition: one ran.
+/// Returns the rehearsal from `first` on that runs and has the smallest predicted violation. Precondition: at least one ran.
 VectorXd SurrogateSearch::nearest_rehearsal(const CandidateModels& models, std::size_t first) const {
   Merit least;
   const Candidate* nearest = nullptr;
@@ -229,7 +230,7 @@ std::vector<Candidate> SurrogateSearch::rehearsals_from(std::size_t first) const
   return {rehearsals_.begin() + static_cast<std::ptrdiff_t>(first), rehearsals_.end()};
 }
 
-/// `count` rehearsals, far from each other and from all candidates. The search starts at the best of them.
+/// Makes `count` rehearsals, far from each other and from all candidates. The search starts at the best of them.
 void SurrogateSearch::rehearse_spread(int count) {
   ahead_from_ = rehearsals_.size();
   ahead_width_ = first_width;
@@ -242,7 +243,7 @@ void SurrogateSearch::rehearse_spread(int count) {
   rehearse(spread);
 }
 
-/// Each at the smallest predicted violation, with the expected results of the ones before.
+/// Returns the next rehearsals, each at the smallest predicted violation, given the expected results of the earlier ones.
 std::vector<VectorXd> SurrogateSearch::next_rehearsals(CandidateModels& models, const VectorXd& centre,
                                                        std::size_t count) {
   static constexpr Trust trusts[] = {{0, 0, false}, {0, cautious, false}, {0, -1, false}, {0, 0, true}};
@@ -258,7 +259,7 @@ std::vector<VectorXd> SurrogateSearch::next_rehearsals(CandidateModels& models, 
   return batch;
 }
 
-/// Whether after a third of the rehearsals before the first look no result is near feasibility.
+/// Returns whether no result is near feasibility after a third of the rehearsals before the first evaluation.
 bool SurrogateSearch::is_hopeless() const {
   const auto misses = [](const Candidate& look) { return !look.ran || look.violation() > hopeless; };
   return asked_ == 0 &&
@@ -267,7 +268,7 @@ bool SurrogateSearch::is_hopeless() const {
          std::all_of(looks_.begin(), looks_.end(), misses);
 }
 
-/// (Q6)
+/// Makes rehearsals near feasibility by (Q6).
 void SurrogateSearch::rehearse_ahead(int wanted) {
   int left = asked_ == 0 ? settings_.rehearsals : rehearsed_again * wanted;
   const auto spread = [&] {
@@ -300,8 +301,8 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
   }
 }
 
-/// The looks with one objective made of two: the larger of both, each weighted and as a share of its range among the
-/// best, and a small part of their sum (J. Knowles, ParEGO, IEEE Trans. Evolutionary Computation 10 (2006) 50).
+/// Returns the results with one objective made of two: the larger of both, each weighted and as a share of its range among the
+/// best, plus a small part of their sum (J. Knowles, ParEGO, IEEE Trans. Evolutionary Computation 10 (2006) 50).
 std::vector<Candidate> SurrogateSearch::by_weight(double weight) const {
   std::vector<Candidate> looks = looks_;
   if (settings_.aims == 1) return looks;
@@ -325,8 +326,8 @@ std::vector<Candidate> SurrogateSearch::by_weight(double weight) const {
   return looks;
 }
 
-/// Models of the looks, and of the rehearsals from `first` on near the best known place. Shapes are fitted again when
-/// there is much more data.
+/// Returns models of the results, and of the rehearsals from `first` on near the best known place. The shapes are fitted again
+/// after the number of data has grown by the factor much_more.
 CandidateModels SurrogateSearch::models_of(const std::vector<Candidate>& looks, std::size_t first) {
   const bool by_looks = !any_ran(rehearsals_) || (!looks.empty() && best_of(looks).feasible());
   const std::vector<Candidate> those = by_looks ? looks : rehearsals_from(first);
@@ -341,7 +342,7 @@ CandidateModels SurrogateSearch::models_of(const std::vector<Candidate>& looks, 
   return models;
 }
 
-/// A promising place, farthest from all candidates: the first few looks of a search with rehearsals.
+/// Returns a promising place that is farthest from all candidates, for the first few evaluations of a search with rehearsals.
 std::optional<VectorXd> SurrogateSearch::spread_look(const CandidateModels& models) const {
   std::optional<VectorXd> farthest;
   double most = -1;

@@ -14,33 +14,33 @@ namespace dresslife::pipeline {
 
 struct SurrogateSettings {
   std::uint64_t seed = 1;
-  int first_looks = 0;   ///< candidates spread over the box before the first model; 0: 2 variables + 2
+  int first_looks = 0;   ///< number of candidates spread over the box before the first model; 0: 2 variables + 2
   std::size_t aims = 1;  ///< number of objectives; 2: candidates along the Pareto front
-  int rehearsals = 0;    ///< most rehearsals before the first candidate; 0: 40 times the variables
+  int rehearsals = 0;    ///< largest number of rehearsals before the first candidate; 0: 40 times the number of variables
 };
 
 class SurrogateSearch : public Search {
  public:
-  /// rehearse: low-fidelity evaluation, or empty. The screen ignores the constraints that it computes.
+  /// rehearse: low-fidelity evaluation, or empty. The screen ignores the constraints that this evaluation computes.
   SurrogateSearch(Eigen::Index variables, const SurrogateSettings& settings, Screen screen,
                   Rehearse rehearse = {});
   std::vector<Eigen::VectorXd> ask(int count) override;
   void tell(const std::vector<Candidate>& looks) override;
 
-  /// In their order, without objectives.
+  /// Returns the rehearsals in their order, without objectives.
   const std::vector<Candidate>& rehearsals() const { return rehearsals_; }
 
  private:
-  /// A trust region (Q2) about the best candidate for one weight of two objectives. One objective: one region.
+  /// A trust region (Q2) around the best candidate for one weight of two objectives. One objective has one region.
   struct Region {
-    double weight = 1;  ///< of the first objective
-    double width = 0;   ///< half of each side
+    double weight = 1;  ///< weight of the first objective
+    double width = 0;   ///< half of the length of each side
     int hits = 0, misses = 0;
   };
-  /// Deviations of objective and constraints for a candidate (Q1).
+  /// Numbers of deviations for objective and constraints in the choice of a candidate (Q1).
   struct Trust {
     double of_aim, of_limits;  ///< b, c
-    bool anywhere;             ///< else in the trust region
+    bool anywhere;             ///< false: only in the trust region
   };
 
   Eigen::VectorXd first_look();
@@ -75,13 +75,13 @@ class SurrogateSearch : public Search {
   std::vector<Candidate> looks_;  // results received
   std::vector<Candidate> rehearsals_;
   std::vector<Eigen::VectorXd> pending_;        // candidates without results
-  std::vector<GaussianProcess::Shape> shapes_;  // of the models, the last found
-  std::size_t shapes_of_looks_ = 0;             // number of looks that the shapes were fitted to
-  double shapes_of_ = 0;                        // the same with rehearsals
+  std::vector<GaussianProcess::Shape> shapes_;  // shapes of the models, from the last fit
+  std::size_t shapes_of_looks_ = 0;             // number of results at the last fit of the shapes
+  double shapes_of_ = 0;                        // number of results and rehearsals at the last fit
   std::vector<Region> regions_;
-  std::size_t region_ = 0;      // of the last candidates
-  double ahead_width_;          // width of the region about the best rehearsal ...
-  std::size_t ahead_from_ = 0;  // ... of those from here on
+  std::size_t region_ = 0;      // region of the last candidates
+  double ahead_width_;          // width of the region around the best rehearsal
+  std::size_t ahead_from_ = 0;  // index of the first rehearsal of this region
   int asked_ = 0, picks_ = 0;
 };
 

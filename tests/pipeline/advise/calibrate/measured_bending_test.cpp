@@ -112,7 +112,7 @@ TEST_CASE("bending: a decrement by slip is what a swing of sliders loses, steppe
     }
     const double stepped = std::log(largest / q);
     INFO(largest << ": " << stepped);
-    // (P5) is the first order in what a swing loses: off by about as much again.
+    // (P7) is of first order in the energy that a swing loses, so its relative error is about the relative loss.
     CHECK(std::exp(log_decrement_by_slip(curvatures, moments, largest)) ==
           Approx(stepped).epsilon(stepped + 0.02));
   }
