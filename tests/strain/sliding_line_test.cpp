@@ -1,5 +1,4 @@
-// A part that slides along its path with friction and grips, against the conditions that hold at its
-// solution, closed forms, and energy.
+// A part that slides along its path with friction and grips, against the conditions of its solution, closed forms and energy.
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -13,7 +12,7 @@ using namespace dresslife::strain;
 namespace {
 
 constexpr double stiffness = 1e6;  // E A of a signal cable [N]
-// Forces are sums and differences of some 1e4 N over a hundred elements in double precision.
+// Rounding of forces: sums and differences of about 1e4 N over a hundred elements in double precision.
 constexpr double rounding = 1e-8;  // [N]
 
 std::vector<double> random_numbers(std::mt19937& random, std::size_t count, double low, double high) {
