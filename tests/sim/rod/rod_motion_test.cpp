@@ -167,8 +167,8 @@ TEST_CASE("an undamped whip does not gain energy in 60 s") {
       REQUIRE(advance_rod(rod, solver, state, state.clamps, h));
       most = std::max(most, rod.energy(state).total());
     }
-    // Velocities are half a step behind positions, so the sum oscillates by h/2 times the power of the forces: the 5 kg fall at up
-    // to 6 m/s, 300 W. A smaller increase is not a gain of energy.
+    // Velocities are half a step behind positions, so the sum oscillates by h/2 times the power of the forces: the 5 kg fall at
+    // up to 6 m/s, 300 W. A smaller increase is not a gain of energy.
     const double half_step = 0.5 * h * 300;
     CHECK(most < start + half_step);
     CHECK(rod.energy(state).total() < start);

@@ -113,7 +113,7 @@ TEST_CASE("simulate: the weight hangs on the two clamps") {
   job.dresspacks[0].routing.free_length = 2;
   const Row last = run(Simulation(job)).back();
   const double weight = 2 * 1.5 * 9.81;
-  // At the centre of an end segment half of this segment's weight is already carried by the clamp.
+  // At the centre of an end segment the tension is smaller than at the clamp by half of a segment's weight.
   CHECK(last.tension.front() == Approx(weight / 2 * 0.95).epsilon(0.01));
   CHECK(last.tension.back() == Approx(last.tension.front()).epsilon(1e-4));
 }
