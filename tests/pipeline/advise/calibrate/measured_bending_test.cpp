@@ -97,8 +97,8 @@ TEST_CASE("bending: a decrement by slip is what a swing of sliders loses, steppe
       for (int i = 0; i < places; ++i) sum += form[i] * bar[i].move(form[i] * q) / places;
       return sum;
     };
-    // The bar is bent once to and fro by hand, so that every slider is on its closed loop, and then released, until the second next
-    // turning point.
+    // The bar is bent once to and fro by hand, so that every slider is on its closed loop. Then it is released until the
+    // second next turning point.
     force(-largest);
     double q = largest, speed = 0, pull = force(q), before = q;
     for (int turns = 0; turns < 2;) {
