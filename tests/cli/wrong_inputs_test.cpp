@@ -223,7 +223,7 @@ const Wrong wrong[] = {
     {"nod.src", "LIN_REL {Z -120} C_DIS", "CIRC {X 900,Y -350,Z 550,A 0,B 180,C 0}, {X 900,Y -350,Z 500,A 0,B 180,C 0}", "nod.src:10:1: error: ", "lie on a line", "correct the point on the way", "dresslife check krl.yaml"},
     {"nod.src", "PTP {X 900,Y -350,Z 600,A 0,B 180,C 0,S 2,T 2}\n", "", "nod.src:9:9: error: ", "gives some coordinates only", "name the program in a job, whose robot of six axes gives them", "dresslife-import nod.src -o out.h5"},
     {"hose.yaml", "inner_diameter_mm: 42", "hose_corrugation: {pitch_mm: 4.5, height_mm: 4, wall_mm: 7}", "hose.yaml:4:19: error: ", "wall_mm of hose_corrugation is 7 (must be at most 1.125 mm", "measure the profile", draw},
-    // What a search may change
+    // Keys that a search may change
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.lenght=2.05: error: unknown key 'routing.lenght'", "correct `free`, or --free", free_as("routing.lenght=2 .. 2.1")},
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.free_length_m=2050: error: ", "correct `free`, or --free", free_as("routing.free_length_m=2000 .. 2100")},
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: ", "items count from 1 to 1", free_as("dresspack.components.9.slack_percent=0.1 .. 2")},

@@ -338,7 +338,7 @@ TEST_CASE("sites and probes agree where friction holds some of the strain") {
     CHECK(difference(results, free) > 0.02);
     std::vector<std::size_t> begin(1, 0);
     for (const std::uint64_t count : results.turning) begin.push_back(begin.back() + count);
-    // what the waves leave out (W13), and of it what a slider at its cap turns into slip
+    // The error of the waves (W13), and the effect of this error on the slip of a slider at its cap.
     constexpr double wave_tolerance = 1e-3;
     for (const Probe& probe : results.probes) {
       const auto [low, high] = std::minmax_element(probe.strain.begin(), probe.strain.end());
