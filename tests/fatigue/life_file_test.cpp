@@ -63,7 +63,7 @@ struct StrainFile {
     std::uint32_t site;
     std::vector<float> strain, shear;  // (sample)
   };
-  std::vector<Fibre> fibres;  // fibres with critical planes
+  std::vector<Fibre> fibres;  // fibres that are evaluated on planes
   struct Rubbed {
     double position, work, time;  // [m], [J], [s]
   };
